@@ -1,0 +1,87 @@
+"""Patterns, parts and scans as smooth, watertight, printable meshes.
+
+Names are loaded when they are first asked for, so that a command does not pay for what it does not use.
+
+>>> from infill import make
+>>> make("honeycomb", size=(20, 20), height=3).mesh.is_volume
+True
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING
+
+__version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from infill.allen_cahn import Smoothing, rescale
+    from infill.errors import (
+        FormatError,
+        GeometryError,
+        InfillError,
+        MemoryLimitError,
+        OutputError,
+        ParameterError,
+    )
+    from infill.export import save
+    from infill.grid import Grid
+    from infill.inspection import check
+    from infill.pipeline import Result, make
+    from infill.reading import read_mesh
+    from infill.smoothing import smooth
+    from infill.stacking import extrude, stack
+    from infill.stamping import stamp, stamp_lines
+    from infill.surface import Surface, isosurface
+    from infill.width import wall_width
+
+_HOMES = {
+    "allen_cahn": ("Smoothing", "rescale"),
+    "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
+    "export": ("save",),
+    "grid": ("Grid",),
+    "inspection": ("check",),
+    "pipeline": ("Result", "make"),
+    "reading": ("read_mesh",),
+    "smoothing": ("smooth",),
+    "stacking": ("extrude", "stack"),
+    "stamping": ("stamp", "stamp_lines"),
+    "surface": ("Surface", "isosurface"),
+    "width": ("wall_width",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "FormatError",
+    "GeometryError",
+    "Grid",
+    "InfillError",
+    "MemoryLimitError",
+    "OutputError",
+    "ParameterError",
+    "Result",
+    "Smoothing",
+    "Surface",
+    "check",
+    "extrude",
+    "isosurface",
+    "make",
+    "read_mesh",
+    "rescale",
+    "save",
+    "smooth",
+    "stack",
+    "stamp",
+    "stamp_lines",
+    "wall_width",
+]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'infill' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"infill.{_HOME_OF[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -1,0 +1,36 @@
+"""The errors of this package, one leaf per condition.
+
+InfillError
+├── ParameterError(ValueError)      a number out of its range
+├── FormatError(ValueError)         a file suffix or a file content we cannot use
+├── GeometryError(ValueError)       the mesh would come out wrong: open, broken, a feature lost
+├── MemoryLimitError(ValueError)    a grid over the memory at hand
+└── OutputError(OSError)            a file that exists, or cannot be written
+
+A message is one line: what was given, what the limit is, what to do. `patterns` has its own leaf,
+`patterns.PatternError`, since it may not import this package.
+"""
+
+
+class InfillError(Exception):
+    """Whatever this package raises on purpose."""
+
+
+class ParameterError(InfillError, ValueError):
+    """A parameter is out of its range."""
+
+
+class FormatError(InfillError, ValueError):
+    """A file suffix is unknown, or a file holds something else than it should."""
+
+
+class GeometryError(InfillError, ValueError):
+    """The result would not be the part that was asked for."""
+
+
+class MemoryLimitError(InfillError, ValueError):
+    """The work needs more memory than there is."""
+
+
+class OutputError(InfillError, OSError):
+    """A file cannot be written, or may not be overwritten."""

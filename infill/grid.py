@@ -1,0 +1,91 @@
+"""The grid: cells of one size on a box."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.checks import positive, whole
+from infill.errors import ParameterError
+
+SOLID = 1.0
+VOID = -1.0
+
+
+def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[float, ...]:
+    """Return the cell size of each axis, or raise ParameterError.
+
+    >>> spacing_of(0.5, 2)
+    (0.5, 0.5)
+    """
+    sizes = (spacing,) * dimensions if np.isscalar(spacing) else tuple(spacing)  # type: ignore[arg-type]
+    if len(sizes) != dimensions:
+        raise ParameterError(f"spacing has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis")
+    return tuple(positive("spacing", size) for size in sizes)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """Cells on a box, in two or three dimensions (any number works).
+
+    Parameters
+    ----------
+    shape : (nx, ny[, nz])
+        Number of cells.
+    spacing : float or (hx, hy[, hz])
+        Cell size, mm.
+    origin : (x, y[, z])
+        Lower corner of the box, mm; zeros if left out.
+
+    Raises
+    ------
+    ParameterError
+        For sizes that are not finite and above 0.
+
+    Notes
+    -----
+    Cell i of an axis spans origin + i h to origin + (i + 1) h; its centre is at half.
+
+    >>> Grid(shape=(4, 2), spacing=0.5).extents
+    (2.0, 1.0)
+    """
+
+    shape: tuple[int, ...]
+    spacing: float | tuple[float, ...]
+    origin: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Check all sizes and turn scalars into one number per axis."""
+        shape = tuple(whole("a number of cells", count, 1) for count in self.shape)
+        if not shape:
+            raise ParameterError("shape is empty; give one number of cells per axis")
+        origin = tuple(float(x) for x in self.origin) or (0.0,) * len(shape)
+        if len(origin) != len(shape) or not all(math.isfinite(x) for x in origin):
+            raise ParameterError(f"origin is {origin}; it must hold {len(shape)} finite numbers, one per axis")
+        object.__setattr__(self, "shape", shape)
+        object.__setattr__(self, "spacing", spacing_of(self.spacing, len(shape)))
+        object.__setattr__(self, "origin", origin)
+
+    @property
+    def cell_size(self) -> NDArray[np.float64]:
+        """Cell size of each axis, mm."""
+        return np.array(self.spacing)
+
+    @property
+    def extents(self) -> tuple[float, ...]:
+        """Size of the box, mm."""
+        return tuple(float(x) for x in self.cell_size * self.shape)
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return math.prod(self.shape)
+
+    def centres(self, axis: int) -> NDArray[np.float64]:
+        """Return the cell centres along one axis, (n,), mm."""
+        count, size, lower = self.shape[axis], self.cell_size[axis], self.origin[axis]
+        centres: NDArray[np.float64] = lower + size * (np.arange(count) + 0.5)
+        return centres

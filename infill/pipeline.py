@@ -1,0 +1,274 @@
+"""`make`: the paper's four steps, from a pattern to a mesh.
+
+    points  ->  stamps on a grid  ->  smoothing  ->  layers, caps, isosurface
+
+and a report of what came out.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from infill import __version__
+from infill.allen_cahn import Smoothing
+from infill.errors import GeometryError
+from infill.export import save
+from infill.plan import Block, StampMethod, plan
+from infill.smoothing import smooth
+from infill.stacking import extruded
+from infill.stamping import stamp as stamp_points
+from infill.stamping import stamp_lines
+from infill.surface import Surface
+from infill.topology import Changes, Regions, changes, regions
+from infill.width import WallWidth, wall_width
+from patterns import Pattern
+from patterns.linework import bodies
+
+if TYPE_CHECKING:
+    import trimesh
+    from shapely import MultiLineString
+
+Progress = Callable[[str, float], None]
+
+THINNEST = 0.6  # of the requested width, at the 5th percentile: below, a wall counts as lost
+POINTS_PER_CELL = 2  # neighbouring stamps overlap
+ADVICE = "use more cells per line, fewer steps, more fidelity or the exact stamp (or --allow-broken, to have it anyway)"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Result:
+    """A mesh, the fields it came from, and a report.
+
+    Parameters
+    ----------
+    surface : Surface
+        The mesh as plain arrays, mm.
+    report : dict
+        Plain numbers and strings: what ``--json`` prints.
+    fields : dict
+        By stage: "points" (N, 2) and "lines" in mm, "stamp" and "smoothed" (nx, ny), "grid".
+    """
+
+    surface: Surface
+    report: dict[str, Any]
+    fields: dict[str, Any] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def mesh(self) -> trimesh.Trimesh:
+        """The mesh as a trimesh.Trimesh, mm."""
+        return self.surface.to_trimesh()
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the mesh, the format by suffix, and return the path."""
+        return save(self.surface, path)
+
+
+class Clock:
+    """Seconds per stage."""
+
+    def __init__(self, progress: Progress | None) -> None:
+        self.seconds: dict[str, float] = {}
+        self._progress = progress
+
+    @contextmanager
+    def stage(self, name: str, share: float) -> Iterator[None]:
+        """Time what is done inside; `share` is how much of the whole is done when it begins."""
+        if self._progress is not None:
+            self._progress(name, share)
+        begin = time.perf_counter()
+        yield
+        self.seconds[name] = time.perf_counter() - begin
+
+
+def make(
+    pattern: Pattern | str,
+    *,
+    size: float | tuple[float, float] = (60.0, 60.0),
+    height: float = 6.0,
+    line_width: float = 0.45,
+    stamp: StampMethod = "block",
+    cells: int | None = None,
+    smoothing: Smoothing = Smoothing(),  # noqa: B008 - frozen
+    allow_broken: bool = False,
+    max_memory: int | None = None,
+    progress: Progress | None = None,
+    **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
+) -> Result:
+    """Return a block of infill: a closed mesh and a report.
+
+    Parameters
+    ----------
+    pattern : Pattern or str
+        A pattern, or the name of a registered one.
+    size : float or (x, y)
+        Size of the block, mm, rounded to whole cells.
+    height : float
+        Height of the block, mm. It costs nothing.
+    line_width : float
+        Width of the walls, mm.
+    stamp : {"block", "exact"}
+        "block" is the paper's: `cells` x `cells` around every point, up to 41 % wide on diagonals.
+        "exact" keeps the width in every direction.
+    cells : int, optional
+        Grid cells across a line: 3 for "block" (odd), 5 for "exact".
+    smoothing : Smoothing
+        The paper takes 10 steps for patterns.
+    allow_broken : bool
+        Return a result in which walls broke or vanished, and say so in the report, instead of raising.
+    max_memory : int, optional
+        Bytes; what the machine has free if left out.
+    progress : callable, optional
+        Called with the name of a stage and the share of work done, 0 to 1, when the stage begins.
+    **parameters
+        Of the pattern, if it is given by name: cell=8, angle=math.radians(30) …
+
+    Returns
+    -------
+    Result
+        The block is centred on x = y = 0 and stands on z = 0.
+
+    Raises
+    ------
+    ParameterError, patterns.PatternError
+        For a number out of its range.
+    MemoryLimitError
+        Before anything is computed.
+    GeometryError
+        If a wall broke, ran into another, vanished, or is thinner than 60 % of the request at the 5th
+        percentile.
+
+    Notes
+    -----
+    Source: Wang et al. 2020, section 3.4.
+
+    >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
+    1
+    """
+    clock = Clock(progress)
+    with clock.stage("points", 0.0):
+        block = plan(
+            pattern, size=size, height=height, line_width=line_width, stamp=stamp, cells=cells, smoothing=smoothing,
+            parameters=parameters,
+        )  # fmt: skip
+        block.require_memory(max_memory)
+        points = block.pattern.points(block.region, min(block.grid.cell_size) / POINTS_PER_CELL)
+    with clock.stage("stamp", 0.1):
+        if block.stamp == "exact":
+            data = stamp_lines(block.lines, block.grid, width=block.line_width)
+        else:
+            data = stamp_points(points, block.grid, block=block.cells)
+    with clock.stage("smooth", 0.2):
+        smoothed = smooth(data, block.smoothing, spacing=block.grid.spacing)
+    with clock.stage("check", 0.3):
+        before, after = regions(data), regions(smoothed)
+        found = changes(before, after)
+        width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
+        problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
+        if problems and not allow_broken:
+            raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
+    with clock.stage("surface", 0.5):
+        origin = (*block.grid.origin, 0.0)
+        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=origin)
+        if not surface.closed or surface.volume <= 0:
+            raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
+    report = _report(block, surface, data, before, after, found, width, problems)
+    report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
+    fields = {"points": points, "lines": block.lines, "stamp": data, "smoothed": smoothed, "grid": block.grid}
+    return Result(surface=surface, report=report, fields=fields)
+
+
+def _fused_lines(lines: MultiLineString, before: Regions, line_width: float) -> int:
+    """Return how many bodies of lines the stamp ran together; scraps of three widths or less do not count."""
+    number = bodies(lines)
+    length = np.bincount(number, weights=shapely.length(np.array(lines.geoms, dtype=object)))
+    return max(0, int((length > 3 * line_width).sum()) - before.topology.components)
+
+
+def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[str]:
+    """Say, one phrase each, what is wrong with the walls."""
+    if fused_lines:
+        yield f"{fused_lines} separate line(s) of the pattern run together at this line width: use larger cells"
+    for count, what in (
+        (found.broken, "wall(s) broke"),
+        (found.vanished, "part(s) vanished"),
+        (found.fused, "gap(s) between walls closed up"),
+        (found.closed, "hole(s) closed"),
+    ):
+        if count:
+            yield f"{count} {what} in smoothing"
+    if width.p5 < THINNEST * width.requested:
+        yield (
+            f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {THINNEST:.0%} of the "
+            f"{width.requested:g} mm asked for"
+        )
+
+
+def _report(
+    block: Block,
+    surface: Surface,
+    data: NDArray[np.floating],
+    before: Regions,
+    after: Regions,
+    found: Changes,
+    width: WallWidth,
+    problems: list[str],
+) -> dict[str, Any]:
+    """Return the report as plain numbers: lengths in mm, areas in mm², volumes in mm³."""
+    cell_volume = float(block.grid.cell_size.prod()) * block.height
+    data_volume = float((data.astype(np.float64) + 1).sum()) / 2 * cell_volume
+    bounds = surface.bounds
+    smoothing = block.smoothing
+    return {
+        "version": __version__,
+        "pattern": block.pattern.name,
+        "parameters": block.parameters,
+        "size": list(block.grid.extents),
+        "height": block.height,
+        "line_width": block.line_width,
+        "stamp_method": block.stamp,
+        "triangles": len(surface.faces),
+        "closed": surface.closed,
+        "volume": surface.volume,
+        "area": surface.area,
+        "density": surface.volume / (math.prod(block.grid.extents) * block.height),
+        "extents": (bounds[1] - bounds[0]).tolist(),
+        "bounds": bounds.tolist(),
+        "components": after.topology.components,
+        "euler_number": surface.euler_number,
+        "grid": list(block.grid.shape),
+        "spacing": float(block.grid.cell_size.min()),
+        "cells_per_line": block.cells,
+        "layers": block.layers,
+        "steps": smoothing.steps,
+        "fidelity": smoothing.fidelity,
+        "interface": smoothing.interface,
+        "alpha": smoothing.alpha,
+        "stamp": _counts(before),
+        "result": _counts(after),
+        "changes": asdict(found),
+        "wall_width": {name: _finite(value) for name, value in asdict(width).items()},
+        "volume_change": surface.volume / data_volume - 1,
+        "problems": problems,
+    }
+
+
+def _counts(state: Regions) -> dict[str, int]:
+    counts = state.topology
+    return {"components": counts.components, "holes": counts.holes, "euler_number": counts.euler_number}
+
+
+def _finite(value: float) -> float | None:
+    """Return None for NaN, which JSON does not have."""
+    return None if math.isnan(value) else value

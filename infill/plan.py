@@ -1,0 +1,171 @@
+"""What `make` is about to do: the checked request, its grid, and what it will cost."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, is_dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+import shapely
+
+from infill.allen_cahn import Smoothing
+from infill.checks import positive, whole
+from infill.errors import ParameterError
+from infill.grid import Grid
+from infill.machine import require_memory
+from infill.stacking import layer_count
+from patterns import PATTERNS, Pattern, PatternError
+
+if TYPE_CHECKING:
+    from shapely import MultiLineString, Polygon
+
+StampMethod = Literal["block", "exact"]
+DEFAULT_CELLS = {"block": 3, "exact": 5}
+LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls and a gap as wide as two
+
+# Measured on the three designs, on blocks from 60 x 60 mm to a whole bed.
+BYTES_BEFORE = 130e6
+BYTES_PER_CELL = 100
+BYTES_PER_TRIANGLE = 70
+CAP_TRIANGLES_PER_CELL = 4  # two on each of the two faces
+SIDE_TRIANGLES_PER_CELL = 4.5  # of the length of the outline
+STL_BYTES_PER_TRIANGLE = 50
+
+
+@dataclass(frozen=True, kw_only=True)
+class Block:
+    """A checked request for a block of infill.
+
+    Parameters
+    ----------
+    pattern : Pattern
+    grid : Grid
+        Two axes, centred on (0, 0), mm.
+    height, line_width : float
+        mm.
+    stamp : {"block", "exact"}
+    cells : int
+        Grid cells across a line.
+    smoothing : Smoothing
+    """
+
+    pattern: Pattern
+    grid: Grid
+    height: float
+    line_width: float
+    stamp: StampMethod
+    cells: int
+    smoothing: Smoothing
+
+    @cached_property
+    def region(self) -> Polygon:
+        """Where the centre lines may lie: the block less half a line width, mm."""
+        half = self.line_width / 2
+        (x, y), (width, depth) = self.grid.origin, self.grid.extents
+        return shapely.box(x + half, y + half, x + width - half, y + depth - half)
+
+    @cached_property
+    def lines(self) -> MultiLineString:
+        """The centre lines of the walls, mm."""
+        return self.pattern.lines(self.region)
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The pattern's own parameters by name; angles in radians."""
+        return {f.name: getattr(self.pattern, f.name) for f in fields(self.pattern)} if is_dataclass(self.pattern) else {}
+
+    @property
+    def layers(self) -> int:
+        """Layers of one cell that the stack stands for."""
+        return layer_count(self.height, float(self.grid.cell_size.min()))
+
+    @property
+    def triangles(self) -> int:
+        """Expected number of triangles, right to about a quarter."""
+        length, cell = shapely.length(self.lines), float(self.grid.cell_size.min())
+        caps = CAP_TRIANGLES_PER_CELL * length * self.line_width / cell**2
+        return round(caps + SIDE_TRIANGLES_PER_CELL * 2 * length / cell)
+
+    @property
+    def stl_bytes(self) -> int:
+        """Expected size of a binary STL file."""
+        return self.triangles * STL_BYTES_PER_TRIANGLE
+
+    @property
+    def memory(self) -> int:
+        """Bytes of memory the work will need, the program itself included."""
+        return round(BYTES_BEFORE + BYTES_PER_CELL * self.grid.cells + BYTES_PER_TRIANGLE * self.triangles)
+
+    def require_memory(self, limit: int | None) -> None:
+        """Raise MemoryLimitError if the work needs more than `limit` bytes, or than the machine has free."""
+        cells = " × ".join(str(count) for count in self.grid.shape)
+        advice = f"the grid has {cells} cells: take fewer cells per line, wider lines or a smaller block"
+        # The grid alone first: the number of triangles is known from the lines, which may be many as well.
+        require_memory(round(BYTES_BEFORE + BYTES_PER_CELL * self.grid.cells), limit, advice)
+        require_memory(self.memory, limit, advice)
+
+
+def plan(
+    pattern: Pattern | str,
+    *,
+    size: float | tuple[float, float],
+    height: float,
+    line_width: float,
+    stamp: StampMethod,
+    cells: int | None,
+    smoothing: Smoothing,
+    parameters: dict[str, Any],
+) -> Block:
+    """Check a request and return it with its grid; the parameters are those of `infill.make`."""
+    made = pattern_of(pattern, parameters)
+    width, depth = (size, size) if isinstance(size, (int, float)) else size
+    width, depth, height = positive("size x", width), positive("size y", depth), positive("height", height)
+    line_width = positive("line width", line_width)
+    if stamp not in get_args(StampMethod):
+        raise ParameterError(f"there is no stamp {stamp!r}; choose block or exact")
+    across = whole("the number of cells per line", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
+    if stamp == "block" and across % 2 == 0:
+        raise ParameterError(
+            f"a block of {across} × {across} cells has no middle cell; use an odd number of cells, or the exact stamp"
+        )
+    cell = line_width / across
+    counts = tuple(max(1, round(length / cell)) for length in (width, depth))
+    if min(counts) < (1 + LINES_PER_CELL) * across:
+        raise ParameterError(
+            f"a block of {width:g} × {depth:g} mm has no room for walls of {line_width:g} mm; "
+            f"make it at least {(1 + LINES_PER_CELL) * line_width:g} mm in x and y"
+        )
+    smoothing.weights((1.0, 1.0))  # raises over the stability limit
+    block = Block(
+        pattern=made,
+        grid=Grid(shape=counts, spacing=cell, origin=tuple(-count * cell / 2 for count in counts)),
+        height=height,
+        line_width=line_width,
+        stamp=stamp,
+        cells=across,
+        smoothing=smoothing,
+    )
+    spacing = made.line_spacing(block.region)
+    if not math.isfinite(spacing) or spacing < LINES_PER_CELL * line_width * (1 - 1e-9):
+        raise ParameterError(
+            f"the lines of {made.name} lie {spacing:.4g} mm apart, under {LINES_PER_CELL} line widths "
+            f"({LINES_PER_CELL * line_width:g} mm); use larger cells or a thinner line"
+        )
+    return block
+
+
+def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
+    """Return the pattern that a name and its parameters stand for, or the pattern itself."""
+    if not isinstance(pattern, str):
+        if parameters:
+            raise ParameterError(
+                f"{', '.join(parameters)} given beside a ready-made pattern; set parameters where the pattern is made"
+            )
+        return pattern
+    kind = PATTERNS.find(pattern)
+    known = [f.name for f in fields(kind) if f.init] if is_dataclass(kind) else list(parameters)
+    for name in parameters:
+        if name not in known:
+            raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(known)}")
+    return kind(**parameters)

@@ -1,0 +1,186 @@
+"""What a layer hangs together like: components, holes, Euler number, and what smoothing did to them.
+
+Everything is decided as marching cubes decides it: the field is bilinear between cell centres, and
+two solid cells that touch at a corner are joined if the saddle between them is solid. So the Euler
+number of an extruded layer is twice the one found here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.grid import VOID
+from infill.stamping import widened
+from infill.surface import TIE
+
+
+@dataclass(frozen=True, kw_only=True)
+class Topology:
+    """Counts of one layer.
+
+    Parameters
+    ----------
+    components : int
+        Bodies of solid.
+    holes : int
+        Bodies of void that solid encloses.
+    """
+
+    components: int
+    holes: int
+
+    @property
+    def euler_number(self) -> int:
+        """Components minus holes; the surface of the extruded layer has twice that."""
+        return self.components - self.holes
+
+
+@dataclass(frozen=True, kw_only=True)
+class Regions:
+    """Every cell of a layer in a shell of void, numbered by the body it belongs to.
+
+    Parameters
+    ----------
+    solid : (nx + 2, ny + 2) int
+        1, 2 … in the bodies of solid, 0 in the void.
+    void : (nx + 2, ny + 2) int
+        The same for the void; the outside is one of its bodies.
+    """
+
+    solid: NDArray[np.integer]
+    void: NDArray[np.integer]
+
+    @property
+    def topology(self) -> Topology:
+        """Count the bodies."""
+        return Topology(components=int(self.solid.max()), holes=int(self.void.max()) - 1)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Changes:
+    """What smoothing did to the bodies of a layer.
+
+    Parameters
+    ----------
+    broken : int
+        Walls that let two voids run together, or fell apart.
+    vanished : int
+        Bodies of solid that are gone.
+    fused : int
+        Bodies of solid that ran together, or walls that met across a void and cut it in two.
+    closed : int
+        Holes that are gone.
+    pinholes : int
+        The same for holes, and for necks of voids, of which every cell touches a wall: no 3x3 cells
+        fit in. They are left over where lines meet at an acute angle, and are no fault.
+    """
+
+    broken: int
+    vanished: int
+    fused: int
+    closed: int
+    pinholes: int
+
+    @property
+    def harmless(self) -> bool:
+        """True if nothing changed but pinholes."""
+        return not (self.broken or self.vanished or self.fused or self.closed)
+
+
+def regions(layer: NDArray[np.floating]) -> Regions:
+    """Number the bodies of solid and of void of a layer (nx, ny)."""
+    field = np.pad(layer, 1, constant_values=VOID)
+    solid = field > 0
+    joined, parted = _saddles(field, solid)
+    return Regions(solid=_bodies(solid, joined), void=_bodies(~solid, parted))
+
+
+def topology(layer: NDArray[np.floating]) -> Topology:
+    """Count components and holes of a layer (nx, ny).
+
+    >>> topology(np.pad(-np.ones((2, 2)), 2, constant_values=1.0))
+    Topology(components=1, holes=1)
+    """
+    return regions(layer).topology
+
+
+def changes(before: Regions, after: Regions) -> Changes:
+    """Compare two states of the same layer, body by body."""
+    held, voids = _overlaps(before.solid, after.solid), _overlaps(before.void, after.void)
+    cores = _bodies(_opened(before.void > 0), np.empty((0, 2), dtype=np.intp))
+    kept = _overlaps(cores, after.void)
+    wide = np.zeros(voids.shape[0], dtype=bool)
+    wide[np.unique(before.void[cores > 0]) - 1] = True
+    gone = voids.sum(axis=1) == 0
+    cut = _extra(kept, axis=1)
+    return Changes(
+        broken=_extra(held, axis=1) + _extra(voids[wide], axis=0) + int((voids.sum(axis=0) == 0).sum()),
+        vanished=int((held.sum(axis=1) == 0).sum()),
+        fused=_extra(held, axis=0) + cut,
+        closed=int((gone & wide).sum()),
+        pinholes=int((gone & ~wide).sum()) + max(0, _extra(voids, axis=1) - cut),
+    )
+
+
+def _saddles(
+    field: NDArray[np.floating], solid: NDArray[np.bool_]
+) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the diagonal pairs of cells that a saddle joins, of solid and of void: (N, 2) flat indices each."""
+    a, b, c, d = (solid[i : i - 1 or None, j : j - 1 or None] for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    i, j = np.nonzero((a == c) & (b == d) & (a != b))
+    values = np.stack([field[i, j], field[i + 1, j], field[i + 1, j + 1], field[i, j + 1]]).astype(np.float64)
+    flat = np.stack([part * field.shape[1] + other for part, other in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))])
+    falling = solid[i, j]  # the solid pair is (i, j) and (i + 1, j + 1)
+    one, other = flat[[0, 2]].T, flat[[1, 3]].T
+    solid_pair = np.where(falling[:, None], one, other)
+    void_pair = np.where(falling[:, None], other, one)
+    product, cross = values[0] * values[2], values[1] * values[3]
+    joins = np.where(falling, product * TIE**2 > cross, cross * TIE**2 > product)
+    return solid_pair[joins], void_pair[~joins]
+
+
+def _bodies(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
+    """Number the bodies of cells that touch at a side, or at a corner given in `pairs`."""
+    from scipy import ndimage
+
+    numbers, count = ndimage.label(inside)
+    if len(pairs) == 0:
+        return numbers
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    ends = numbers.ravel()[pairs]
+    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count + 1, count + 1))
+    _, merged = connected_components(graph, directed=False)
+    # Number 0, the cells outside, is in no pair: it stays alone, and the others are counted from 1.
+    _, renumbered = np.unique(merged[1:], return_inverse=True)
+    return np.concatenate([[0], renumbered + 1])[numbers]
+
+
+def _overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Return the table [body before, body after] of which share a cell; row and column 0 are left out."""
+    rows, columns = int(before.max()) + 1, int(after.max()) + 1
+    table = np.zeros((rows, columns), dtype=bool)
+    table.ravel()[before.astype(np.intp) * columns + after] = True
+    return table[1:, 1:]
+
+
+def _extra(table: NDArray[np.bool_], axis: int) -> int:
+    """Return how many partners there are beyond the first of each row (axis 1) or column (axis 0)."""
+    return int((table.sum(axis=axis) - 1).clip(0).sum())
+
+
+def _opened(inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the cells that lie in some 3x3 cells, all inside."""
+    fits = inside
+    for axis in range(2):
+        along = np.moveaxis(fits, axis, 0)
+        run = np.zeros_like(along)
+        run[1:-1] = along[2:] & along[1:-1] & along[:-2]
+        fits = np.moveaxis(run, 0, axis)
+    for axis in range(2):
+        fits = widened(fits, axis, 1)
+    return fits

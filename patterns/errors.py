@@ -1,0 +1,8 @@
+"""The one error of this package.
+
+PatternError(ValueError)    a parameter, a region or a name that no pattern can be made of
+"""
+
+
+class PatternError(ValueError):
+    """A pattern cannot be made from what was given; the message says what to change."""

@@ -1,0 +1,62 @@
+"""Honeycomb: a regular hexagon about (0, 0), tessellated."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from patterns.protocol import Pattern, parameter
+
+if TYPE_CHECKING:
+    from shapely import MultiLineString, MultiPolygon, Polygon
+
+
+@dataclass(frozen=True, kw_only=True)
+class Honeycomb(Pattern):
+    """Regular hexagons, each wall shared by two cells, in a frame.
+
+    Two sides of every hexagon are vertical at angle 0. A wall length of 2 / `cell` lies on every
+    square millimetre. Source: Wang et al. 2020, Fig. 17(c).
+
+    >>> from shapely import box
+    >>> len(Honeycomb(cell=6, frame=False).lines(box(-3.1, -3.6, 3.1, 3.6)).geoms)
+    10
+    """
+
+    name: ClassVar[str] = "honeycomb"
+    summary: ClassVar[str] = "stiff in every direction for little material"
+
+    cell: float = parameter(6.0, "distance between opposite walls of a hexagon", low=0.01, high=1000)
+    angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
+    phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)
+    frame: bool = parameter(True, "a wall around the block", unit="")
+
+    def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
+        """Return the walls as segments from node to node, and the frame."""
+        import numpy as np
+        import shapely
+
+        from patterns.linework import clip, framed, turn
+
+        corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
+        low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
+        pitch = np.array([self.cell, self.cell * math.sqrt(3) / 2])
+        first, last = np.floor(low / pitch) - 1, np.ceil(high / pitch) + 1
+        column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
+        centres = np.stack([column + (row % 2) / 2, row], axis=-1).reshape(-1, 1, 1, 2) * pitch
+        half, radius = self.cell / 2, self.cell / math.sqrt(3)
+        right_low, right_high, top, left_high = (
+            (half, -radius / 2),
+            (half, radius / 2),
+            (0.0, radius),
+            (-half, radius / 2),
+        )
+        own = np.array([[right_low, right_high], [right_high, top], [top, left_high]])
+        walls = turn((centres + own).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
+        lines = clip(shapely.linestrings(walls), region)
+        return framed(lines, region) if self.frame else lines
+
+    def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
+        """Return the distance between opposite walls, mm."""
+        return self.cell

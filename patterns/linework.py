@@ -1,0 +1,79 @@
+"""Geometry that patterns share: clip, frame, turn, sample."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import MultiLineString, MultiPolygon, Polygon
+
+from patterns.errors import PatternError
+
+
+def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+    """Return `points` (..., 2) turned by `angle` radians, counter-clockwise, about (0, 0).
+
+    >>> turn(np.array([1.0, 0.0]), math.pi / 2).round(12).tolist()
+    [0.0, 1.0]
+    """
+    cosine, sine = math.cos(angle), math.sin(angle)
+    x, y = points[..., 0], points[..., 1]
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
+    """Return the parts of `lines` inside `region`; touching points are dropped."""
+    shapely.prepare(region)
+    candidates = np.asarray(lines, dtype=object)
+    candidates = candidates[shapely.intersects(candidates, region)]
+    inside = shapely.contains(region, candidates)
+    cut = shapely.get_parts(shapely.intersection(candidates[~inside], region))
+    cut = shapely.get_parts(cut)  # a GeometryCollection nests once
+    kept = np.concatenate([candidates[inside], cut[(shapely.get_type_id(cut) == 1) & (shapely.length(cut) > 0)]])
+    return MultiLineString(list(kept))
+
+
+def framed(lines: MultiLineString, region: Polygon | MultiPolygon) -> MultiLineString:
+    """Return `lines` with the outline of `region` added to them."""
+    return MultiLineString([*lines.geoms, *shapely.get_parts(shapely.boundary(region))])
+
+
+def sample(lines: MultiLineString, spacing: float) -> NDArray[np.float64]:
+    """Return points along `lines`, neighbours at most `spacing` apart: (N, 2) float64, mm.
+
+    >>> sample(MultiLineString([[(0, 0), (1, 0)]]), 0.5)[:, 0].tolist()
+    [0.0, 0.5, 1.0]
+    """
+    if not (math.isfinite(spacing) and spacing > 0):
+        raise PatternError(f"the spacing of points is {spacing:g} mm; it must be a number above 0")
+    coordinates: NDArray[np.float64] = shapely.get_coordinates(shapely.segmentize(lines, spacing))
+    return coordinates
+
+
+def middle(region: Polygon | MultiPolygon) -> NDArray[np.float64]:
+    """Return the centre (x, y) of the bounding box of `region`."""
+    x0, y0, x1, y1 = region.bounds
+    return np.array([(x0 + x1) / 2, (y0 + y1) / 2])
+
+
+def bodies(lines: MultiLineString, *, tolerance: float = 1e-6) -> NDArray[np.intp]:
+    """Return for every line the number, from 0, of the connected body of lines it belongs to.
+
+    >>> bodies(MultiLineString([[(0, 0), (2, 0)], [(1, -1), (1, 1)], [(5, 5), (6, 6)]])).tolist()
+    [0, 0, 1]
+    """
+    parts = np.array(lines.geoms, dtype=object)
+    one, other = shapely.STRtree(parts).query(parts, predicate="dwithin", distance=tolerance)
+    number = np.arange(len(parts))
+    while True:  # each line takes the smallest number it touches, then that line's own
+        least = number.copy()
+        np.minimum.at(least, one, number[other])
+        least = least[least]
+        if np.array_equal(least, number):
+            break
+        number = least
+    unique: NDArray[np.intp] = np.unique(number, return_inverse=True)[1]
+    return unique

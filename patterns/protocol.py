@@ -1,0 +1,145 @@
+"""What a pattern is: lines in a plane at height z, and points along them.
+
+A pattern is a frozen, keyword-only dataclass whose fields are its parameters. Fields made with
+`parameter` become options of the command line, with their range and unit in ``--help``.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, runtime_checkable
+
+from patterns.errors import PatternError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+    from shapely import MultiLineString, MultiPolygon, Polygon
+
+Unit = Literal["mm", "rad", ""]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """Range, unit and meaning of one field of a pattern.
+
+    Attributes
+    ----------
+    help : str
+        One phrase for ``--help``.
+    unit : {"mm", "rad", ""}
+        Lengths are millimetres; angles are radians here and degrees at the command line.
+    low, high : float
+        Both ends belong to the range.
+    """
+
+    help: str
+    unit: Unit = "mm"
+    low: float = -math.inf
+    high: float = math.inf
+
+
+def parameter(
+    default: object,
+    help: str,  # noqa: A002 - the word the command line uses
+    *,
+    unit: Unit = "mm",
+    low: float = -math.inf,
+    high: float = math.inf,
+) -> Any:  # noqa: ANN401 - stands for a field of any type, as dataclasses.field does
+    """Return a dataclass field that carries its `Parameter`."""
+    described = Parameter(help=help, unit=unit, low=low, high=high)
+    return dataclasses.field(default=default, metadata={"parameter": described})
+
+
+def parameters(pattern: type[Pattern] | Pattern) -> dict[str, tuple[dataclasses.Field[Any], Parameter]]:
+    """Return the described fields of a pattern by name, in the order of the class."""
+    if not dataclasses.is_dataclass(pattern):
+        return {}
+    return {
+        field.name: (field, field.metadata["parameter"])
+        for field in dataclasses.fields(pattern)
+        if "parameter" in field.metadata
+    }
+
+
+def check_parameters(pattern: Pattern) -> None:
+    """Raise PatternError if a described field is out of its range, infinite or not a number."""
+    for name, (_, described) in parameters(pattern).items():
+        value = getattr(pattern, name)
+        if value is None or isinstance(value, bool):
+            continue
+        for number in value if isinstance(value, tuple) else (value,):
+            if not math.isfinite(number) or not described.low <= number <= described.high:
+                in_degrees = math.degrees if described.unit == "rad" else float
+                unit = {"rad": " degrees", "mm": " mm", "": ""}[described.unit]
+                low, high = in_degrees(described.low), in_degrees(described.high)
+                raise PatternError(
+                    f"{name} of {pattern.name} is {in_degrees(number):g}{unit}; "
+                    f"it must be a number from {low:g} to {high:g}{unit}"
+                )
+
+
+@runtime_checkable
+class Pattern(Protocol):
+    """Lines in a plane at height z, in millimetres.
+
+    Subclass it (a frozen, keyword-only dataclass is best), give `name`, `summary`, `lines` and
+    `line_spacing`; `points` and the range check of the parameters come for free.
+
+    Attributes
+    ----------
+    name : str
+        The word at the command line.
+    summary : str
+        What the pattern is for, in one phrase.
+    prismatic : bool
+        True if the lines do not depend on z.
+    """
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+    prismatic: ClassVar[bool] = True
+
+    def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
+        """Return the centre lines of the walls at height `z`, clipped to `region`.
+
+        Parameters
+        ----------
+        region : Polygon or MultiPolygon
+            Where lines may lie, mm. Walls reach half a line width beyond it.
+        z : float
+            Height, mm; a prismatic pattern does not look at it.
+        """
+        ...
+
+    def line_spacing(self, region: Polygon | MultiPolygon) -> float:
+        """Return the distance, mm, at which neighbouring lines are designed to lie in `region`."""
+        ...
+
+    def points(self, region: Polygon | MultiPolygon, spacing: float, z: float = 0.0) -> NDArray[np.float64]:
+        """Return points on the lines, neighbours at most `spacing` apart.
+
+        Parameters
+        ----------
+        region : Polygon or MultiPolygon
+            As for `lines`, mm.
+        spacing : float
+            Largest distance between neighbours on a line, mm. Half a grid cell or less makes
+            neighbouring stamps overlap.
+        z : float
+            Height, mm.
+
+        Returns
+        -------
+        (N, 2) float64, mm
+        """
+        from patterns.linework import sample
+
+        return sample(self.lines(region, z), spacing)
+
+    def __post_init__(self) -> None:
+        """Check the parameters; a subclass with checks of its own calls this first."""
+        check_parameters(self)

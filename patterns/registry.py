@@ -1,0 +1,90 @@
+"""The patterns by name: the built-in ones and those of installed plug-ins.
+
+A third party adds a pattern with the entry-point group ``infill.patterns``::
+
+    [project.entry-points."infill.patterns"]
+    waves = "my_package:Waves"
+"""
+
+from __future__ import annotations
+
+import difflib
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from importlib.metadata import EntryPoint, entry_points
+
+from patterns.errors import PatternError
+from patterns.protocol import Pattern
+
+GROUP = "infill.patterns"
+
+
+class PatternWarning(UserWarning):
+    """A plug-in could not be used."""
+
+
+def installed_plugins() -> list[EntryPoint]:
+    """Return the entry points of the group, by name."""
+    return sorted(entry_points(group=GROUP), key=lambda entry: entry.name)
+
+
+class Registry(Mapping[str, type[Pattern]]):
+    """Patterns by name; plug-ins are looked for once, when the registry is first read.
+
+    A plug-in that cannot be imported, is no pattern, or takes a name that is in use, is one
+    `PatternWarning` that names it.
+    """
+
+    def __init__(
+        self, built_in: tuple[type[Pattern], ...], plugins: Callable[[], list[EntryPoint]] = installed_plugins
+    ) -> None:
+        self.built_in: Mapping[str, type[Pattern]] = {pattern.name: pattern for pattern in built_in}
+        self._plugins = plugins
+        self._all: dict[str, type[Pattern]] | None = None
+
+    def _loaded(self) -> dict[str, type[Pattern]]:
+        if self._all is None:
+            found = dict(self.built_in)
+            for entry in self._plugins():
+                try:
+                    found[entry.name] = _load(entry, found)
+                except PatternError as error:
+                    warnings.warn(str(error), PatternWarning, stacklevel=3)
+            self._all = found
+        return self._all
+
+    def __getitem__(self, name: str) -> type[Pattern]:
+        if name in self.built_in:
+            return self.built_in[name]
+        return self._loaded()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._loaded())
+
+    def __len__(self) -> int:
+        return len(self._loaded())
+
+    def find(self, name: str) -> type[Pattern]:
+        """Return the pattern called `name`, or raise PatternError that names the nearest."""
+        if name in self:
+            return self[name]
+        near = difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
+        advice = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(self)}"
+        raise PatternError(f"there is no pattern {name!r}; {advice} ('infill list' shows all)")
+
+
+def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern]:
+    """Return the class behind `entry`, or raise PatternError that names the plug-in."""
+    where = f"plug-in pattern {entry.name!r} ({entry.value})"
+    if entry.name in taken:
+        raise PatternError(f"{where} is left out: the name is taken; rename the entry point")
+    try:
+        pattern = entry.load()
+    except Exception as error:  # noqa: BLE001 - foreign code may raise anything while it is imported
+        raise PatternError(f"{where} is left out: {type(error).__name__}: {error}; mend or uninstall it") from error
+    lacking = [
+        word for word in ("name", "summary", "prismatic", "lines", "points", "line_spacing") if not hasattr(pattern, word)
+    ]
+    if not isinstance(pattern, type) or lacking:
+        raise PatternError(f"{where} is left out: it is not a pattern class ({', '.join(lacking) or 'no class'} missing)")
+    return pattern
