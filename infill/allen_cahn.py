@@ -65,9 +65,7 @@ class Smoothing:
             raise ParameterError(f"fidelity is {self.fidelity:g}; it must be a finite number of at least 0")
 
     @classmethod
-    def paper(
-        cls, lam: float = 100, h: float = 0.01, m: float = 2, alpha: float = 1 / 7, steps: int = 10
-    ) -> Smoothing:
+    def paper(cls, lam: float = 100, h: float = 0.01, m: float = 2, alpha: float = 1 / 7, steps: int = 10) -> Smoothing:
         """Return the same smoothing from the paper's lambda, cell size h and interface width m."""
         return cls(steps=steps, fidelity=lam * positive("h", h, "") ** 2, interface=m, alpha=alpha)
 
@@ -78,7 +76,7 @@ class Smoothing:
 
     @property
     def pull(self) -> float:
-        """lam dt of the fidelity step (10)."""
+        """Lam dt of the fidelity step (10)."""
         return self.alpha * self.fidelity
 
     def weights(self, spacing: tuple[float, ...]) -> tuple[float, ...]:
@@ -117,7 +115,9 @@ def phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
         raise ParameterError(f"{name} is of type {field.dtype}; give real numbers or booleans")
     low, high = field.min(), field.max()
     if not (low >= -1 and high <= 1):
-        raise ParameterError(f"{name} ranges from {low:g} to {high:g}; scale it to [-1, 1] first: rescale(data), Eq. (2)")
+        raise ParameterError(
+            f"{name} ranges from {low:g} to {high:g}; scale it to [-1, 1] first: rescale(data), Eq. (2)"
+        )
     return field
 
 
@@ -150,7 +150,8 @@ def laplacian(
     change = np.zeros_like(phi)
     for axis, weight in enumerate(weights):
         low, high = (
-            tuple(part if a == axis else slice(None) for a in range(phi.ndim)) for part in (slice(None, -1), slice(1, None))
+            tuple(part if a == axis else slice(None) for a in range(phi.ndim))
+            for part in (slice(None, -1), slice(1, None))
         )
         flux = weight * (phi[high] - phi[low])
         if mask is not None:

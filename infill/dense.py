@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,32 +97,30 @@ def _march(
     """Return `u` after `steps`; each thread advances its own part of the span, and all meet after a step."""
     threads = max(1, min(usable_cores(), (span[1] - span[0]) // (BLOCK // 2)))
     cuts = np.linspace(*span, threads + 1).astype(int).tolist()
-    failed: list[BaseException] = []
+    barrier = threading.Barrier(threads)
 
     def sweep(part: int) -> None:
         source, target = u, new
         buffers = np.empty(BLOCK, dtype=np.float32), np.empty(BLOCK, dtype=np.float32)
+        done = False
         try:
             for _ in range(steps):
                 for low in range(cuts[part], cuts[part + 1], BLOCK):
                     advance(source, target, low, min(low + BLOCK, cuts[part + 1]), buffers)
                 barrier.wait()
                 source, target = target, source
-        except threading.BrokenBarrierError:
-            pass  # another thread failed and says why
-        except BaseException as error:
-            failed.append(error)
-            barrier.abort()
+            done = True
+        finally:
+            if not done:
+                barrier.abort()  # nobody waits for a thread that failed or was interrupted
 
-    barrier = threading.Barrier(threads)
-    helpers = [threading.Thread(target=sweep, args=(part,), daemon=True) for part in range(1, threads)]
-    for helper in helpers:
-        helper.start()
-    sweep(0)
-    for helper in helpers:
-        helper.join()
-    if failed:
-        raise failed[0]
+    with ThreadPoolExecutor(threads) as pool:
+        helpers = [pool.submit(sweep, part) for part in range(1, threads)]
+        try:
+            sweep(0)
+        finally:
+            for helper in helpers:
+                helper.result()
     return u if steps % 2 == 0 else new
 
 

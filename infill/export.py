@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import IO, TYPE_CHECKING, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 AT_ONCE = 100_000  # triangles or vertices formatted at a time: a few tens of MB of text
 
 STL_RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
-STL_ASCII = (
-    "facet normal {0} {0} {0}\n outer loop\n" + 3 * "  vertex {0} {0} {0}\n" + " endloop\nendfacet\n"
-).format("%.9g")
+STL_ASCII = ("facet normal {0} {0} {0}\n outer loop\n" + 3 * "  vertex {0} {0} {0}\n" + " endloop\nendfacet\n").format(
+    "%.9g"
+)
 PLY_FACE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
 
 THREEMF_TYPES = """<?xml version="1.0" encoding="UTF-8"?>
@@ -149,8 +149,7 @@ def write_3mf(surface: Surface, file: BinaryIO) -> None:
 
 def write_glb(surface: Surface, file: BinaryIO) -> None:
     """Write binary glTF by trimesh."""
-    exported = surface.to_trimesh().export(file_type="glb")
-    file.write(exported)
+    file.write(bytes(surface.to_trimesh().export(file_type="glb")))  # type: ignore[arg-type]
 
 
 WRITERS: dict[str, Callable[[Surface, BinaryIO], None]] = {
@@ -176,8 +175,8 @@ def _normals(corners: NDArray[np.float32]) -> NDArray[np.float32]:
     return unit
 
 
-def _write_rows(file: BinaryIO | object, row: str, values: NDArray[np.generic], add: int = 0) -> None:
+def _write_rows(file: IO[bytes], row: str, values: NDArray[np.generic], add: int = 0) -> None:
     """Write one formatted row of text per row of `values`."""
     for low in range(0, len(values), AT_ONCE):
         some = values[low : low + AT_ONCE] + add if add else values[low : low + AT_ONCE]
-        file.write((row * len(some) % tuple(some.ravel().tolist())).encode())  # type: ignore[attr-defined]
+        file.write((row * len(some) % tuple(some.ravel().tolist())).encode())

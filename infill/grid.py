@@ -21,7 +21,7 @@ def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[flo
     >>> spacing_of(0.5, 2)
     (0.5, 0.5)
     """
-    sizes = (spacing,) * dimensions if np.isscalar(spacing) else tuple(spacing)  # type: ignore[arg-type]
+    sizes = tuple(spacing) if isinstance(spacing, (tuple, list, np.ndarray)) else (spacing,) * dimensions
     if len(sizes) != dimensions:
         raise ParameterError(f"spacing has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis")
     return tuple(positive("spacing", size) for size in sizes)

@@ -26,6 +26,7 @@ from infill.allen_cahn import Smoothing
 from infill.errors import GeometryError
 from infill.export import save
 from infill.plan import Block, StampMethod, plan
+from infill.settings import in_degrees
 from infill.smoothing import smooth
 from infill.stacking import extruded
 from infill.stamping import stamp as stamp_points
@@ -225,7 +226,7 @@ def _report(
     width: WallWidth,
     problems: list[str],
 ) -> dict[str, Any]:
-    """Return the report as plain numbers: lengths in mm, areas in mm², volumes in mm³."""
+    """Return the report as plain numbers: lengths in mm, areas in mm², volumes in mm³, angles in degrees."""
     cell_volume = float(block.grid.cell_size.prod()) * block.height
     data_volume = float((data.astype(np.float64) + 1).sum()) / 2 * cell_volume
     bounds = surface.bounds
@@ -233,7 +234,7 @@ def _report(
     return {
         "version": __version__,
         "pattern": block.pattern.name,
-        "parameters": block.parameters,
+        "parameters": in_degrees(block.pattern),
         "size": list(block.grid.extents),
         "height": block.height,
         "line_width": block.line_width,

@@ -71,11 +71,6 @@ class Block:
         return self.pattern.lines(self.region)
 
     @property
-    def parameters(self) -> dict[str, Any]:
-        """The pattern's own parameters by name; angles in radians."""
-        return {f.name: getattr(self.pattern, f.name) for f in fields(self.pattern)} if is_dataclass(self.pattern) else {}
-
-    @property
     def layers(self) -> int:
         """Layers of one cell that the stack stands for."""
         return layer_count(self.height, float(self.grid.cell_size.min()))
@@ -83,7 +78,7 @@ class Block:
     @property
     def triangles(self) -> int:
         """Expected number of triangles, right to about a quarter."""
-        length, cell = shapely.length(self.lines), float(self.grid.cell_size.min())
+        length, cell = float(shapely.length(self.lines)), float(self.grid.cell_size.min())
         caps = CAP_TRIANGLES_PER_CELL * length * self.line_width / cell**2
         return round(caps + SIDE_TRIANGLES_PER_CELL * 2 * length / cell)
 

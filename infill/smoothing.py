@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
@@ -12,7 +13,7 @@ from infill.dense import smooth_dense
 from infill.errors import ParameterError
 
 Method = Literal["auto", "numpy", "dense"]
-KERNELS = {"numpy": smooth_reference, "dense": smooth_dense}
+KERNELS: dict[str, Callable[..., NDArray[np.floating]]] = {"numpy": smooth_reference, "dense": smooth_dense}
 
 
 def smooth(

@@ -134,9 +134,7 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     return grey.reshape(grid.shape)
 
 
-def _distance(
-    points: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _distance(points: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the distance of each point to its own segment."""
     along, out = end - start, points - start
     length = np.einsum("ij,ij->i", along, along)

@@ -121,7 +121,7 @@ def extract(
     field[near] = np.where(solid[near], np.float32(CLEARANCE), np.float32(-CLEARANCE))
     np.multiply(field, np.float32(TIE), out=field, where=solid)
     # Gradient ascent: the solid is above the level, and faces shall point out of it.
-    vertices, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")
+    vertices, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")  # type: ignore[no-untyped-call]
     # The centre of the first cell, now at index 1, lies half a cell inside the box.
     placed = (vertices[:, [1, 2, 0]] - 0.5) * np.array(spacing) + np.array(origin)
     return Surface(vertices=placed, faces=faces)

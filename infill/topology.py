@@ -91,7 +91,7 @@ class Changes:
 
 
 def regions(layer: NDArray[np.floating]) -> Regions:
-    """Number the bodies of solid and of void of a layer (nx, ny)."""
+    """Return a layer (nx, ny) with its bodies of solid and of void numbered."""
     field = np.pad(layer, 1, constant_values=VOID)
     solid = field > 0
     joined, parted = _saddles(field, solid)
@@ -125,9 +125,7 @@ def changes(before: Regions, after: Regions) -> Changes:
     )
 
 
-def _saddles(
-    field: NDArray[np.floating], solid: NDArray[np.bool_]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return the diagonal pairs of cells that a saddle joins, of solid and of void: (N, 2) flat indices each."""
     a, b, c, d = (solid[i : i - 1 or None, j : j - 1 or None] for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
     i, j = np.nonzero((a == c) & (b == d) & (a != b))
@@ -143,9 +141,10 @@ def _saddles(
 
 
 def _bodies(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
-    """Number the bodies of cells that touch at a side, or at a corner given in `pairs`."""
+    """Return the numbers of the bodies of cells that touch at a side, or at a corner given in `pairs`."""
     from scipy import ndimage
 
+    numbers: NDArray[np.integer]
     numbers, count = ndimage.label(inside)
     if len(pairs) == 0:
         return numbers
@@ -157,7 +156,7 @@ def _bodies(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.in
     _, merged = connected_components(graph, directed=False)
     # Number 0, the cells outside, is in no pair: it stays alone, and the others are counted from 1.
     _, renumbered = np.unique(merged[1:], return_inverse=True)
-    return np.concatenate([[0], renumbered + 1])[numbers]
+    return np.asarray(np.concatenate([[0], renumbered + 1])[numbers])
 
 
 def _overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> NDArray[np.bool_]:

@@ -18,7 +18,7 @@ ARC_POINTS = 257  # odd, so that the tip of a lobe is a point
 
 
 def outline() -> NDArray[np.float64]:
-    """Return the closed outline of a heart on the square 0 <= x, y <= 1: (N, 2), first = last.
+    r"""Return the closed outline of a heart on the square 0 <= x, y <= 1: (N, 2), first = last.
 
     Straight sides on the axes, half discs of radius 1/2 on the right and on the top side, the tip
     at (0, 0). As in the paper, one half is given as points and mirrored about y = x.
@@ -26,7 +26,7 @@ def outline() -> NDArray[np.float64]:
             .--.
            /    |
           |     .--.
-          |    '    \\      notch at (1, 1)
+          |    '    \      notch at (1, 1)
           |         |
           o--------/       tip at (0, 0)
     """
@@ -53,9 +53,9 @@ class ConcentricHeart(Pattern):
     name: ClassVar[str] = "concentric-heart"
     summary: ClassVar[str] = "nested hearts; lines that follow an outline and never cross"
 
-    cell: float = parameter(6.0, "distance between neighbouring hearts at their straight sides", low=0.01, high=1000)
+    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.01, high=1000)
     hearts: int | None = parameter(None, "number of hearts, instead of cell", unit="", low=1, high=1000)
-    angle: float = parameter(0.0, "turns the hearts counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
+    angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
     frame: bool = parameter(False, "a wall around the block", unit="")
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic

@@ -80,11 +80,15 @@ def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern
         raise PatternError(f"{where} is left out: the name is taken; rename the entry point")
     try:
         pattern = entry.load()
-    except Exception as error:  # noqa: BLE001 - foreign code may raise anything while it is imported
+    except Exception as error:
         raise PatternError(f"{where} is left out: {type(error).__name__}: {error}; mend or uninstall it") from error
     lacking = [
-        word for word in ("name", "summary", "prismatic", "lines", "points", "line_spacing") if not hasattr(pattern, word)
+        word
+        for word in ("name", "summary", "prismatic", "lines", "points", "line_spacing")
+        if not hasattr(pattern, word)
     ]
     if not isinstance(pattern, type) or lacking:
-        raise PatternError(f"{where} is left out: it is not a pattern class ({', '.join(lacking) or 'no class'} missing)")
+        raise PatternError(
+            f"{where} is left out: it is not a pattern class ({', '.join(lacking) or 'no class'} missing)"
+        )
     return pattern

@@ -27,7 +27,7 @@ class Zigzag(Pattern):
     name: ClassVar[str] = "zigzag"
     summary: ClassVar[str] = "two crossing waves; each is one unbroken line"
 
-    cell: float = parameter(6.0, "distance between neighbouring strokes", low=0.01, high=1000)
+    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.01, high=1000)
     waves: float | None = parameter(
         None, "waves along the diagonal, instead of cell (the paper draws 7.5)", unit="", low=0.5, high=1e4
     )

@@ -1,0 +1,91 @@
+"""What every command shares: one line for an error, a bar for progress, tables of plain text."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import json
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, TextIO, TypeVar
+
+import typer
+
+from infill.errors import InfillError
+from patterns import PatternError
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+UNITS = ("B", "kB", "MB", "GB")
+
+
+def say(text: str) -> None:
+    """Print talk to stderr."""
+    typer.echo(text, err=True)
+
+
+def warn(
+    message: Warning | str,
+    category: type[Warning],  # noqa: ARG001 - the signature of warnings.showwarning
+    filename: str,  # noqa: ARG001
+    lineno: int,  # noqa: ARG001
+    file: TextIO | None = None,  # noqa: ARG001
+    line: str | None = None,  # noqa: ARG001
+) -> None:
+    """Print a warning as one line."""
+    say(f"warning: {message}")
+
+
+def reports_errors(command: Function) -> Function:
+    """Make a command end with one line and exit 1 for errors of ours."""
+
+    @functools.wraps(command)
+    def run(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - whatever the command takes
+        try:
+            return command(*args, **options)
+        except (InfillError, PatternError) as error:
+            say(f"error: {error}")
+        except MemoryError:
+            say("error: the memory is used up; take fewer cells per line or a smaller block")
+        raise typer.Exit(1)
+
+    return run  # type: ignore[return-value]
+
+
+@contextlib.contextmanager
+def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None]:
+    """Yield a function (stage, share done) that moves a bar on stderr; None where nobody sees it."""
+    if not shown or not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description:>8}"), BarColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("", total=1.0)
+        yield lambda stage, share: bar.update(task, description=stage, completed=share)
+
+
+def table(rows: Mapping[str, str], title: str = "") -> str:
+    """Return rows of a name and a text, the texts below each other."""
+    width = max(len(name) for name in rows)
+    lines = [f"  {name:<{width}}  {text}" for name, text in rows.items()]
+    return "\n".join([title, *lines] if title else lines)
+
+
+def print_json(value: Mapping[str, Any]) -> None:
+    """Print one JSON object to stdout."""
+    typer.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def as_bytes(count: float) -> str:
+    """Return a number of bytes for people.
+
+    >>> as_bytes(10_625_284)
+    '10.6 MB'
+    """
+    for unit in UNITS:
+        if count < 1000 or unit == UNITS[-1]:
+            break
+        count /= 1000
+    return f"{count:.3g} {unit}"

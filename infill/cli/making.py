@@ -1,0 +1,270 @@
+"""``infill make``: a block of infill, from a pattern to a file."""
+
+from __future__ import annotations
+
+import inspect
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated, Any, Optional
+
+import typer
+
+from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+from patterns import PATTERNS, Parameter, Pattern, parameters
+
+BLOCK, FILES, RUN = "Block", "Files", "Run"
+
+
+def make_command(patterns: Sequence[type[Pattern]]) -> Callable[..., None]:
+    """Return the command, its options those of `make` and of all `patterns`."""
+    own = _pattern_options(patterns)
+
+    def command(**options: Any) -> None:  # noqa: ANN401 - the signature below
+        own_options = {name: options.pop(name) for name in own}
+        make(own_options=own_options, **options)
+
+    signature = inspect.signature(make, eval_str=True)
+    common = [each for name, each in signature.parameters.items() if name != "own_options"]
+    merged = [*common, *own.values()]
+    command.__doc__ = make.__doc__
+    command.__signature__ = signature.replace(parameters=merged)  # type: ignore[attr-defined]
+    command.__annotations__ = {each.name: each.annotation for each in merged}
+    return reports_errors(command)
+
+
+def _names(incomplete: str) -> list[str]:
+    return [name for name in PATTERNS if name.startswith(incomplete)]
+
+
+def make(
+    *,
+    pattern: Annotated[
+        Optional[str],  # noqa: UP045 - read by typer
+        typer.Argument(help="Name of the pattern: 'infill list' shows all.", autocompletion=_names),
+    ] = None,
+    output: Annotated[
+        Optional[list[Path]],  # noqa: UP045
+        typer.Option(
+            "-o",
+            "--output",
+            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb. May be given again.",
+            rich_help_panel=FILES,
+        ),
+    ] = None,
+    preview: Annotated[
+        Optional[Path],  # noqa: UP045
+        typer.Option(help="Picture of the four stages to write: FILE.png.", rich_help_panel=FILES),
+    ] = None,
+    ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
+    config: Annotated[
+        Optional[Path],  # noqa: UP045
+        typer.Option(help="TOML file of options; flags win over it.", rich_help_panel=FILES),
+    ] = None,
+    save_config: Annotated[
+        Optional[Path],  # noqa: UP045
+        typer.Option(help="TOML file to write all options to, as resolved.", rich_help_panel=FILES),
+    ] = None,
+    size: Annotated[
+        Optional[str],  # noqa: UP045
+        typer.Option(help="Block in x and y, mm: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK),
+    ] = None,
+    height: Annotated[
+        Optional[float],  # noqa: UP045
+        typer.Option(help="Height of the block, mm. (default: 6)", rich_help_panel=BLOCK),
+    ] = None,
+    line_width: Annotated[
+        Optional[float],  # noqa: UP045
+        typer.Option(help="Width of the walls, mm. (default: 0.45)", rich_help_panel=BLOCK),
+    ] = None,
+    stamp: Annotated[
+        Optional[str],  # noqa: UP045
+        typer.Option(
+            help="block: the paper's stamps, walls up to 41 % wider on diagonals; "
+            "exact: the same width in every direction. (default: block)",
+            rich_help_panel=BLOCK,
+        ),
+    ] = None,
+    cells: Annotated[
+        Optional[int],  # noqa: UP045
+        typer.Option(help="Grid cells across a line. (default: 3 for block, 5 for exact)", rich_help_panel=BLOCK),
+    ] = None,
+    steps: Annotated[
+        Optional[int],  # noqa: UP045
+        typer.Option(help="Smoothing steps. (default: 10)", rich_help_panel=BLOCK),
+    ] = None,
+    fidelity: Annotated[
+        Optional[float],  # noqa: UP045
+        typer.Option(help="How strongly the stamp holds, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK),
+    ] = None,
+    interface: Annotated[
+        Optional[float],  # noqa: UP045
+        typer.Option(help="Width of the smoothed edge in cells. (default: 2)", rich_help_panel=BLOCK),
+    ] = None,
+    alpha: Annotated[
+        Optional[float],  # noqa: UP045
+        typer.Option(help="Time step over the cell size squared, up to 0.25. (default: 1/7)", rich_help_panel=BLOCK),
+    ] = None,
+    allow_broken: Annotated[
+        bool, typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN)
+    ] = False,
+    max_memory: Annotated[
+        Optional[str],  # noqa: UP045
+        typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
+    ] = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Only show grid, memory, triangles and file size.", rich_help_panel=RUN)
+    ] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
+    ] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but errors.", rich_help_panel=RUN)] = False,
+    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
+    own_options: dict[str, Any],
+) -> None:
+    """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
+    from infill.export import save, writer
+    from infill.output import check_target
+    from infill.settings import parse_bytes, resolve
+
+    common = {
+        "pattern": pattern, "size": size, "height": height, "line_width": line_width, "stamp": stamp, "cells": cells,
+        "steps": steps, "fidelity": fidelity, "interface": interface, "alpha": alpha,
+    }  # fmt: skip
+    outputs = output or []
+    if not (outputs or preview or save_config or dry_run or as_json):
+        raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
+    settings = resolve({**common, **own_options}, config)
+    limit = None if max_memory is None else parse_bytes(max_memory)
+    for path in outputs:
+        writer(path, ascii=ascii_stl)
+    if preview is not None:
+        from infill.preview import check_preview
+
+        check_preview(preview)
+    for path in filter(None, (*outputs, preview, save_config)):
+        check_target(path, overwrite=force)
+    if dry_run:
+        _show_plan(settings.plan(), as_json=as_json)
+        return
+    if not (outputs or preview or as_json):
+        settings.plan()
+    else:
+        with progress_bar(shown=not quiet) as progress:
+            result = settings.make(allow_broken=allow_broken, max_memory=limit, progress=progress)
+            for path in outputs:
+                save(result.surface, path, ascii=ascii_stl)
+            if preview is not None:
+                from infill.preview import save_preview
+
+                save_preview(result, preview)
+    if save_config is not None:
+        settings.save(save_config)
+    files = [str(path) for path in filter(None, (*outputs, preview, save_config))]
+    if not (outputs or preview or as_json):
+        if not quiet:
+            say(f"wrote {', '.join(files)}")
+        return
+    if not quiet:
+        say(_summary(result.report, files, verbose=verbose))
+    if as_json:
+        print_json({**result.report, "files": files})
+
+
+def _show_plan(block: Any, *, as_json: bool) -> None:  # noqa: ANN401 - Block, not imported for --help
+    facts = {
+        "pattern": block.pattern.name,
+        "size": list(block.grid.extents),
+        "grid": list(block.grid.shape),
+        "spacing": float(block.grid.cell_size.min()),
+        "memory": block.memory,
+        "triangles": block.triangles,
+        "stl_bytes": block.stl_bytes,
+    }
+    if as_json:
+        print_json(facts)
+        return
+    rows = {
+        "grid": f"{' x '.join(map(str, facts['grid']))} cells of {facts['spacing']:.4g} mm",
+        "memory": f"about {as_bytes(block.memory)}",
+        "triangles": f"about {block.triangles:,}",
+        "binary STL": f"about {as_bytes(block.stl_bytes)}",
+    }
+    typer.echo(table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
+
+
+def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
+    """Return the short table on stderr."""
+    width, change = report["wall_width"], report["changes"]
+    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
+    measured = (
+        "not measured: no wall stands clear of others"
+        if width["mean"] is None
+        else f"{width['mean']:.3f} mm mean, {width['p5']:.3f} to {width['p95']:.3f} (5 to 95 %), "
+        f"{width['requested']:g} asked for"
+    )
+    rows = {
+        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
+        f"{report['components']} component(s), Euler number {report['euler_number']}",
+        "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
+        "walls": measured,
+        "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, volume {report['volume_change']:+.2%}",
+    }
+    if change["pinholes"]:
+        rows["pinholes"] = f"{change['pinholes']} closed where lines meet"
+    if report["problems"]:
+        rows["PROBLEMS"] = "; ".join(report["problems"])
+    if verbose:
+        rows["grid"] = f"{' x '.join(map(str, report['grid']))} cells of {report['spacing']:.4g} mm"
+        for name in ("stamp", "result"):
+            counts = report[name]
+            rows[name] = f"{counts['components']} component(s), {counts['holes']} holes"
+        rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
+    for path in files:
+        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return table(rows, title=f"{report['pattern']}, {size} mm")
+
+
+def _pattern_options(patterns: Sequence[type[Pattern]]) -> dict[str, inspect.Parameter]:
+    """Return one keyword per parameter of any pattern; patterns that share a name share the option."""
+    found: dict[str, list[tuple[str, Any, Parameter]]] = {}
+    for kind in patterns:
+        for name, (field, described) in parameters(kind).items():
+            found.setdefault(name, []).append((kind.name, field, described))
+    return {name: _option(name, uses, everyone=len(uses) == len(patterns)) for name, uses in found.items()}
+
+
+def _option(name: str, uses: list[tuple[str, Any, Parameter]], *, everyone: bool) -> inspect.Parameter:
+    field = uses[0][1]
+    texts: dict[str, list[str]] = {}
+    for pattern, each_field, each in uses:
+        texts.setdefault(f"{each.help} {_range(each, each_field.default)}", []).append(pattern)
+    shared = everyone and len(texts) == 1
+    text = " ".join(f"{what}." if shared else f"{', '.join(names)}: {what}." for what, names in texts.items())
+    word = name.replace("_", "-")
+    flag = f"--{word}/--no-{word}" if isinstance(field.default, bool) else f"--{word}"
+    kinds: dict[type, Any] = {bool: bool, tuple: tuple[float, float]}
+    whole = "int" in str(field.type)
+    kind = kinds.get(type(field.default), int if whole else float)
+    option = typer.Option(flag, help=text, rich_help_panel="Pattern", show_default=False)
+    return inspect.Parameter(
+        name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, option]
+    )
+
+
+def _range(described: Parameter, default: object) -> str:
+    """Return range, unit and default for ``--help``."""
+    degrees = described.unit == "rad"
+    low, high = (math.degrees(end) if degrees else end for end in (described.low, described.high))
+    unit = {"rad": "degrees", "mm": "mm", "": ""}[described.unit]
+    parts = []
+    if math.isfinite(low) and math.isfinite(high):
+        parts.append(f"{low:g} to {high:g} {unit}".rstrip())
+    if isinstance(default, bool):
+        parts.append(f"default: {'on' if default else 'off'}")
+    elif isinstance(default, tuple):
+        parts.append(f"default: {' '.join(f'{each:g}' for each in default)}")
+    elif default is not None:
+        parts.append(f"default: {math.degrees(default) if degrees else default:g}")  # type: ignore[arg-type]
+    return f"({'; '.join(parts)})"

@@ -1,0 +1,190 @@
+"""`check`: is a mesh printable, and if not, why."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.intersections import self_intersections
+from infill.reading import merged, read_mesh
+from infill.surface import Surface
+
+if TYPE_CHECKING:
+    import trimesh
+
+# Largest side of a part, mm. Outside, another unit than millimetres is likelier.
+SMALLEST_IN_MM, LARGEST_IN_MM, LARGEST_IN_METRES = 1.0, 2000.0, 0.5
+FLAT = 1e-12  # a triangle of less than this share of its longest side squared has no area
+
+
+@dataclass(frozen=True, kw_only=True)
+class Inspection:
+    """What `check` found; lengths in the unit of the file.
+
+    Parameters
+    ----------
+    printable : bool
+        True without problems.
+    problems : tuple of str
+        Why it is not, one phrase each.
+    triangles, components, degenerate, duplicate : int
+        Degenerate triangles have no area; duplicates have the same three corners as another.
+    closed, outward : bool
+        Every edge has two faces that agree; every body faces out, but those inside another, which are
+        its cavities, face in.
+    open_edges : int
+        Edges without exactly two faces.
+    manifold : str
+        What manifold3d says: "NoError" if it takes the mesh as a solid.
+    self_intersections : int
+        Pairs of triangles that pass through each other.
+    volume, area : float
+    extents, bounds : list of float
+    unit_guess : str
+        "mm", or what the size looks like instead.
+    """
+
+    printable: bool
+    problems: tuple[str, ...]
+    triangles: int
+    components: int
+    closed: bool
+    outward: bool
+    open_edges: int
+    manifold: str
+    self_intersections: int
+    degenerate: int
+    duplicate: int
+    volume: float
+    area: float
+    extents: list[float]
+    bounds: list[list[float]]
+    unit_guess: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain numbers and strings: what ``--json`` prints."""
+        return asdict(self)
+
+
+def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspection:
+    """Inspect a mesh, or a mesh file.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read.
+
+    Notes
+    -----
+    Printable means: closed, facing out, taken by manifold3d, not passing through itself, no duplicate
+    triangles. Degenerate triangles and an unlikely size are told, but slicers cope with them.
+    """
+    if isinstance(mesh, (str, os.PathLike)):
+        surface = read_mesh(mesh)
+    else:
+        surface = merged(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    faces = surface.faces
+    degenerate = _degenerate(surface)
+    duplicate = len(faces) - len(np.unique(np.sort(faces, axis=1), axis=0))
+    open_edges = _open_edges(faces)
+    body = _bodies(surface)
+    outward = _outward(surface, body)
+    status = _manifold_status(surface)
+    crossings = self_intersections(surface.vertices, faces[~degenerate])
+    bounds = surface.bounds
+    extents = bounds[1] - bounds[0]
+    complaints = {
+        f"{open_edges} edge(s) without exactly two faces: the mesh is not closed": open_edges,
+        "neighbouring faces disagree about which side is out": not open_edges and not surface.closed,
+        "the mesh is inside out": surface.closed and not outward,
+        f"manifold3d does not take it: {status}": surface.closed and status != "NoError",
+        f"{crossings} pair(s) of triangles pass through each other": crossings,
+        f"{duplicate} triangle(s) stand twice": duplicate,
+    }
+    problems = tuple(text for text, holds in complaints.items() if holds)
+    return Inspection(
+        printable=not problems,
+        problems=problems,
+        triangles=len(faces),
+        components=int(body.max()) + 1,
+        closed=surface.closed,
+        outward=outward,
+        open_edges=open_edges,
+        manifold=status,
+        self_intersections=crossings,
+        degenerate=int(degenerate.sum()),
+        duplicate=duplicate,
+        volume=surface.volume,
+        area=surface.area,
+        extents=extents.tolist(),
+        bounds=bounds.tolist(),
+        unit_guess=guess_unit(float(extents.max())),
+    )
+
+
+def guess_unit(largest: float) -> str:
+    """Return the unit that a part whose largest side is `largest` was probably made in.
+
+    >>> guess_unit(60.0), guess_unit(0.047)
+    ('mm', 'm')
+    """
+    if largest > LARGEST_IN_MM:
+        return "µm"
+    if largest >= SMALLEST_IN_MM:
+        return "mm"
+    return "m" if largest <= LARGEST_IN_METRES else "in"
+
+
+def _degenerate(surface: Surface) -> NDArray[np.bool_]:
+    a, b, c = (surface.vertices[surface.faces[:, i]] for i in range(3))
+    doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    longest = np.max([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
+    return np.asarray(doubled <= FLAT * longest)
+
+
+def _open_edges(faces: NDArray[np.integer]) -> int:
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    edges = edges[edges[:, 0] != edges[:, 1]]  # the short side of a degenerate triangle
+    _, counts = np.unique(edges[:, 0].astype(np.int64) * (faces.max() + 1) + edges[:, 1], return_counts=True)
+    return int((counts != 2).sum())
+
+
+def _bodies(surface: Surface) -> NDArray[np.integer]:
+    """Return for every face the number, from 0, of the body it belongs to."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    faces, count = surface.faces, len(surface.vertices)
+    one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
+    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
+    _, body = connected_components(graph, directed=False)
+    return np.asarray(body[faces[:, 0]])
+
+
+def _outward(surface: Surface, body: NDArray[np.integer]) -> bool:
+    """Return whether the whole and every body that lies in no other face outwards."""
+    corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
+    sixfold = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+    volume = np.bincount(body, weights=sixfold)
+    count = len(volume)
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    np.minimum.at(low, body, corners.min(axis=1))
+    np.maximum.at(high, body, corners.max(axis=1))
+    out = np.flatnonzero(volume > 0)
+    inside_another = [
+        bool(((low[out] < low[i]) & (high[out] > high[i])).all(axis=1).any()) for i in np.flatnonzero(volume <= 0)
+    ]
+    return bool(volume.sum() > 0 and all(inside_another))
+
+
+def _manifold_status(surface: Surface) -> str:
+    import manifold3d
+
+    mesh = manifold3d.Mesh(
+        vert_properties=surface.vertices.astype(np.float32), tri_verts=surface.faces.astype(np.uint32)
+    )
+    return str(manifold3d.Manifold(mesh).status().name)

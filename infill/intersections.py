@@ -1,0 +1,101 @@
+"""Triangles of a mesh that pass through each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+PAIRS_AT_ONCE = 1_000_000
+ENTRIES_PER_TRIANGLE = 8  # cells that a triangle may lie in on average, before the cells are made larger
+GROWTH = 1.5
+
+
+def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> int:
+    """Return how many pairs of triangles pass through each other.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float
+    faces : (F, 3) int
+
+    Notes
+    -----
+    Pairs that share a vertex do not count, nor do triangles that only touch, or overlap in one plane.
+    Candidates come from a uniform grid; a pair counts if an edge of one crosses the inside of the other.
+    """
+    corners = vertices[faces].astype(np.float64)
+    corners -= corners.reshape(-1, 3).mean(axis=0)
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    found = 0
+    for one, other in _candidates(low, high):
+        apart = (low[one] > high[other]).any(axis=1) | (low[other] > high[one]).any(axis=1)
+        one, other = one[~apart], other[~apart]
+        shared = (faces[one][:, :, None] == faces[other][:, None, :]).any(axis=(1, 2))
+        one, other = one[~shared], other[~shared]
+        found += int((_pierces(corners[one], corners[other]) | _pierces(corners[other], corners[one])).sum())
+    return found
+
+
+def _candidates(
+    low: NDArray[np.float64], high: NDArray[np.float64]
+) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Yield pairs (one, other) of triangles whose boxes share a cell of a grid, each pair once."""
+    size = np.maximum(np.median(high - low, axis=0) * 2, (high.max(axis=0) - low.min(axis=0)) / 1000) + 1e-300
+    lower = low.min(axis=0)
+    while True:
+        first, last = np.floor((low - lower) / size).astype(np.int64), np.floor((high - lower) / size).astype(np.int64)
+        across = last - first + 1
+        counts = across.prod(axis=1)
+        if counts.sum() <= ENTRIES_PER_TRIANGLE * len(low):
+            break
+        size = size * GROWTH
+    triangle = np.repeat(np.arange(len(low)), counts)
+    step = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
+    wide, deep = across[triangle, 2], across[triangle, 1]
+    cell = first[triangle] + np.stack([step // (wide * deep), step // wide % deep, step % wide], axis=-1)
+    shape = last.max(axis=0) + 1
+    key = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
+    order = np.argsort(key, kind="stable")
+    triangle, key, cell = triangle[order], key[order], cell[order]
+    # Entry i of a cell pairs with all entries after it in the same cell.
+    ends = np.searchsorted(key, key, side="right")
+    after = ends - np.arange(len(key)) - 1
+    total = np.cumsum(after)
+    begin = 0
+    while begin < len(key):
+        done = total[begin - 1] if begin else 0
+        end = max(begin + 1, int(np.searchsorted(total, done + PAIRS_AT_ONCE, side="right")))
+        entry = np.repeat(np.arange(begin, end), after[begin:end])
+        passed = np.arange(len(entry)) - np.repeat(total[begin:end] - after[begin:end] - done, after[begin:end])
+        partner = entry + 1 + passed
+        one, other = triangle[entry], triangle[partner]
+        # Two boxes may share many cells: the pair belongs to the lowest of them.
+        lowest = (np.maximum(first[one], first[other]) == cell[entry]).all(axis=1)
+        yield one[lowest], other[lowest]
+        begin = end
+
+
+def _pierces(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return whether an edge of `one` (n, 3, 3) crosses the inside of `other`, pair by pair."""
+    a, b, c = other[:, 0], other[:, 1], other[:, 2]
+    normal = np.cross(b - a, c - a)
+    scale = np.abs(one - a[:, None]).max(axis=(1, 2)) * np.linalg.norm(normal, axis=1)
+    side = np.einsum("nij,nj->ni", one - a[:, None], normal)
+    side[np.abs(side) <= 1e-9 * scale[:, None]] = 0
+    hit = np.zeros(len(one), dtype=bool)
+    for start, end in ((0, 1), (1, 2), (2, 0)):
+        crossing = np.flatnonzero(side[:, start] * side[:, end] < 0)
+        if len(crossing) == 0:
+            continue
+        from_side, to_side = side[crossing, start], side[crossing, end]
+        part = (from_side / (from_side - to_side))[:, None]
+        point = one[crossing, start] + part * (one[crossing, end] - one[crossing, start])
+        inside = np.ones(len(crossing), dtype=bool)
+        for p, q in ((a, b), (b, c), (c, a)):
+            edge = q[crossing] - p[crossing]
+            turn = np.einsum("ni,ni->n", np.cross(edge, point - p[crossing]), normal[crossing])
+            inside &= turn > 1e-9 * scale[crossing] * np.linalg.norm(normal[crossing], axis=1)
+        hit[crossing[inside]] = True
+    return hit

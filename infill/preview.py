@@ -1,0 +1,107 @@
+"""The four stages of `make` side by side: points, stamps, smoothed field with its contour, mesh."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from infill.errors import FormatError
+from infill.grid import VOID, Grid
+from infill.output import whole_file
+from infill.pipeline import Result
+from infill.render import render
+
+PANEL = 420  # pixels
+MARGIN, CAPTION = 14, 34
+BACKGROUND, INK, SOLID_COLOUR, VOID_COLOUR, CONTOUR = (
+    (255,) * 3,
+    (40, 40, 40),
+    (240, 160, 60),
+    (246, 246, 246),
+    (190, 30, 30),
+)
+SUFFIXES = (".png",)
+
+
+def check_preview(path: str | os.PathLike[str]) -> Path:
+    """Return the path, or raise FormatError if it is no picture we can write."""
+    target = Path(path)
+    if target.suffix.lower() not in SUFFIXES:
+        raise FormatError(f"a preview cannot be written as {target.name!r}; use a name that ends in {SUFFIXES[0]}")
+    return target
+
+
+def save_preview(result: Result, path: str | os.PathLike[str]) -> Path:
+    """Write `preview` as a PNG file."""
+    target = check_preview(path)
+    with whole_file(target) as file:
+        preview(result).save(file, format="PNG")
+    return target
+
+
+def preview(result: Result) -> Image.Image:
+    """Return the four stages of a `make` result as one picture."""
+    report, fields = result.report, result.fields
+    width = report["wall_width"]
+    panels = {
+        f"points: {len(fields['points']):,}": _points(fields["points"], fields["grid"]),
+        f"stamp: {' x '.join(map(str, report['grid']))} cells": _field(fields["stamp"]),
+        f"smoothed: {report['steps']} steps": _contoured(fields["smoothed"]),
+        f"mesh: {report['triangles']:,} triangles": Image.fromarray(
+            render(result.surface, width=PANEL, height=PANEL, background=BACKGROUND)
+        ),
+    }
+    sheet = Image.new("RGB", (len(panels) * (PANEL + MARGIN) + MARGIN, PANEL + 2 * CAPTION + MARGIN), BACKGROUND)
+    draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(16)
+    for i, (caption, panel) in enumerate(panels.items()):
+        left = MARGIN + i * (PANEL + MARGIN)
+        draw.text((left, 10), caption, fill=INK, font=font)
+        sheet.paste(panel, (left + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
+    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
+    mean = "not measured" if width["mean"] is None else f"{width['mean']:.3f} ({width['p5']:.3f} to {width['p95']:.3f})"
+    facts = (
+        f"{report['pattern']}, {size} mm, density {report['density']:.1%}, walls {mean} of {report['line_width']:g} mm"
+    )
+    draw.text((MARGIN, CAPTION + PANEL + 10), facts, fill=INK, font=font)
+    return sheet
+
+
+def _frame(shape: tuple[int, ...]) -> tuple[int, int]:
+    """Return the size in pixels of a panel for a field of `shape` [x, y]."""
+    scale = PANEL / max(shape)
+    return max(1, round(shape[0] * scale)), max(1, round(shape[1] * scale))
+
+
+def _points(points: NDArray[np.float64], grid: Grid) -> Image.Image:
+    columns, rows = _frame(grid.shape)
+    part = (points - grid.origin) / np.array(grid.extents)
+    hit = np.zeros((rows, columns), dtype=bool)
+    hit[
+        ((1 - part[:, 1]) * rows).astype(int).clip(0, rows - 1), (part[:, 0] * columns).astype(int).clip(0, columns - 1)
+    ] = True
+    return Image.fromarray(np.where(hit[..., None], np.array(INK), np.array(VOID_COLOUR)).astype(np.uint8))
+
+
+def _field(layer: NDArray[np.floating]) -> Image.Image:
+    """Draw a field [x, y] with y upwards, from the colour of void at -1 to that of solid at +1."""
+    part = ((layer.T[::-1] + 1) / 2).clip(0, 1)[..., None]
+    shades = part * np.array(SOLID_COLOUR) + (1 - part) * np.array(VOID_COLOUR)
+    picture = Image.fromarray(shades.astype(np.uint8))
+    return picture.resize(_frame(layer.shape), Image.Resampling.BOX)
+
+
+def _contoured(layer: NDArray[np.floating]) -> Image.Image:
+    """Draw a field and its zero contour."""
+    from skimage.measure import find_contours
+
+    picture = _field(layer)
+    draw = ImageDraw.Draw(picture)
+    scale = np.array(picture.size) / layer.shape
+    for line in find_contours(np.pad(layer, 1, constant_values=VOID), 0.0):  # type: ignore[no-untyped-call]
+        x, y = (line - 0.5).T  # cell 0 of the layer is cell 1 of the padded one, and its centre lies at 0.5
+        draw.line(list(zip(x * scale[0], picture.height - y * scale[1], strict=True)), fill=CONTOUR, width=1)
+    return picture

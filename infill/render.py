@@ -1,0 +1,118 @@
+"""A shaded picture of a mesh, without a display, a GPU or a plotting library.
+
+Every triangle is spread over the pixels of its box, all triangles at once; the nearest wins.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.surface import Surface
+
+Pixels = NDArray[np.uint8]
+
+LIGHT = np.array([-0.45, -0.6, 0.9]) / np.linalg.norm([-0.45, -0.6, 0.9])
+AMBIENT = 0.35
+SAMPLES = 2  # along each side of a pixel
+FRAGMENTS_AT_ONCE = 2_000_000
+
+
+def render(
+    surface: Surface,
+    *,
+    width: int,
+    height: int,
+    azimuth: float = math.radians(-60),
+    elevation: float = math.radians(40),
+    colour: tuple[int, int, int] = (240, 160, 60),
+    background: tuple[int, int, int] = (255, 255, 255),
+) -> Pixels:
+    """Return a picture of `surface`, fitted to the frame: (height, width, 3) uint8.
+
+    Parameters
+    ----------
+    surface : Surface
+        Parallel projection; faces are lit from the upper left and from wherever they face.
+    width, height : int
+        Pixels.
+    azimuth, elevation : float
+        Where the eye is, seen from the middle of the mesh, in radians: around z from +x, and up.
+    """
+    columns, rows = width * SAMPLES, height * SAMPLES
+    right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+    eye = np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
+    up = np.cross(eye, right)
+    seen = surface.vertices @ np.stack([right, -up, eye], axis=1)  # column, row, nearness
+    low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+    scale = 0.94 * min((columns, rows) / np.maximum(high - low, 1e-12))
+    place = (seen[:, :2] - (low + high) / 2) * scale + np.array([columns, rows]) / 2
+    corners = place[surface.faces].astype(np.float32)
+    nearness = seen[:, 2][surface.faces].astype(np.float32)
+    a, b, c = (surface.vertices[surface.faces[:, i]] for i in range(3))
+    b, c = b - a, c - a
+    normal = np.stack(
+        [
+            b[:, 1] * c[:, 2] - b[:, 2] * c[:, 1],
+            b[:, 2] * c[:, 0] - b[:, 0] * c[:, 2],
+            b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0],
+        ]
+    )
+    length = np.sqrt((normal**2).sum(axis=0))
+    front = np.flatnonzero((eye @ normal > 0) & (length > 0))
+    camera_light = LIGHT[0] * right + LIGHT[1] * -up + LIGHT[2] * eye
+    lit = (camera_light @ normal[:, front] / length[front]).clip(0, 1)
+    shade = (AMBIENT + (1 - AMBIENT) * lit).astype(np.float32)
+    picture = np.full(rows * columns, -1.0, dtype=np.float32)
+    depth = np.full(rows * columns, -np.inf, dtype=np.float32)
+    for pixel, near, face in _fragments(corners[front], nearness[front], columns, rows):
+        order = np.argsort(near, kind="stable")  # of several writes to one pixel the last, the nearest, stays
+        pixel, near, face = pixel[order], near[order], face[order]
+        nearer = near > depth[pixel]
+        depth[pixel[nearer]] = near[nearer]
+        picture[pixel[nearer]] = shade[face[nearer]]
+    lit_pixels = picture.reshape(height, SAMPLES, width, SAMPLES)
+    covered = (lit_pixels >= 0).mean(axis=(1, 3))[..., None]
+    brightness = np.where(lit_pixels >= 0, lit_pixels, 0).mean(axis=(1, 3))[..., None]
+    mixed = brightness * np.array(colour) + (1 - covered) * np.array(background)
+    rounded: Pixels = mixed.clip(0, 255).astype(np.uint8)
+    return rounded
+
+
+def _fragments(
+    corners: NDArray[np.float32], nearness: NDArray[np.float32], columns: int, rows: int
+) -> Iterator[tuple[NDArray[np.int64], NDArray[np.float32], NDArray[np.int64]]]:
+    """Yield (pixel, nearness, face) of the pixel centres inside the triangles, some triangles at a time."""
+    limit = np.array([columns, rows])
+    first = np.ceil(corners.min(axis=1) - 0.5).astype(np.int64).clip(0, limit)
+    last = np.floor(corners.max(axis=1) - 0.5).astype(np.int64).clip(-1, limit - 1)
+    across = (last - first + 1).clip(0)
+    counts = across[:, 0] * across[:, 1]
+    some = np.flatnonzero(counts)
+    total = np.cumsum(counts[some])
+    cuts = np.searchsorted(total, np.arange(0, total[-1] if len(total) else 0, FRAGMENTS_AT_ONCE))
+    for low, high in zip(cuts, [*cuts[1:], len(some)], strict=True):
+        face = np.repeat(some[low:high], counts[some[low:high]])
+        begin = np.cumsum(counts[some[low:high]]) - counts[some[low:high]]
+        step = np.arange(len(face)) - np.repeat(begin, counts[some[low:high]])
+        row, column = np.divmod(step, across[face, 0])
+        column, row = column + first[face, 0], row + first[face, 1]
+        x, y = column + np.float32(0.5), row + np.float32(0.5)
+        (ax, ay), (bx, by), (cx, cy) = (corners[face, i].T for i in range(3))
+        whole = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        whole = np.where(whole == 0, np.float32(np.inf), whole)
+        v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / whole
+        w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / whole
+        inside = (v >= 0) & (w >= 0) & (v + w <= 1)
+        face, v, w = face[inside], v[inside], w[inside]
+        near = (
+            nearness[face, 0]
+            + v * (nearness[face, 1] - nearness[face, 0])
+            + w * (nearness[face, 2] - nearness[face, 0])
+        )
+        yield (row[inside] * columns + column[inside]), near, face
