@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.errors import FormatError
 from infill.intersections import self_intersections
-from infill.reading import merged, read_mesh
+from infill.reading import closed_or_merged, merged, read_mesh
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -29,8 +30,8 @@ class Inspection:
     ----------
     printable : bool
         True without problems.
-    problems : tuple of str
-        Why it is not, one phrase each.
+    problems, warnings : tuple of str
+        Why it is not, and what slicers cope with but other programs may not; one phrase each.
     triangles, components, degenerate, duplicate : int
         Degenerate triangles have no area; duplicates have the same three corners as another.
     closed, outward : bool
@@ -50,6 +51,7 @@ class Inspection:
 
     printable: bool
     problems: tuple[str, ...]
+    warnings: tuple[str, ...]
     triangles: int
     components: int
     closed: bool
@@ -80,49 +82,60 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
 
     Notes
     -----
-    Printable means: closed, facing out, taken by manifold3d, not passing through itself, no duplicate
-    triangles. Degenerate triangles and an unlikely size are told, but slicers cope with them.
+    Printable means: closed, facing out, taken by manifold3d, no duplicate triangles. Degenerate
+    triangles, parts of a mesh that pass through each other and an unlikely size are warnings: slicers
+    drop the first, print the union of the second, and take the third for what it is.
     """
     if isinstance(mesh, (str, os.PathLike)):
-        surface = read_mesh(mesh)
+        read = read_mesh(mesh)
     else:
-        surface = merged(np.asarray(mesh.vertices), np.asarray(mesh.faces))
-    faces = surface.faces
-    degenerate = _degenerate(surface)
-    duplicate = len(faces) - len(np.unique(np.sort(faces, axis=1), axis=0))
-    open_edges = _open_edges(faces)
+        read = closed_or_merged(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+    collapsed = (read.faces == np.roll(read.faces, 1, axis=1)).any(axis=1)
+    if collapsed.all():
+        raise FormatError("the mesh has no triangle of three different corners; export it again")
+    surface = Surface(vertices=read.vertices, faces=read.faces[~collapsed])
+    flat = _flat(surface)
+    where = merged(surface.vertices, surface.faces[~flat])
+    duplicate = len(where.faces) - len(np.unique(np.sort(where.faces, axis=1), axis=0))
+    crossings = self_intersections(where.vertices, where.faces)
+    open_edges = _open_edges(surface.faces)
     body = _bodies(surface)
     outward = _outward(surface, body)
     status = _manifold_status(surface)
-    crossings = self_intersections(surface.vertices, faces[~degenerate])
+    degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
     extents = bounds[1] - bounds[0]
-    complaints = {
+    unit = guess_unit(float(extents.max()))
+    problems = {
         f"{open_edges} edge(s) without exactly two faces: the mesh is not closed": open_edges,
         "neighbouring faces disagree about which side is out": not open_edges and not surface.closed,
         "the mesh is inside out": surface.closed and not outward,
         f"manifold3d does not take it: {status}": surface.closed and status != "NoError",
-        f"{crossings} pair(s) of triangles pass through each other": crossings,
         f"{duplicate} triangle(s) stand twice": duplicate,
     }
-    problems = tuple(text for text, holds in complaints.items() if holds)
+    warnings = {
+        f"{crossings} pair(s) of triangles pass through each other": crossings,
+        f"{degenerate} triangle(s) have no area": degenerate,
+        f"the size suggests that the unit is {unit}, not mm": unit != "mm",
+    }
     return Inspection(
-        printable=not problems,
-        problems=problems,
-        triangles=len(faces),
+        printable=not any(problems.values()),
+        problems=tuple(text for text, holds in problems.items() if holds),
+        warnings=tuple(text for text, holds in warnings.items() if holds),
+        triangles=len(read.faces),
         components=int(body.max()) + 1,
         closed=surface.closed,
         outward=outward,
         open_edges=open_edges,
         manifold=status,
         self_intersections=crossings,
-        degenerate=int(degenerate.sum()),
+        degenerate=degenerate,
         duplicate=duplicate,
         volume=surface.volume,
         area=surface.area,
         extents=extents.tolist(),
         bounds=bounds.tolist(),
-        unit_guess=guess_unit(float(extents.max())),
+        unit_guess=unit,
     )
 
 
@@ -139,7 +152,7 @@ def guess_unit(largest: float) -> str:
     return "m" if largest <= LARGEST_IN_METRES else "in"
 
 
-def _degenerate(surface: Surface) -> NDArray[np.bool_]:
+def _flat(surface: Surface) -> NDArray[np.bool_]:
     a, b, c = (surface.vertices[surface.faces[:, i]] for i in range(3))
     doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     longest = np.max([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
@@ -148,7 +161,6 @@ def _degenerate(surface: Surface) -> NDArray[np.bool_]:
 
 def _open_edges(faces: NDArray[np.integer]) -> int:
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    edges = edges[edges[:, 0] != edges[:, 1]]  # the short side of a degenerate triangle
     _, counts = np.unique(edges[:, 0].astype(np.int64) * (faces.max() + 1) + edges[:, 1], return_counts=True)
     return int((counts != 2).sum())
 

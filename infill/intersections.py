@@ -30,8 +30,6 @@ def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer
     low, high = corners.min(axis=1), corners.max(axis=1)
     found = 0
     for one, other in _candidates(low, high):
-        apart = (low[one] > high[other]).any(axis=1) | (low[other] > high[one]).any(axis=1)
-        one, other = one[~apart], other[~apart]
         shared = (faces[one][:, :, None] == faces[other][:, None, :]).any(axis=(1, 2))
         one, other = one[~shared], other[~shared]
         found += int((_pierces(corners[one], corners[other]) | _pierces(corners[other], corners[one])).sum())
@@ -41,8 +39,8 @@ def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer
 def _candidates(
     low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Yield pairs (one, other) of triangles whose boxes share a cell of a grid, each pair once."""
-    size = np.maximum(np.median(high - low, axis=0) * 2, (high.max(axis=0) - low.min(axis=0)) / 1000) + 1e-300
+    """Yield pairs (one, other) of triangles whose boxes meet, each pair once."""
+    size = np.maximum(1.5 * (high - low).mean(axis=0), (high.max(axis=0) - low.min(axis=0)) / 1000) + 1e-300
     lower = low.min(axis=0)
     while True:
         first, last = np.floor((low - lower) / size).astype(np.int64), np.floor((high - lower) / size).astype(np.int64)
@@ -71,9 +69,13 @@ def _candidates(
         passed = np.arange(len(entry)) - np.repeat(total[begin:end] - after[begin:end] - done, after[begin:end])
         partner = entry + 1 + passed
         one, other = triangle[entry], triangle[partner]
-        # Two boxes may share many cells: the pair belongs to the lowest of them.
-        lowest = (np.maximum(first[one], first[other]) == cell[entry]).all(axis=1)
-        yield one[lowest], other[lowest]
+        for axis in range(3):
+            # Two boxes may share many cells: the pair belongs to the lowest of them.
+            lowest = np.maximum(first[one, axis], first[other, axis]) == cell[entry, axis]
+            meets = (low[one, axis] <= high[other, axis]) & (low[other, axis] <= high[one, axis])
+            kept = np.flatnonzero(lowest & meets)
+            one, other, entry = one[kept], other[kept], entry[kept]
+        yield one, other
         begin = end
 
 

@@ -1,4 +1,4 @@
-"""A mesh from a file: its vertices merged where they are equal, its units in millimetres."""
+"""A mesh from a file, its vertices merged where that is needed to close it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,10 @@ BROKEN = (ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError,
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Surface:
-    """Return the triangles of a file, equal vertices merged.
+    """Return the triangles of a file.
+
+    Equal vertices are merged, but for a mesh that is closed as it stands: there the file says on purpose
+    which of two equal vertices a triangle has. Triangles with two equal corners are kept.
 
     Parameters
     ----------
@@ -60,7 +63,13 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
         raise FormatError(f"{source} holds coordinates that are not numbers; export the mesh again")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
-    return merged(vertices, faces)
+    return closed_or_merged(vertices, faces)
+
+
+def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+    """Return the mesh as it stands if it is closed, else with equal vertices merged."""
+    surface = Surface(vertices=np.asarray(vertices, dtype=np.float64), faces=faces)
+    return surface if surface.closed else merged(vertices, faces)
 
 
 def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
