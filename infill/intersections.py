@@ -7,6 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.ragged import spread
+
 PAIRS_AT_ONCE = 1_000_000
 ENTRIES_PER_TRIANGLE = 8  # cells that a triangle may lie in on average, before the cells are made larger
 GROWTH = 1.5
@@ -49,8 +51,7 @@ def _candidates(
         if counts.sum() <= ENTRIES_PER_TRIANGLE * len(low):
             break
         size = size * GROWTH
-    triangle = np.repeat(np.arange(len(low)), counts)
-    step = np.arange(len(triangle)) - np.repeat(np.cumsum(counts) - counts, counts)
+    triangle, step = next(spread(counts))
     wide, deep = across[triangle, 2], across[triangle, 1]
     cell = first[triangle] + np.stack([step // (wide * deep), step // wide % deep, step % wide], axis=-1)
     shape = last.max(axis=0) + 1
@@ -60,15 +61,8 @@ def _candidates(
     # Entry i of a cell pairs with all entries after it in the same cell.
     ends = np.searchsorted(key, key, side="right")
     after = ends - np.arange(len(key)) - 1
-    total = np.cumsum(after)
-    begin = 0
-    while begin < len(key):
-        done = total[begin - 1] if begin else 0
-        end = max(begin + 1, int(np.searchsorted(total, done + PAIRS_AT_ONCE, side="right")))
-        entry = np.repeat(np.arange(begin, end), after[begin:end])
-        passed = np.arange(len(entry)) - np.repeat(total[begin:end] - after[begin:end] - done, after[begin:end])
-        partner = entry + 1 + passed
-        one, other = triangle[entry], triangle[partner]
+    for entry, place in spread(after, PAIRS_AT_ONCE):
+        one, other = triangle[entry], triangle[entry + 1 + place]
         for axis in range(3):
             # Two boxes may share many cells: the pair belongs to the lowest of them.
             lowest = np.maximum(first[one, axis], first[other, axis]) == cell[entry, axis]
@@ -76,7 +70,6 @@ def _candidates(
             kept = np.flatnonzero(lowest & meets)
             one, other, entry = one[kept], other[kept], entry[kept]
         yield one, other
-        begin = end
 
 
 def _pierces(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.ragged import spread
 from infill.surface import Surface
 
 Pixels = NDArray[np.uint8]
@@ -93,14 +94,8 @@ def _fragments(
     last = np.floor(corners.max(axis=1) - 0.5).astype(np.int64).clip(-1, limit - 1)
     across = (last - first + 1).clip(0)
     counts = across[:, 0] * across[:, 1]
-    some = np.flatnonzero(counts)
-    total = np.cumsum(counts[some])
-    cuts = np.searchsorted(total, np.arange(0, total[-1] if len(total) else 0, FRAGMENTS_AT_ONCE))
-    for low, high in zip(cuts, [*cuts[1:], len(some)], strict=True):
-        face = np.repeat(some[low:high], counts[some[low:high]])
-        begin = np.cumsum(counts[some[low:high]]) - counts[some[low:high]]
-        step = np.arange(len(face)) - np.repeat(begin, counts[some[low:high]])
-        row, column = np.divmod(step, across[face, 0])
+    for face, place in spread(counts, FRAGMENTS_AT_ONCE):
+        row, column = np.divmod(place, across[face, 0])
         column, row = column + first[face, 0], row + first[face, 1]
         x, y = column + np.float32(0.5), row + np.float32(0.5)
         (ax, ay), (bx, by), (cx, cy) = (corners[face, i].T for i in range(3))

@@ -17,6 +17,7 @@ from shapely import MultiLineString
 from infill.checks import positive
 from infill.errors import ParameterError
 from infill.grid import SOLID, VOID, Grid
+from infill.ragged import spread
 
 ROUNDING = 1e-9  # of a cell: a point this little outside still counts as on the edge
 CANDIDATES_AT_ONCE = 2_000_000  # pairs of a cell and a piece of a line: about 100 bytes each
@@ -120,14 +121,8 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     first = np.ceil((np.minimum(start, end) - reach - lower) / cell - 0.5).astype(np.intp).clip(0)
     last = np.floor((np.maximum(start, end) + reach - lower) / cell - 0.5).astype(np.intp).clip(None, shape - 1)
     across = (last - first + 1).clip(0)
-    counts = across.prod(axis=1)
-    total = np.cumsum(counts)
-    cuts = np.searchsorted(total, np.arange(0, total[-1] if len(total) else 0, CANDIDATES_AT_ONCE), side="left")
-    for low, high in zip(cuts, [*cuts[1:], len(counts)], strict=True):
-        some = slice(low, high)
-        piece = np.repeat(np.arange(low, high), counts[some])
-        step = np.arange(len(piece)) - np.repeat(total[some] - counts[some] - (total[low] - counts[low]), counts[some])
-        index = first[piece] + np.stack(np.divmod(step, across[piece, 1]), axis=-1)
+    for piece, place in spread(across.prod(axis=1), CANDIDATES_AT_ONCE):
+        index = first[piece] + np.stack(np.divmod(place, across[piece, 1]), axis=-1)
         distance = _distance(lower + cell * (index + 0.5), start[piece], end[piece])
         np.minimum.at(nearest, index[:, 0] * shape[1] + index[:, 1], distance.astype(np.float32))
     grey: NDArray[np.float32] = ((width / 2 - nearest) / half_cell).clip(VOID, SOLID).astype(np.float32)

@@ -114,6 +114,7 @@ def changes(before: Regions, after: Regions) -> Changes:
     kept = _overlaps(cores, after.void)
     wide = np.zeros(voids.shape[0], dtype=bool)
     wide[np.unique(before.void[cores > 0]) - 1] = True
+    wide[before.void[0, 0] - 1] = True  # the outside, of which only a shell is seen
     gone = voids.sum(axis=1) == 0
     cut = _extra(kept, axis=1)
     return Changes(

@@ -1,0 +1,69 @@
+"""Small designs that tests are run on, and comparisons that can fail (see test_shapes.py)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import manifold3d
+import numpy as np
+from shapely import Point, Polygon, box
+
+from patterns import PATTERNS, ConcentricHeart, Honeycomb, Pattern, Zigzag
+
+DESIGNS: list[Pattern] = [
+    Honeycomb(),
+    Honeycomb(cell=4, angle=math.radians(7), phase=(1.0, -0.5)),
+    Honeycomb(frame=False),
+    Zigzag(),
+    Zigzag(waves=7.5),
+    Zigzag(cell=5, angle=0.3, frame=False),
+    ConcentricHeart(),
+    ConcentricHeart(hearts=3, angle=0.4),
+    ConcentricHeart(cell=5, frame=True),
+]
+BUILT_IN = list(PATTERNS.built_in)
+REGIONS: list[Polygon] = [
+    box(-30, -30, 30, 30),
+    box(5, -10, 45, 20),
+    Point(3, 4).buffer(20),
+    Polygon([(0, 0), (40, 5), (30, 35), (15, 12), (2, 30)]),
+]
+
+# Ten sizes and cells beside the defaults, as in the first issue: uneven, small, large, elongated.
+SIZES: list[tuple[tuple[float, float], float]] = [
+    ((40, 40), 4),
+    ((60, 40), 5),
+    ((30, 50), 3),
+    ((80, 80), 8),
+    ((25, 25), 2.5),
+    ((100, 60), 10),
+    ((61.3, 44.7), 5.7),
+    ((33.3, 71.2), 6.3),
+    ((20, 20), 1.8),
+    ((45, 45), 7.77),
+]
+
+
+def as_manifold(mesh: Any) -> manifold3d.Manifold:
+    return manifold3d.Manifold(
+        manifold3d.Mesh(
+            vert_properties=np.asarray(mesh.vertices, dtype=np.float32), tri_verts=np.asarray(mesh.faces, dtype=np.uint32)
+        )
+    )
+
+
+def assert_printable(mesh: Any) -> None:
+    """The strongest thing to say of a trimesh: closed, consistent, outward, and a solid for manifold3d."""
+    assert mesh.is_volume
+    assert mesh.volume > 0
+    assert as_manifold(mesh).status() == manifold3d.Error.NoError
+
+
+def smooth_noise(rng: np.random.Generator, shape: tuple[int, ...], passes: int = 3) -> np.ndarray:
+    """Random grey data in [-1, 1] whose features are a few cells across."""
+    field = rng.uniform(-1, 1, shape)
+    for _ in range(passes):
+        for axis in range(field.ndim):
+            field = (np.roll(field, 1, axis) + field + np.roll(field, -1, axis)) / 3
+    return field / np.abs(field).max()

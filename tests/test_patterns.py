@@ -1,0 +1,245 @@
+"""One contract for every pattern, then what is special about each."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from importlib.metadata import EntryPoint
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+from shapely import box
+
+from patterns import PATTERNS, ConcentricHeart, Honeycomb, Pattern, PatternError, PatternWarning, Registry, Zigzag
+from patterns import parameter as described
+from patterns import parameters
+from patterns.heart import outline
+from patterns.linework import bodies, sample
+from shapes import DESIGNS, REGIONS
+
+ROUNDING = 1e-9  # mm: clipping computes the cut points
+
+every_design = pytest.mark.parametrize("pattern", DESIGNS, ids=repr)
+every_region = pytest.mark.parametrize("region", REGIONS, ids=["square", "rectangle", "disc", "notched"])
+
+
+@every_design
+@every_region
+def test_lines_and_points_lie_inside_the_region(pattern: Pattern, region: shapely.Polygon) -> None:
+    lines = pattern.lines(region)
+    assert isinstance(lines, shapely.MultiLineString)
+    assert lines.length > 0
+    assert region.buffer(ROUNDING).contains(lines)
+    points = pattern.points(region, 0.3)
+    assert points.shape[1] == 2
+    assert points.dtype == np.float64
+    assert shapely.contains_xy(region.buffer(ROUNDING), points).all()
+
+
+@every_design
+def test_points_follow_the_lines_closely(pattern: Pattern) -> None:
+    lines, spacing = pattern.lines(REGIONS[0]), 0.25
+    points = pattern.points(REGIONS[0], spacing)
+    assert shapely.distance(shapely.points(points), lines).max() < ROUNDING
+    # Every place on a line has a point within half the spacing: so neighbours are at most one apart.
+    probes = sample(lines, 0.05)
+    distance = shapely.STRtree(shapely.points(points)).query_nearest(
+        shapely.points(probes), return_distance=True, all_matches=False
+    )[1]
+    assert distance.max() <= spacing / 2 + ROUNDING
+
+
+@every_design
+def test_height_does_not_matter_to_prismatic_patterns(pattern: Pattern) -> None:
+    assert pattern.prismatic
+    assert pattern.lines(REGIONS[0], 0.0).equals(pattern.lines(REGIONS[0], 12.5))
+
+
+@every_design
+def test_patterns_keep_the_protocol(pattern: Pattern) -> None:
+    assert isinstance(pattern, Pattern)
+    assert PATTERNS[pattern.name] is type(pattern)
+    assert pattern.summary
+    assert pattern.line_spacing(REGIONS[0]) > 0
+    assert parameters(pattern)
+
+
+@every_design
+@pytest.mark.parametrize("spacing", [0, -1, math.nan, math.inf])
+def test_a_bad_spacing_of_points_is_refused(pattern: Pattern, spacing: float) -> None:
+    with pytest.raises(PatternError, match="spacing"):
+        pattern.points(REGIONS[0], spacing)
+
+
+@pytest.mark.parametrize("name", list(PATTERNS.built_in))
+@pytest.mark.parametrize("value", [0, -3, math.nan, math.inf, 1e9])
+def test_a_bad_cell_is_refused(name: str, value: float) -> None:
+    with pytest.raises(PatternError, match=f"cell of {name}"):
+        PATTERNS[name](cell=value)
+
+
+@pytest.mark.parametrize("name", ["honeycomb", "zigzag"])
+def test_the_frame_is_the_outline_of_the_region(name: str) -> None:
+    region = REGIONS[3]
+    bare, framed = (PATTERNS[name](frame=frame).lines(region) for frame in (False, True))
+    assert framed.length == pytest.approx(bare.length + region.length)
+
+
+def test_framed_designs_hang_together() -> None:
+    for name in ("honeycomb", "zigzag"):
+        assert bodies(PATTERNS[name]().lines(REGIONS[0])).max() == 0
+
+
+@given(
+    cell=st.floats(2, 15),
+    angle=st.floats(-math.pi, math.pi),
+    x=st.floats(-20, 20),
+    y=st.floats(-20, 20),
+)
+def test_honeycomb_density_is_exact(cell: float, angle: float, x: float, y: float) -> None:
+    """A wall length of 2 / cell on every mm², whatever the angle and phase."""
+    region = shapely.Point(0, 0).buffer(20 * cell, quad_segs=64)
+    lines = Honeycomb(cell=cell, angle=angle, phase=(x, y), frame=False).lines(region)
+    # The edge of the disc cuts cells at random: 120 cells around it, 1 % of 1450.
+    assert lines.length / region.area == pytest.approx(2 / cell, rel=0.01)
+
+
+def test_honeycomb_is_regular() -> None:
+    """About (0, 0) lies a hexagon with equal sides, `cell` across."""
+    cell = 6.0
+    lines = Honeycomb(cell=cell, frame=False).lines(box(-3.5, -3.7, 3.5, 3.7))
+    joined = shapely.union_all(shapely.set_precision(lines, 1e-9))  # corners agree to rounding only
+    hexagon = max(shapely.polygonize([joined]).geoms, key=lambda polygon: polygon.area)
+    assert hexagon.centroid.distance(shapely.Point(0, 0)) < ROUNDING
+    corners = shapely.get_coordinates(hexagon)[:-1]
+    assert len(corners) == 6
+    assert np.linalg.norm(corners, axis=1) == pytest.approx(cell / math.sqrt(3))
+    assert hexagon.area == pytest.approx(math.sqrt(3) / 2 * cell**2)
+
+
+def test_phase_and_angle_move_the_honeycomb_rigidly() -> None:
+    region = shapely.Point(0, 0).buffer(12, quad_segs=90)
+    plain = Honeycomb(frame=False).lines(region)
+    turned = Honeycomb(frame=False, angle=0.4).lines(region)
+    expected = shapely.affinity.rotate(plain, 0.4, origin=(0, 0), use_radians=True)
+    assert shapely.hausdorff_distance(turned, expected) < 0.2  # the disc is a polygon, cut elsewhere
+    period = Honeycomb(frame=False, phase=(6.0, 0.0)).lines(region)
+    assert shapely.hausdorff_distance(plain, period) < ROUNDING
+
+
+def test_zigzag_is_the_papers_design() -> None:
+    """In the square |x|, |y| <= 1.5 / sqrt 2, 7.5 waves are y = 1.5 sin(5 pi x) turned by 45 degrees."""
+    half = 1.5 / math.sqrt(2)
+    region = box(-half, -half, half, half)
+    x = np.linspace(-1.5, 1.5, 20001)
+    wave = np.stack([x, 1.5 * np.sin(5 * math.pi * x)], axis=-1)
+    lines = Zigzag(waves=7.5, frame=False).lines(region)
+    drawn = [shapely.affinity.rotate(shapely.LineString(wave), a, origin=(0, 0)) for a in (45, -45)]
+    expected = shapely.unary_union([each.intersection(region) for each in drawn])
+    # Chords of a wave, 512 a period, against chords ten times finer: 1e-3 of the amplitude apart.
+    assert shapely.hausdorff_distance(lines, expected) < 2e-3
+    assert Zigzag(waves=7.5).line_spacing(region) == pytest.approx(0.2)
+
+
+def test_the_heart_is_symmetric_about_the_diagonal() -> None:
+    heart = outline()
+    assert np.array_equal(heart, heart[::-1, ::-1])
+    assert np.array_equal(heart[0], heart[-1])
+
+
+def test_the_heart_is_a_square_with_two_half_discs() -> None:
+    polygon = shapely.Polygon(outline())
+    assert polygon.is_valid
+    assert polygon.area == pytest.approx(1 + math.pi / 4, rel=1e-4)  # 256 chords an arc
+    assert polygon.bounds == pytest.approx((0, 0, 1.5, 1.5))
+    assert polygon.distance(shapely.Point(0, 0)) == 0
+
+
+@pytest.mark.parametrize("hearts", [1, 2, 5])
+def test_hearts_are_nested_with_even_gaps(hearts: int) -> None:
+    region = box(-30, -30, 30, 30)
+    lines = ConcentricHeart(hearts=hearts).lines(region)
+    assert bodies(lines).max() + 1 == hearts
+    assert lines.bounds == pytest.approx(region.bounds)
+    polygons = sorted(map(shapely.Polygon, lines.geoms), key=lambda polygon: -shapely.envelope(polygon).area)
+    left = [polygon.bounds[0] for polygon in polygons]
+    gap = 40 / (2 * hearts)  # the square under the largest heart has a side of 60 / 1.5
+    assert np.diff(left) == pytest.approx(gap)
+    assert ConcentricHeart(hearts=hearts).line_spacing(region) == pytest.approx(gap)
+
+
+def test_a_region_without_area_is_refused() -> None:
+    with pytest.raises(PatternError, match="no area"):
+        ConcentricHeart().lines(box(0, 0, 0, 5))
+
+
+def test_the_registry_names_the_nearest() -> None:
+    with pytest.raises(PatternError, match="did you mean 'honeycomb'"):
+        PATTERNS.find("honycomb")
+    with pytest.raises(PatternError, match="there are concentric-heart"):
+        PATTERNS.find("qqqq")
+
+
+class Lines(Pattern):
+    """A plug-in of the smallest kind."""
+
+    name = "lines"
+    summary = "parallel lines"
+
+    def lines(self, region: shapely.Polygon, z: float = 0.0) -> shapely.MultiLineString:
+        x0, y0, x1, y1 = region.bounds
+        return shapely.MultiLineString([[(x, y0), (x, y1)] for x in np.arange(x0 + 2, x1, 4)])
+
+    def line_spacing(self, region: shapely.Polygon) -> float:
+        return 4.0
+
+
+def registry_with(*entries: EntryPoint) -> Registry:
+    return Registry((Honeycomb,), plugins=lambda: list(entries))
+
+
+def entry(name: str, value: str) -> EntryPoint:
+    return EntryPoint(name=name, value=value, group="infill.patterns")
+
+
+def test_a_plugin_is_a_pattern_like_any_other() -> None:
+    registry = registry_with(entry("lines", f"{__name__}:Lines"))
+    assert list(registry) == ["honeycomb", "lines"]
+    pattern = registry.find("lines")()
+    assert pattern.points(REGIONS[0], 1.0).shape[1] == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "says"),
+    [
+        ("gone", "no_such_module:Thing", "ModuleNotFoundError"),
+        ("odd", "math:pi", "no pattern class|not a pattern class"),
+        ("honeycomb", f"{__name__}:Lines", "the name is taken"),
+    ],
+)
+def test_a_broken_plugin_is_one_warning_that_names_it(name: str, value: str, says: str) -> None:
+    registry = registry_with(entry(name, value), entry("lines", f"{__name__}:Lines"))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert set(registry) == {"honeycomb", "lines"}
+        assert registry["honeycomb"] is Honeycomb
+        assert len(registry) == 2
+    assert len(caught) == 1
+    assert issubclass(caught[0].category, PatternWarning)
+    assert name in str(caught[0].message)
+    assert says.split("|")[-1] in str(caught[0].message)
+
+
+def test_parameters_carry_their_range() -> None:
+    field = described(3, "a number", low=1, high=5)
+    assert field.metadata["parameter"].high == 5
+    assert parameters(Lines) == {}
+
+
+@pytest.mark.parametrize("angle", [4.0, -4.0, math.nan])
+def test_a_bad_angle_is_told_in_degrees(angle: float) -> None:
+    with pytest.raises(PatternError, match="from -180 to 180 degrees"):
+        Honeycomb(angle=angle)

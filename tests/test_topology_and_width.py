@@ -1,0 +1,207 @@
+"""What hangs together, what smoothing broke, and how wide walls are."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from infill import Grid, ParameterError, Smoothing, smooth, stamp_lines, wall_width
+from infill.topology import Changes, Topology, changes, regions, topology
+from patterns import Honeycomb
+
+NONE = Changes(broken=0, vanished=0, fused=0, closed=0, pinholes=0)
+
+
+def drawn(text: str) -> np.ndarray:
+    """A layer from rows of # and . of equal length."""
+    return np.array([[1.0 if c == "#" else -1.0 for c in row] for row in text.split()])
+
+
+def flooded(inside: np.ndarray, corners: bool) -> int:
+    """Count bodies by walking from cell to cell."""
+    left = {tuple(cell) for cell in np.argwhere(inside)}
+    steps = [(1, 0), (-1, 0), (0, 1), (0, -1)] + ([(1, 1), (1, -1), (-1, 1), (-1, -1)] if corners else [])
+    count = 0
+    while left:
+        count += 1
+        todo = [left.pop()]
+        while todo:
+            x, y = todo.pop()
+            for dx, dy in steps:
+                if (x + dx, y + dy) in left:
+                    left.remove((x + dx, y + dy))
+                    todo.append((x + dx, y + dy))
+    return count
+
+
+@given(seed=st.integers(0, 2**32 - 1), share=st.floats(0.2, 0.8))
+def test_counts_are_those_of_a_walk(seed: int, share: float) -> None:
+    """On +1 and -1 an undecided saddle is void: solid hangs together at sides, void at corners too."""
+    solid = np.random.default_rng(seed).random((11, 13)) < share
+    found = topology(np.where(solid, 1.0, -1.0))
+    assert found.components == flooded(solid, corners=False)
+    assert found.holes == flooded(np.pad(~solid, 1, constant_values=True), corners=True) - 1
+
+
+def test_a_saddle_decides_who_is_joined() -> None:
+    strong_solid = np.array([[0.9, -0.1], [-0.1, 0.9]])
+    assert topology(strong_solid) == Topology(components=1, holes=0)
+    assert topology(-strong_solid) == Topology(components=2, holes=0)
+    assert topology(strong_solid[::-1]) == Topology(components=1, holes=0)
+    assert topology(strong_solid).euler_number == 1
+
+
+def test_saddles_join_rings() -> None:
+    ring = np.array([[-1, 0.9, -1.0], [0.9, -1, 0.9], [-1, 0.9, -1.0]])
+    assert topology(ring) == Topology(components=4, holes=0)
+    joined = np.where(ring == -1, -0.2, ring)
+    assert topology(joined) == Topology(components=1, holes=1)
+
+
+def compare(before: str, after: str) -> Changes:
+    return changes(regions(drawn(before)), regions(drawn(after)))
+
+
+RING = """
+#########
+#.......#
+#.......#
+#.......#
+#.......#
+#########
+"""
+
+
+def test_no_change_is_none() -> None:
+    assert compare(RING, RING) == NONE
+    assert NONE.harmless
+
+
+def test_a_broken_ring_is_found() -> None:
+    found = compare(RING, RING.replace("#.......#", "#........", 1))
+    assert found.broken == 1
+    assert not found.harmless
+
+
+def test_a_wall_that_falls_apart_is_found() -> None:
+    wall = ".........\n.#######.\n.#######.\n........."
+    assert compare(wall, wall.replace("#######", "###.###")).broken == 1
+
+
+def test_a_part_that_vanishes_is_found() -> None:
+    two = ".........\n.##...##.\n.##...##.\n........."
+    assert compare(two, two.replace("...##.", "......")).vanished == 1
+
+
+def test_parts_that_run_together_are_found() -> None:
+    two = ".........\n.##...##.\n.##...##.\n........."
+    assert compare(two, two.replace("##...##", "#######")).fused == 1
+
+
+def test_a_hole_that_closes_is_found() -> None:
+    assert compare(RING, RING.replace(".", "#")).closed == 1
+
+
+def test_a_void_that_is_cut_in_two_is_found() -> None:
+    assert compare(RING, RING.replace("#.......#", "#...#...#")).fused == 1
+
+
+def test_pinholes_are_counted_apart() -> None:
+    narrow = "#########\n#.......#\n#.......#\n#########"
+    found = compare(narrow, narrow.replace(".", "#"))
+    assert found == Changes(broken=0, vanished=0, fused=0, closed=0, pinholes=1)
+    assert found.harmless
+
+
+def test_a_neck_that_closes_is_a_pinhole() -> None:
+    dumbbell = "###########\n#...###...#\n#.........#\n#...###...#\n###########"
+    assert compare(dumbbell, dumbbell.replace("#.........#", "#...###...#")) == Changes(
+        broken=0, vanished=0, fused=0, closed=0, pinholes=1
+    )
+
+
+def test_a_new_hole_in_a_wall_is_a_break() -> None:
+    solid = "#######\n" * 7
+    assert compare(solid, solid[:25] + "." + solid[26:]).broken == 1
+
+
+def test_what_kills_a_wall_is_seen() -> None:
+    """A ring of walls 3 cells thick is whole after 10 steps and gone after 30."""
+    f = -np.ones((60, 60))
+    f[10:50, 10:50] = 1
+    f[13:47, 13:47] = -1
+    before = regions(f)
+    assert changes(before, regions(smooth(f, Smoothing(steps=10)))) == NONE
+    assert not changes(before, regions(smooth(f, Smoothing(steps=60)))).harmless
+
+
+def wall(angle: float, width: float) -> tuple[shapely.MultiLineString, Grid]:
+    along = 20 * np.array([math.cos(angle), math.sin(angle)])
+    grid = Grid(shape=(200, 200), spacing=0.1, origin=(-10, -10))
+    return shapely.MultiLineString([[tuple(-along), tuple(along)]]), grid
+
+
+@given(angle=st.floats(0, math.pi), width=st.floats(0.3, 2.0))
+def test_a_straight_wall_has_its_width(angle: float, width: float) -> None:
+    lines, grid = wall(angle, width)
+    inside = shapely.MultiLineString([part for part in [lines.geoms[0].intersection(shapely.box(-7, -7, 7, 7))]])
+    found = wall_width(inside, stamp_lines(lines, grid, width=width), grid, requested=width)
+    # Between cell centres the clipped distance is bent: by up to 4 % of a cell on either side.
+    assert found.mean == pytest.approx(width, abs=0.004)
+    assert found.p5 == pytest.approx(width, abs=0.012)
+    assert found.p95 == pytest.approx(width, abs=0.012)
+
+
+def test_a_missing_wall_has_no_width() -> None:
+    lines, grid = wall(0.3, 0.5)
+    found = wall_width(lines, -np.ones(grid.shape), grid, requested=0.5)
+    assert (found.mean, found.p5, found.p95) == (0, 0, 0)
+
+
+def test_half_a_missing_wall_shows_at_the_5th_percentile() -> None:
+    lines, grid = wall(0.0, 0.5)
+    field = stamp_lines(lines, grid, width=0.5)
+    field[100:115] = -1
+    found = wall_width(lines, field, grid, requested=0.5)
+    assert found.p5 == 0
+    assert found.p95 == pytest.approx(0.5, abs=0.01)
+
+
+def test_nodes_are_left_out() -> None:
+    lines = Honeycomb(cell=6, frame=False).lines(shapely.box(-9, -9, 9, 9))
+    grid = Grid(shape=(250, 250), spacing=0.08, origin=(-10, -10))
+    found = wall_width(lines, stamp_lines(lines, grid, width=0.4), grid, requested=0.4)
+    assert found.samples > 50
+    assert found.p95 == pytest.approx(0.4, rel=0.03)
+
+
+def test_lines_with_no_clear_place_have_no_width() -> None:
+    lines = shapely.MultiLineString([[(0, 0), (0.2, 0)]])
+    grid = Grid(shape=(20, 20), spacing=0.1, origin=(-1, -1))
+    found = wall_width(lines, -np.ones(grid.shape), grid, requested=0.5)
+    assert found.samples == 0
+    assert math.isnan(found.mean)
+
+
+def test_the_layer_must_be_the_grids() -> None:
+    lines, grid = wall(0.0, 0.5)
+    with pytest.raises(ParameterError, match="shape"):
+        wall_width(lines, np.ones((3, 3)), grid, requested=0.5)
+
+
+@pytest.mark.parametrize("degrees", [0, 7, 15, 22.5, 45])
+def test_the_exact_stamp_keeps_the_width_through_smoothing(degrees: float) -> None:
+    """Five cells across, ten steps: 1 % in the mean, 2 % from the 5th to the 95th percentile."""
+    width = 0.45
+    grid = Grid(shape=(500, 500), spacing=width / 5, origin=(-22.5, -22.5))
+    lines = Honeycomb(angle=math.radians(degrees)).lines(shapely.box(-22.275, -22.275, 22.275, 22.275))
+    found = wall_width(lines, smooth(stamp_lines(lines, grid, width=width)), grid, requested=width)
+    assert found.samples > 1000
+    assert found.mean == pytest.approx(width, rel=0.01)
+    assert found.p5 > 0.98 * width
+    assert found.p95 < 1.02 * width
