@@ -20,7 +20,7 @@ from infill.checks import positive, whole
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 
-STEEPNESS = math.atanh(0.9)  # the interface is measured from phi = -0.9 to phi = 0.9
+STEEPNESS = math.atanh(0.9)  # the interface is measured from the surface to phi = 0.9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,7 +38,7 @@ class Smoothing:
         lam h^2: how strongly the data hold. 0.01 (the paper's lam = 100 at h = 0.01) gives way;
         1 keeps a wall of 3 cells for ever, and with it the staircase.
     interface : float
-        m: the width of the interface in cells, eps = m h / (sqrt(2) artanh 0.9).
+        m: cells from the surface to phi = 0.9, eps = m h / (sqrt(2) artanh 0.9).
     alpha : float
         Time step over h^2. Explicit diffusion is stable up to 1/4 in 2D and 1/6 in 3D.
 

@@ -173,9 +173,14 @@ def in_degrees(pattern: Pattern) -> dict[str, Any]:
     """Return the parameters of a pattern by name, angles in degrees."""
     values = {name: getattr(pattern, name) for name in parameters(pattern)}
     return {
-        name: round(math.degrees(value), 9) if parameters(pattern)[name][1].unit == "rad" else value
+        name: round(math.degrees(value), 9) if parameters(pattern)[name][1].unit == "rad" else _plain(value)
         for name, value in values.items()
     }
+
+
+def _plain(value: object) -> object:
+    """Return a list for a tuple: what JSON and TOML give back."""
+    return list(value) if isinstance(value, tuple) else value
 
 
 def _radians(pattern: str, values: dict[str, Any]) -> dict[str, Any]:

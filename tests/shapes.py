@@ -48,7 +48,8 @@ SIZES: list[tuple[tuple[float, float], float]] = [
 def as_manifold(mesh: Any) -> manifold3d.Manifold:
     return manifold3d.Manifold(
         manifold3d.Mesh(
-            vert_properties=np.asarray(mesh.vertices, dtype=np.float32), tri_verts=np.asarray(mesh.faces, dtype=np.uint32)
+            vert_properties=np.asarray(mesh.vertices, dtype=np.float32),
+            tri_verts=np.asarray(mesh.faces, dtype=np.uint32),
         )
     )
 

@@ -10,11 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import ndimage
+from shapes import smooth_noise
 
 from infill import ParameterError, Smoothing, rescale, smooth
 from infill.allen_cahn import laplacian
 from infill.smoothing import KERNELS
-from shapes import smooth_noise
 
 FAST = 2e-5  # what the issue allows a float32 kernel over 30 steps
 EXACT = 1e-10
@@ -148,7 +148,9 @@ class TestLaws:
     def test_commutes_with_mirrors(self, method: str, shape: tuple[int, ...], rng: np.random.Generator) -> None:
         f = rng.uniform(-1, 1, shape)
         for axis in range(len(shape)):
-            assert np.allclose(smooth(np.flip(f, axis), method=method), np.flip(smooth(f, method=method), axis), atol=1e-6)
+            assert np.allclose(
+                smooth(np.flip(f, axis), method=method), np.flip(smooth(f, method=method), axis), atol=1e-6
+            )
 
     def test_commutes_with_transposing(self, method: str, shape: tuple[int, ...], rng: np.random.Generator) -> None:
         f = rng.uniform(-1, 1, shape)
@@ -196,7 +198,9 @@ class TestLaws:
         assert np.allclose(whole[4:], smooth(f[4:], method=method), atol=1e-6)
 
     @pytest.mark.parametrize("kind", [bool, np.int8, np.uint8, np.float16, np.float32, ">f8"])
-    def test_takes_any_real_type(self, method: str, shape: tuple[int, ...], kind: Any, rng: np.random.Generator) -> None:
+    def test_takes_any_real_type(
+        self, method: str, shape: tuple[int, ...], kind: Any, rng: np.random.Generator
+    ) -> None:
         f = rng.random(shape) > 0.5
         signs = np.where(f, 1.0, -1.0)
         given_as = f if kind is bool else (f if kind is np.uint8 else signs).astype(kind)

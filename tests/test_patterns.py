@@ -12,13 +12,22 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from shapely import box
+from shapes import DESIGNS, REGIONS
 
-from patterns import PATTERNS, ConcentricHeart, Honeycomb, Pattern, PatternError, PatternWarning, Registry, Zigzag
+from patterns import (
+    PATTERNS,
+    ConcentricHeart,
+    Honeycomb,
+    Pattern,
+    PatternError,
+    PatternWarning,
+    Registry,
+    Zigzag,
+    parameters,
+)
 from patterns import parameter as described
-from patterns import parameters
 from patterns.heart import outline
 from patterns.linework import bodies, sample
-from shapes import DESIGNS, REGIONS
 
 ROUNDING = 1e-9  # mm: clipping computes the cut points
 

@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
+from shapes import assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Smoothing, Surface, extrude, isosurface, smooth, stack
 from infill.stacking import layer_count
 from infill.topology import topology
-from shapes import assert_printable, smooth_noise
 
 
 def ball(radius: float = 12.0, half: int = 16) -> np.ndarray:
@@ -118,7 +118,11 @@ def test_a_layer_has_two_axes() -> None:
 @pytest.mark.parametrize("kind", ["smoothed", "binary", "saddles"])
 def test_extruding_is_stacking(layers: int, kind: str, rng: np.random.Generator) -> None:
     f = np.sign(smooth_noise(rng, (40, 33)))
-    layer = {"smoothed": smooth(f), "binary": f, "saddles": smooth(np.sign(rng.uniform(-1, 1, (40, 33))), Smoothing(steps=1))}
+    layer = {
+        "smoothed": smooth(f),
+        "binary": f,
+        "saddles": smooth(np.sign(rng.uniform(-1, 1, (40, 33))), Smoothing(steps=1)),
+    }
     thickness = 0.3
     short = extrude(layer[kind], layers * thickness, (0.2, 0.25), layer_height=thickness, origin=(1, 2, 3))
     full = isosurface(stack(layer[kind], layers), spacing=(0.2, 0.25, thickness), origin=(1, 2, 3 - thickness))

@@ -149,12 +149,14 @@ def wall(angle: float, width: float) -> tuple[shapely.MultiLineString, Grid]:
 @given(angle=st.floats(0, math.pi), width=st.floats(0.3, 2.0))
 def test_a_straight_wall_has_its_width(angle: float, width: float) -> None:
     lines, grid = wall(angle, width)
-    inside = shapely.MultiLineString([part for part in [lines.geoms[0].intersection(shapely.box(-7, -7, 7, 7))]])
-    found = wall_width(inside, stamp_lines(lines, grid, width=width), grid, requested=width)
-    # Between cell centres the clipped distance is bent: by up to 4 % of a cell on either side.
-    assert found.mean == pytest.approx(width, abs=0.004)
-    assert found.p5 == pytest.approx(width, abs=0.012)
-    assert found.p95 == pytest.approx(width, abs=0.012)
+    inside = shapely.MultiLineString([lines.geoms[0].intersection(shapely.box(-7, -7, 7, 7))])
+    x, y = np.meshgrid(grid.centres(0), grid.centres(1), indexing="ij")
+    field = width / 2 - shapely.distance(shapely.points(x, y), lines)
+    found = wall_width(inside, field, grid, requested=width)
+    # The distance is linear across the edges of the wall: nothing but rounding is left.
+    assert found.mean == pytest.approx(width, abs=1e-6)
+    assert found.p5 == pytest.approx(width, abs=1e-6)
+    assert found.p95 == pytest.approx(width, abs=1e-6)
 
 
 def test_a_missing_wall_has_no_width() -> None:

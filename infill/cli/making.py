@@ -100,7 +100,7 @@ def make(
     ] = None,
     interface: Annotated[
         Optional[float],  # noqa: UP045
-        typer.Option(help="Width of the smoothed edge in cells. (default: 2)", rich_help_panel=BLOCK),
+        typer.Option(help="Cells from the surface to phi = 0.9. (default: 2)", rich_help_panel=BLOCK),
     ] = None,
     alpha: Annotated[
         Optional[float],  # noqa: UP045

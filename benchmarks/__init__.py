@@ -1,0 +1,1 @@
+"""Benchmarks: each figure of speed, paired with its peer in one run."""

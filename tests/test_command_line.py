@@ -1,0 +1,502 @@
+"""One contract for every command, then each command as a user types it."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from importlib.metadata import EntryPoint, entry_points
+from pathlib import Path
+from typing import Any, ClassVar
+
+import pytest
+import shapely
+from shapes import BUILT_IN
+from typer.testing import CliRunner
+
+import infill
+from infill import ParameterError, read_mesh
+from infill.cli import build
+from infill.cli.console import as_bytes
+from infill.settings import MakeSettings, parse_bytes, parse_size, resolve
+from patterns import Pattern, Registry, parameter
+
+COMMANDS = ["make", "list", "check"]
+SMALL = ["--size", "20", "--height", "2"]
+RUN = [sys.executable, "-m", "infill.cli"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rings(Pattern):
+    name: ClassVar[str] = "rings"
+    summary: ClassVar[str] = "rings about the middle"
+    rings: int = parameter(1, "how many", unit="", low=1, high=9)
+
+    def lines(self, region: Any, z: float = 0.0) -> shapely.MultiLineString:
+        middle = shapely.centroid(region)
+        return shapely.MultiLineString([middle.buffer(3.0 * (i + 1)).exterior for i in range(self.rings)])
+
+    def line_spacing(self, region: Any) -> float:
+        return 3.0
+
+
+def run(*words: str | Path) -> Any:
+    return CliRunner().invoke(build(plugins=False), [str(word) for word in words])
+
+
+def plain(text: str) -> str:
+    """Return help text without boxes, colours and line breaks."""
+    return re.sub(r"[\s│╭╮╰╯─]+", " ", re.sub(r"\x1b\[[0-9;]*m", "", text))
+
+
+def one_line_error(result: Any, says: str) -> None:
+    """An error of ours: exit 1, one line on stderr, nothing on stdout."""
+    assert result.exit_code == 1, result.output
+    assert result.stdout == ""
+    assert re.search(says, result.stderr), result.stderr
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.count("\n") == 1
+
+
+# --- every command ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_has_an_example_and_exits_0(command: str) -> None:
+    for flag in ("--help", "-h"):
+        result = run(command, flag)
+        assert result.exit_code == 0
+        assert f"Example: infill {command}" in plain(result.stdout)
+
+
+def test_help_names_every_command() -> None:
+    text = plain(run("--help").stdout)
+    assert all(command in text for command in COMMANDS)
+    assert "Example: infill make" in text
+
+
+@pytest.mark.parametrize("words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]])  # fmt: skip
+def test_usage_errors_exit_2(words: list[str]) -> None:
+    assert run(*words).exit_code == 2
+
+
+def test_the_version_is_the_packages() -> None:
+    assert run("--version").stdout == f"infill {infill.__version__} (phasefill)\n"
+
+
+def test_both_names_are_the_same_program() -> None:
+    scripts = {entry.name: entry.value for entry in entry_points(group="console_scripts")}
+    assert scripts["infill"] == scripts["phasefill"] == "infill.cli:main"
+
+
+def test_completion_is_there() -> None:
+    environment = {**os.environ, "_INFILL_COMPLETE": "complete_bash", "COMP_WORDS": "infill make ho", "COMP_CWORD": "2"}
+    code = "import sys; sys.argv = ['infill']; from infill.cli import main; main()"
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert "honeycomb" in done.stdout
+
+
+def test_the_readme_names_every_command() -> None:
+    readme = (Path(__file__).resolve().parents[1] / "README.md").read_text(encoding="utf-8")
+    for command in COMMANDS:
+        assert f"infill {command}" in readme
+
+
+# --- list ------------------------------------------------------------------------------------------------
+
+
+def test_list_shows_each_pattern_with_its_options() -> None:
+    text = run("list").stdout
+    for name in BUILT_IN:
+        assert name in text
+    assert "--waves" in text
+
+
+def test_list_as_json() -> None:
+    found = json.loads(run("list", "--json").stdout)["patterns"]
+    assert set(found) == set(BUILT_IN)
+    assert found["honeycomb"]["options"]["angle"] == {
+        "help": "turns the pattern counter-clockwise", "unit": "degrees", "default": 0.0, "low": -180.0, "high": 180.0
+    }  # fmt: skip
+    assert found["zigzag"]["options"]["waves"]["default"] is None
+
+
+# --- check -----------------------------------------------------------------------------------------------
+
+
+def test_check_says_yes_and_no(tmp_path: Path) -> None:
+    mesh = infill.make("honeycomb", size=20, height=2).mesh
+    good, bad = infill.save(mesh, tmp_path / "good.stl"), tmp_path / "bad.stl"
+    mesh.update_faces([i > 0 for i in range(len(mesh.faces))])
+    infill.save(mesh, bad)
+    result = run("check", good)
+    assert result.exit_code == 0
+    assert "printable           yes" in result.stdout
+    result = run("check", bad)
+    assert result.exit_code == 1
+    assert "NO" in result.stdout
+    assert "not closed" in result.stdout
+    found = json.loads(run("check", bad, "--json").stdout)
+    assert found["printable"] is False
+    assert found["open_edges"] == 3
+
+
+def test_check_strict_minds_warnings(data: Path) -> None:
+    path = data / "nasty" / "zero_area_triangle.stl"
+    assert run("check", path).exit_code == 0
+    assert run("check", path, "--strict").exit_code == 1
+
+
+def test_check_tells_what_it_cannot_read(tmp_path: Path) -> None:
+    one_line_error(run("check", tmp_path / "gone.stl"), "there is no file")
+
+
+# --- make ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.parametrize("suffix", [".stl", ".3mf", ".obj", ".ply", ".glb"])
+def test_make_writes_a_closed_mesh(name: str, suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"block{suffix}"
+    result = run("make", name, *SMALL, "-o", path)
+    assert result.exit_code == 0, result.output
+    assert result.stdout == ""
+    assert "closed" in result.stderr
+    assert read_mesh(path).closed
+
+
+def test_make_reports_as_json(tmp_path: Path) -> None:
+    path = tmp_path / "a.stl"
+    result = run("make", "honeycomb", *SMALL, "--angle", "30", "-o", path, "--json")
+    report = json.loads(result.stdout)
+    assert report["files"] == [str(path)]
+    assert report["parameters"]["angle"] == 30
+    assert report["closed"] is True
+    assert read_mesh(path).volume == pytest.approx(report["volume"], rel=1e-5)
+
+
+def test_make_writes_several_files_and_a_picture(tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in ("a.stl", "a.3mf", "a.png")]
+    result = run("make", "zigzag", *SMALL, "-o", paths[0], "-o", paths[1], "--preview", paths[2], "-v")
+    assert result.exit_code == 0, result.output
+    assert all(path.stat().st_size > 1000 for path in paths)
+    assert "seconds" in result.stderr
+    assert "cells of 0.15 mm" in result.stderr
+
+
+def test_make_is_quiet_on_request(tmp_path: Path) -> None:
+    result = run("make", "honeycomb", *SMALL, "-o", tmp_path / "a.stl", "-q")
+    assert (result.stdout, result.stderr) == ("", "")
+
+
+def test_make_can_only_report() -> None:
+    assert json.loads(run("make", "honeycomb", *SMALL, "--json").stdout)["files"] == []
+
+
+def test_make_without_anything_to_write_is_a_usage_error() -> None:
+    assert run("make", "honeycomb").exit_code == 2
+
+
+def test_make_writes_stl_as_text(tmp_path: Path) -> None:
+    run("make", "honeycomb", *SMALL, "-o", tmp_path / "a.stl", "--ascii")
+    assert (tmp_path / "a.stl").read_bytes().startswith(b"solid")
+
+
+def test_make_tells_pinholes_and_problems(tmp_path: Path) -> None:
+    words = ["make", "honeycomb", "--size", "25", "--cell", "2.5", "--height", "2", "-o", tmp_path / "a.stl"]
+    assert "pinholes" in run(*words).stderr
+    words = ["make", "honeycomb", *SMALL, "--stamp", "exact", "--cells", "3", "--steps", "25", "-o", tmp_path / "b.stl"]
+    one_line_error(run(*words), "--allow-broken")
+    assert not (tmp_path / "b.stl").exists()
+    assert "PROBLEMS" in run(*words, "--allow-broken").stderr
+
+
+def test_walls_that_cannot_be_measured_are_said_so(tmp_path: Path) -> None:
+    words = ["--size", "1.8", "--cell", "1.35", "--height", "1", "-o", tmp_path / "a.stl"]
+    assert "not measured: no wall stands clear" in run("make", "honeycomb", *words).stderr
+    assert json.loads(run("make", "honeycomb", *words, "--force", "--json").stdout)["wall_width"]["mean"] is None
+
+
+def test_dry_run_writes_nothing(tmp_path: Path) -> None:
+    words = ["make", "honeycomb", "--size", "250x210", "-o", tmp_path / "a.stl", "--dry-run"]
+    result = run(*words)
+    assert result.exit_code == 0
+    assert "1667 x 1400 cells of 0.15 mm" in result.stdout
+    assert list(tmp_path.iterdir()) == []
+    facts = json.loads(run(*words, "--json").stdout)
+    assert facts["stl_bytes"] == 50 * facts["triangles"]
+
+
+def test_every_parameter_of_a_pattern_is_an_option() -> None:
+    text = plain(run("make", "--help").stdout)
+    for word in ("--cell", "--waves", "--hearts", "--angle", "--phase", "--frame", "--no-frame"):
+        assert word in text
+    assert "(0.01 to 1000 mm; default: 6)" in text
+    assert "(-180 to 180 degrees; default: 0)" in text
+
+
+def test_a_plugin_brings_its_own_options(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    entry = EntryPoint(name="rings", value=f"{__name__}:Rings", group="infill.patterns")
+    registry = Registry(tuple(infill.settings.PATTERNS.built_in.values()), plugins=lambda: [entry])
+    for module in ("infill.cli", "infill.cli.making", "infill.cli.listing", "infill.settings", "infill.plan"):
+        monkeypatch.setattr(f"{module}.PATTERNS", registry)
+    runner = CliRunner()
+    assert "--rings" in plain(runner.invoke(build(), ["make", "--help"]).stdout)
+    done = runner.invoke(build(), ["make", "rings", *SMALL, "--rings", "2", "-o", str(tmp_path / "a.stl")])
+    assert done.exit_code == 0, done.output
+    assert read_mesh(tmp_path / "a.stl").to_trimesh().body_count == 2
+
+
+# --- settings --------------------------------------------------------------------------------------------
+
+
+def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
+    config, one, other = tmp_path / "a.toml", tmp_path / "a.stl", tmp_path / "b.stl"
+    words = [
+        *SMALL,
+        "--cell",
+        "4",
+        "--angle",
+        "12.5",
+        "--phase",
+        "0.5",
+        "1",
+        "--no-frame",
+        "--stamp",
+        "exact",
+        "--steps",
+        "8",
+    ]
+    assert run("make", "honeycomb", *words, "--save-config", config, "-o", one).exit_code == 0
+    assert run("make", "--config", config, "-o", other).exit_code == 0
+    assert one.read_bytes() == other.read_bytes()
+    assert run("make", "--config", config, "--save-config", config, "--force").exit_code == 0
+    assert "angle = 12.5" in config.read_text()
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_settings_survive_the_file(name: str, tmp_path: Path) -> None:
+    settings = resolve({"pattern": name, "size": "30x20", "cell": 5, "angle": 20, "alpha": 0.2})
+    settings.save(tmp_path / "a.toml")
+    again = resolve({}, tmp_path / "a.toml")
+    assert again.to_toml() == settings.to_toml()
+    assert again.plan().pattern == settings.plan().pattern
+
+
+def test_flags_win_over_the_file(tmp_path: Path) -> None:
+    config = tmp_path / "a.toml"
+    config.write_text('pattern = "honeycomb"\nsize = [30, 20]\nline-width = 0.6\ncell = 8\n')
+    settings = resolve({"cell": 5.0, "height": None}, config)
+    assert settings == MakeSettings(pattern="honeycomb", size=(30.0, 20.0), line_width=0.6, parameters={"cell": 5.0})
+    assert settings.height == 6.0
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("size = 20", "no pattern is given"),
+        ('pattern = "honeycomb"\nhieght = 3', "no option 'hieght'; did you mean 'height'"),
+        ('pattern = "honeycomb"\nqqq = 3', "no option 'qqq'; it has cell"),
+        ('pattern = "honeycomb"\nwaves = 3', "honeycomb has no option 'waves'"),
+        ('pattern = "honeycomb"\nheight = "tall"', "height is 'tall'; it must be a number"),
+        ('pattern = "honeycomb"\nframe = 1', "frame is 1; it must be true or false"),
+        ('pattern = "honeycomb"\nphase = [1]', "phase is .1.; it must be 2 numbers"),
+        ('pattern = "honeycomb"\nstamp = 3', "stamp is 3; it must be a word"),
+        ('pattern = "honeycomb"\nsize = [1, 2, 3]', "give millimetres as 60x40"),
+        ('pattern = "honeycomb', "is no TOML"),
+        ('pattern = "honeycomb"\ncell = true', "cell is True; it must be a number"),
+    ],
+)  # fmt: skip
+def test_a_bad_config_is_one_clear_line(text: str, says: str, tmp_path: Path) -> None:
+    config = tmp_path / "a.toml"
+    config.write_text(text)
+    one_line_error(run("make", "--config", config, "-o", tmp_path / "a.stl"), says)
+    assert list(tmp_path.iterdir()) == [config]
+
+
+def test_a_missing_config_is_told(tmp_path: Path) -> None:
+    one_line_error(run("make", "--config", tmp_path / "no.toml", "-o", tmp_path / "a.stl"), "there is no config file")
+    one_line_error(run("make", "--config", tmp_path, "-o", tmp_path / "a.stl"), "cannot read")
+
+
+def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
+    assert parse_size("60") == parse_size(60) == parse_size([60, 60]) == (60, 60)
+    assert parse_size(" 60 × 40 ") == parse_size("60X40") == (60, 40)
+    assert [parse_bytes(text) for text in ("100", "1K", "2 MB", "1.5 GiB")] == [100, 1024, 2 * 2**20, 3 * 2**29]
+    for bad in ("", "x", "60x40x2", "60x", None):
+        with pytest.raises(ParameterError, match="size is"):
+            parse_size(bad)
+    for bad in ("", "-1G", "0", "2Q"):
+        with pytest.raises(ParameterError, match="memory limit"):
+            parse_bytes(bad)
+    assert [as_bytes(n) for n in (5, 12_345, 10_625_284, 3e9, 5e12)] == [
+        "5 B",
+        "12.3 kB",
+        "10.6 MB",
+        "3 GB",
+        "5e+03 GB",
+    ]
+
+
+def test_toml_quotes_what_it_must() -> None:
+    from infill.settings import _toml
+
+    assert _toml('a "b" \\ c') == '"a \\"b\\" \\\\ c"'
+
+
+# --- errors: one clear line, exit 1, nothing written -----------------------------------------------------
+
+BAD = [
+    (["honycomb"], "there is no pattern 'honycomb'; did you mean 'honeycomb'"),
+    (["qqqq"], "there is no pattern 'qqqq'; there are concentric-heart, zigzag, honeycomb"),
+    *[(["honeycomb", option, value], "finite number above 0")
+      for option in ("--size", "--height", "--line-width") for value in ("0", "-3", "nan", "inf")],
+    (["honeycomb", "--size", "60x0"], "size y is 0 mm; it must be a finite number above 0"),
+    (["honeycomb", "--size", "big"], "size is 'big'; give millimetres as 60x40"),
+    *[(["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.01 to 1000 mm") for value in ("0", "-3", "nan", "inf")],
+    (["honeycomb", "--cells", "4"], "no middle cell; use an odd number"),
+    (["honeycomb", "--cells", "0"], "whole number of at least 1"),
+    (["honeycomb", "--cell", "1.3"], "1.3 mm apart, under 3 line widths .1.35 mm."),
+    (["honeycomb", "--alpha", "0.26"], "stable up to 0.25 on this 2D grid; lower alpha"),
+    (["honeycomb", "--alpha", "nan"], "alpha is nan"),
+    (["honeycomb", "--steps", "-1"], "number of steps is -1"),
+    (["honeycomb", "--fidelity", "-1"], "fidelity is -1"),
+    (["honeycomb", "--stamp", "round"], "there is no stamp 'round'; choose block or exact"),
+    (["honeycomb", "--size", "100000"], "needs about .* GiB of memory and .* GiB is at hand; the grid has"),
+    (["honeycomb", "--max-memory", "100M"], "needs about 0.* GiB of memory and 0.10 GiB is allowed"),
+    (["honeycomb", "--max-memory", "lots"], "the memory limit is 'lots'"),
+    (["honeycomb", "--waves", "3"], "honeycomb has no option 'waves'"),
+    (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
+    (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps, more fidelity"),
+    (["honeycomb", "--size", "1"], "no room for walls"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("words", "says"), BAD, ids=[" ".join(words) for words, _ in BAD])
+def test_bad_input_is_one_clear_line(words: list[str], says: str, tmp_path: Path) -> None:
+    one_line_error(run("make", *words, "-o", tmp_path / "a.stl", "--preview", tmp_path / "a.png"), says)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["a.xyz", "a", "a.stl.zip"])
+def test_an_unknown_suffix_is_told_before_the_work(name: str, tmp_path: Path) -> None:
+    one_line_error(run("make", "honeycomb", "-o", tmp_path / name), r"use one of \.stl, \.3mf, \.obj, \.ply, \.glb")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_pictures_are_png(tmp_path: Path) -> None:
+    one_line_error(run("make", "honeycomb", "--preview", tmp_path / "a.jpg"), r"ends in \.png")
+
+
+@pytest.mark.parametrize("flag", ["-o", "--preview", "--save-config"])
+def test_existing_files_are_kept_without_force(flag: str, tmp_path: Path) -> None:
+    path = tmp_path / {"-o": "a.stl", "--preview": "a.png", "--save-config": "a.toml"}[flag]
+    path.write_text("precious")
+    one_line_error(run("make", "honeycomb", *SMALL, flag, path), "exists; .* --force")
+    assert path.read_text() == "precious"
+    assert run("make", "honeycomb", *SMALL, flag, path, "--force").exit_code == 0
+    assert path.read_bytes() != b"precious"
+
+
+def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "no" / "a.stl"), "there is no folder")
+    one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path), "is a folder|cannot tell a mesh format")
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "a.stl"), "may not be written to")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_memory_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*args: Any, **options: Any) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(MakeSettings, "make", full)
+    one_line_error(run("make", "honeycomb", "-o", tmp_path / "a.stl"), "memory is used up")
+
+
+resource = pytest.importorskip("resource", reason="limits of file size are set the POSIX way")
+
+
+@pytest.mark.parametrize("suffix", ["stl", "3mf", "obj", "ply", "glb"])
+def test_a_full_disk_leaves_the_old_file_whole(suffix: str, tmp_path: Path) -> None:
+    """A limit of 20 kB on file size stands for the full disk: the kernel refuses the write in the middle."""
+    path = tmp_path / f"a.{suffix}"
+    path.write_text("precious")
+
+    def limit() -> None:
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+    done = subprocess.run(
+        [*RUN, "make", "honeycomb", "--size", "40", "-o", str(path), "--force"],
+        capture_output=True, text=True, preexec_fn=limit, check=False, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
+    )  # fmt: skip
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: cannot write")
+    assert done.stderr.count("\n") == 1
+    assert path.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("delay", [0.3, 0.6, 1.0, 1.6, 2.4])
+def test_ctrl_c_leaves_no_file(delay: float, tmp_path: Path) -> None:
+    words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "-o", str(tmp_path / "a.stl")]
+    process = subprocess.Popen(
+        [*RUN, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    time.sleep(delay)
+    assert process.poll() is None, "ended before it was interrupted"
+    process.send_signal(signal.SIGINT)
+    stdout, stderr = process.communicate(timeout=30)
+    assert process.returncode != 0
+    assert "Traceback" not in stderr
+    assert stdout == ""
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
+    """On a terminal there is a bar on stderr; stdout stays clean."""
+    leader, follower = pty.openpty()
+    process = subprocess.Popen(
+        [*RUN, "make", "honeycomb", "--size", "60", "--json", "-o", str(tmp_path / "a.stl")],
+        stdout=subprocess.PIPE, stderr=follower, env={**os.environ, "TERM": "xterm"},
+    )  # fmt: skip
+    os.close(follower)
+    stdout, _ = process.communicate(timeout=60)
+    shown = b""
+    while select.select([leader], [], [], 0.5)[0]:
+        try:
+            part = os.read(leader, 65536)
+        except OSError:
+            break
+        if not part:
+            break
+        shown += part
+    os.close(leader)
+    assert process.returncode == 0
+    assert b"smooth" in shown
+    assert math.isfinite(json.loads(stdout)["volume"])
+
+
+def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
+    """A real, broken distribution beside ours: the command works and names it once."""
+    folder = tmp_path / "site" / "broken-1.0.dist-info"
+    folder.mkdir(parents=True)
+    (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
+    (folder / "entry_points.txt").write_text("[infill.patterns]\nbroken = no_such_module:Pattern\n")
+    done = subprocess.run(
+        [*RUN, "list"], capture_output=True, text=True, check=False,
+        env={**os.environ, "PYTHONPATH": str(folder.parent)},
+    )  # fmt: skip
+    assert done.returncode == 0
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.startswith("warning: plug-in pattern 'broken' (no_such_module:Pattern)")
+    assert "honeycomb" in done.stdout

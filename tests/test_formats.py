@@ -1,0 +1,309 @@
+"""One contract for every file format: what is written is read back, whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import math
+import os
+import struct
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from shapes import assert_printable, smooth_noise
+
+from infill import FormatError, OutputError, Surface, isosurface, make, read_mesh, save
+from infill.export import WRITERS
+from infill.output import check_target, whole_file
+from infill.reading import READERS
+
+every_format = pytest.mark.parametrize("suffix", list(WRITERS))
+
+
+@pytest.fixture(scope="module")
+def block() -> trimesh.Trimesh:
+    return make("honeycomb", size=20, height=3, cell=5).mesh
+
+
+@every_format
+def test_a_file_read_back_is_the_same_solid(suffix: str, block: trimesh.Trimesh, tmp_path: Path) -> None:
+    path = save(block, tmp_path / f"block{suffix}")
+    back = read_mesh(path)
+    assert back.closed
+    assert len(back.faces) == len(block.faces)
+    # Coordinates of 32 bits: 10 mm to 1e-6 mm.
+    assert back.volume == pytest.approx(block.volume, rel=1e-5)
+    assert back.bounds == pytest.approx(block.bounds, abs=1e-5)
+    assert_printable(back.to_trimesh())
+
+
+@every_format
+def test_trimesh_reads_it_too(suffix: str, block: trimesh.Trimesh, tmp_path: Path) -> None:
+    path = save(block, tmp_path / f"block{suffix}")
+    if suffix == ".3mf":
+        pytest.importorskip("lxml", reason="trimesh reads 3MF with lxml; lib3mf reads it in another test")
+    back = trimesh.load_mesh(path)
+    back.merge_vertices()
+    assert back.is_volume
+    assert back.volume == pytest.approx(block.volume, rel=1e-5)
+
+
+@every_format
+def test_a_surface_is_saved_as_its_trimesh(suffix: str, block: trimesh.Trimesh, tmp_path: Path) -> None:
+    surface = Surface(vertices=np.asarray(block.vertices), faces=np.asarray(block.faces))
+    one, other = save(block, tmp_path / f"a{suffix}"), save(surface, tmp_path / f"b{suffix.upper()}")
+    if suffix != ".3mf":  # a zip holds the time
+        assert one.read_bytes() == other.read_bytes()
+    assert len(read_mesh(other).faces) == len(block.faces)
+
+
+@every_format
+def test_the_old_file_stays_until_the_new_one_is_whole(
+    suffix: str, block: trimesh.Trimesh, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / f"block{suffix}"
+    path.write_text("precious")
+
+    def full(surface: Surface, file: object) -> None:
+        file.write(b"half of a ")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setitem(WRITERS, suffix, full)
+    with pytest.raises(OutputError, match="the disk is full"):
+        save(block, path)
+    assert path.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_an_interrupted_file_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(KeyboardInterrupt), whole_file(tmp_path / "x.stl") as file:
+        file.write(b"half")
+        raise KeyboardInterrupt
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_other_errors_are_told_by_the_system(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match="cannot write .*: Input/output error"), whole_file(tmp_path / "x") as file:
+        file.write(b"x")
+        raise OSError(errno.EIO, "Input/output error")
+    with pytest.raises(OutputError, match="No such file"), whole_file(tmp_path / "missing" / "x"):
+        pass
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not Path("/dev/null").exists(), reason="no /dev/null on this system")
+def test_a_device_is_written_to_in_place(block: trimesh.Trimesh) -> None:
+    with whole_file("/dev/null") as file:
+        file.write(b"x")
+    assert Path("/dev/null").is_char_device()
+
+
+def test_targets_are_checked_before_the_work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    old = tmp_path / "old.stl"
+    old.write_text("precious")
+    with pytest.raises(OutputError, match="exists"):
+        check_target(old, overwrite=False)
+    assert check_target(old, overwrite=True) == old
+    with pytest.raises(OutputError, match="there is no folder"):
+        check_target(tmp_path / "no" / "x.stl", overwrite=True)
+    with pytest.raises(OutputError, match="is a folder"):
+        check_target(tmp_path, overwrite=True)
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    with pytest.raises(OutputError, match="may not be written to"):
+        check_target(tmp_path / "x.stl", overwrite=True)
+
+
+@pytest.mark.parametrize("name", ["block", "block.xyz", "block.stl.gz"])
+def test_an_unknown_suffix_lists_the_known(name: str, block: trimesh.Trimesh, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=r"\.stl, \.3mf, \.obj, \.ply, \.glb"):
+        save(block, tmp_path / name)
+    with pytest.raises(FormatError, match=r"\.off"):
+        read_mesh(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_stl_as_text(block: trimesh.Trimesh, tmp_path: Path) -> None:
+    path = save(block, tmp_path / "block.stl", ascii=True)
+    assert path.read_bytes().startswith(b"solid")
+    binary = read_mesh(save(block, tmp_path / "binary.stl"))
+    assert np.array_equal(read_mesh(path).vertices, binary.vertices)
+    assert trimesh.load_mesh(path).is_volume
+    with pytest.raises(FormatError, match="only .stl"):
+        save(block, tmp_path / "block.obj", ascii=True)
+
+
+def test_binary_stl_says_the_unit_and_is_no_text(block: trimesh.Trimesh, tmp_path: Path) -> None:
+    data = save(block, tmp_path / "block.stl").read_bytes()
+    assert b"UNITS=mm" in data[:80]
+    assert not data.startswith(b"solid")
+    assert len(data) == 84 + 50 * len(block.faces)
+
+
+def test_stl_normals_are_unit_vectors_along_the_faces(block: trimesh.Trimesh, tmp_path: Path) -> None:
+    record = np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")])
+    rows = np.frombuffer(save(block, tmp_path / "block.stl").read_bytes()[84:], dtype=record)
+    assert np.einsum("ij,ij->i", rows["n"], block.face_normals) == pytest.approx(1, abs=1e-3)
+
+
+def test_lib3mf_takes_the_3mf_strictly(block: trimesh.Trimesh, tmp_path: Path) -> None:
+    lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (test extra)")
+    path = save(block, tmp_path / "block.3mf")
+    model = lib3mf.Wrapper().CreateModel()
+    reader = model.QueryReader("3mf")
+    reader.SetStrictModeActive(True)
+    reader.ReadFromFile(str(path))
+    assert reader.GetWarningCount() == 0
+    meshes = model.GetMeshObjects()
+    assert meshes.MoveNext()
+    mesh = meshes.GetCurrentMeshObject()
+    assert mesh.GetTriangleCount() == len(block.faces)
+    assert mesh.IsManifoldAndOriented()
+
+
+def test_big_meshes_are_written_some_at_a_time(
+    block: trimesh.Trimesh, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    whole = [save(block, tmp_path / f"whole{suffix}").read_bytes() for suffix in (".stl", ".obj")]
+    monkeypatch.setattr("infill.export.AT_ONCE", 17)
+    assert [save(block, tmp_path / f"parts{suffix}").read_bytes() for suffix in (".stl", ".obj")] == whole
+
+
+@every_format
+def test_fine_cells_far_away_do_not_merge(suffix: str, rng: np.random.Generator, tmp_path: Path) -> None:
+    """At 120 mm a 32-bit coordinate steps by 8e-6 mm; triangles at 0.05 mm cells stay apart."""
+    mesh = isosurface(np.round(smooth_noise(rng, (20, 20, 6)), 3), spacing=0.05, origin=(120, -120, 0))
+    assert read_mesh(save(mesh, tmp_path / f"far{suffix}")).closed
+
+
+# --- reading what others wrote ---------------------------------------------------------------------------
+
+
+def package(path: Path, model: str, more: dict[str, str] | None = None) -> Path:
+    with zipfile.ZipFile(path, "w") as file:
+        for name, text in {"3D/3dmodel.model": model, **(more or {})}.items():
+            file.writestr(name, text)
+    return path
+
+
+CUBE = trimesh.creation.box()
+CUBE_XML = (
+    "<mesh><vertices>"
+    + "".join(f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in CUBE.vertices)
+    + "</vertices><triangles>"
+    + "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in CUBE.faces)
+    + "</triangles></mesh>"
+)
+
+
+def model(resources: str, build: str, unit: str = 'unit="millimeter"') -> str:
+    core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+    production = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+    return f'<model {unit} xmlns="{core}" xmlns:p="{production}"><resources>{resources}</resources><build>{build}</build></model>'
+
+
+def test_3mf_components_transforms_and_units(tmp_path: Path) -> None:
+    """A cube, doubled in x and moved, beside one turned by a quarter, in inches."""
+    resources = (
+        f'<object id="1">{CUBE_XML}</object><object id="2"><components>'
+        '<component objectid="1" transform="2 0 0 0 1 0 0 0 1 5 0 0"/>'
+        '<component objectid="1" transform="0 1 0 -1 0 0 0 0 1 0 0 0"/></components></object>'
+    )
+    path = package(
+        tmp_path / "a.3mf", model(resources, '<item objectid="2" transform="1 0 0 0 1 0 0 0 1 0 0 10"/>', 'unit="inch"')
+    )
+    mesh = read_mesh(path)
+    assert mesh.volume == pytest.approx(3 * 25.4**3)
+    assert mesh.bounds / 25.4 == pytest.approx(np.array([[-0.5, -0.5, 9.5], [6.0, 0.5, 10.5]]))
+
+
+def test_3mf_parts_in_other_files(tmp_path: Path) -> None:
+    other = model(f'<object id="7">{CUBE_XML}</object>', "")
+    main = model(
+        '<object id="1"><components><component p:path="/3D/part.model" objectid="7"/></components></object>',
+        '<item objectid="1"/>',
+    )
+    assert read_mesh(package(tmp_path / "a.3mf", main, {"3D/part.model": other})).volume == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("<model", "is no 3MF file"),
+        ("<model></model>", "nothing to build"),
+        (model("", '<item objectid="4"/>'), "refers to an object 4"),
+        (model('<object id="1"></object>', '<item objectid="1"/>'), "no triangles"),
+        (model(f'<object id="1">{CUBE_XML.replace("0.5", "half", 1)}</object>', '<item objectid="1"/>'), "number that is none"),
+        (model(f'<object id="1">{CUBE_XML.replace(chr(34) + "3" + chr(34), chr(34) + "99" + chr(34), 1)}</object>', '<item objectid="1"/>'), "do not exist"),
+        (model('<object id="1"><components><component objectid="1"/></components></object>', '<item objectid="1"/>'), "refers to"),
+    ],
+)  # fmt: skip
+def test_a_broken_3mf_is_one_clear_line(text: str, says: str, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match=says):
+        read_mesh(package(tmp_path / "broken.3mf", text))
+
+
+@pytest.mark.parametrize("suffix", list(READERS))
+@pytest.mark.parametrize("content", [b"", b"solid", b"\0" * 200, b"nonsense " * 40, struct.pack("<80sI", b"", 5)])
+def test_rubbish_is_one_clear_line(suffix: str, content: bytes, tmp_path: Path) -> None:
+    path = tmp_path / f"rubbish{suffix}"
+    path.write_bytes(content)
+    with pytest.raises(FormatError) as caught:
+        read_mesh(path)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("suffix", list(WRITERS))
+def test_a_truncated_file_is_one_clear_line(suffix: str, block: trimesh.Trimesh, tmp_path: Path) -> None:
+    if suffix == ".obj":
+        pytest.skip("text without a count: a shorter OBJ is an OBJ")
+    path = save(block, tmp_path / f"cut{suffix}")
+    path.write_bytes(path.read_bytes()[:-1000])
+    with pytest.raises(FormatError):
+        read_mesh(path)
+
+
+def test_a_missing_file_is_told(tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="there is no file"):
+        read_mesh(tmp_path / "gone.stl")
+
+
+def test_an_unreadable_file_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "x.stl"
+    path.write_bytes(b"")
+    monkeypatch.setitem(READERS, ".stl", lambda path: open(path / "below"))  # noqa: SIM115 - raises
+    with pytest.raises(FormatError, match="cannot read"):
+        read_mesh(path)
+
+
+def test_numbers_that_are_none_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "x.stl"
+    text = "solid x\n" + "facet normal 0 0 1\nouter loop\n{}endloop\nendfacet\n".format("vertex 0 0 nan\n" * 3)
+    path.write_text(text + "endsolid x\n")
+    with pytest.raises(FormatError, match="not numbers"):
+        read_mesh(path)
+
+
+def test_corners_that_do_not_exist_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "x.off"
+    path.write_text("OFF")
+    monkeypatch.setitem(READERS, ".off", lambda path: (np.zeros((2, 3)), np.array([[0, 1, 2]])))
+    with pytest.raises(FormatError, match="do not exist"):
+        read_mesh(path)
+
+
+def test_text_stl_of_old_macs(data: Path) -> None:
+    for name in ("20mmbox_CR_line_ends.stl", "20mmbox_nonstandard.stl"):
+        assert read_mesh(data / "nasty" / name).volume == pytest.approx(8000)
+
+
+def test_merging_minds_minus_zero(tmp_path: Path) -> None:
+    soup = CUBE.triangles.reshape(-1, 3).copy() - 0.5
+    soup[soup == 0] = np.where(np.arange((soup == 0).sum()) % 2, 0.0, -0.0)
+    path = save(Surface(vertices=soup, faces=np.arange(36).reshape(-1, 3)), tmp_path / "x.stl")
+    mesh = read_mesh(path)
+    assert len(mesh.vertices) == 8
+    assert mesh.closed
+    assert math.isclose(mesh.volume, 1)

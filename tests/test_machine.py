@@ -1,0 +1,53 @@
+"""What the machine has."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from infill import MemoryLimitError, machine
+from infill.ragged import spread
+
+
+def test_there_is_memory_and_a_core() -> None:
+    assert machine.usable_cores() >= 1
+    assert machine.available_memory() > 10_000_000
+
+
+def test_systems_without_affinity(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(os, "sched_getaffinity", raising=False)
+    assert machine.usable_cores() == os.cpu_count()
+
+
+def test_systems_without_proc(monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing(self: Path, **options: str) -> str:
+        raise FileNotFoundError
+
+    monkeypatch.setattr(Path, "read_text", missing)
+    assert machine.available_memory() == os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+
+
+def test_a_system_that_does_not_say_is_trusted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Path, "read_text", lambda self, **options: "nothing of interest")
+    assert machine.available_memory() is None
+    machine.require_memory(10**18, None, "do less")
+
+
+def test_limits_are_told_in_gib() -> None:
+    machine.require_memory(5, 5, "do less")
+    with pytest.raises(MemoryLimitError, match=r"needs about 2\.00 GiB of memory and 1\.00 GiB is allowed; do less"):
+        machine.require_memory(2 * 2**30, 2**30, "do less")
+
+
+@pytest.mark.parametrize("most", [None, 1, 3, 100])
+def test_rows_are_laid_end_to_end(most: int | None) -> None:
+    counts = np.array([0, 2, 0, 5, 1, 0])
+    parts = list(spread(counts, most))
+    row = np.concatenate([part[0] for part in parts])
+    place = np.concatenate([part[1] for part in parts])
+    assert row.tolist() == [1, 1, 3, 3, 3, 3, 3, 4]
+    assert place.tolist() == [0, 1, 0, 1, 2, 3, 4, 0]
+    assert list(spread(np.zeros(0, dtype=int))) == []

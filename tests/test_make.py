@@ -1,0 +1,348 @@
+"""`make`: the designs at many sizes, the report, and what must not pass."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from shapes import BUILT_IN, SIZES, assert_printable
+
+from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, make
+from infill.plan import plan
+from infill.topology import regions, topology
+from patterns import ConcentricHeart, Honeycomb, Pattern, PatternError, Zigzag
+
+STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}
+
+
+def predicted_euler_number(report: dict[str, Any]) -> int:
+    """Twice the components less the holes of the stamp, without holes of which every cell touches a wall."""
+    return 2 * (report["stamp"]["components"] - report["stamp"]["holes"] + report["changes"]["pinholes"])
+
+
+@pytest.mark.parametrize(
+    ("size", "cell", "stamp"),
+    [((60, 60), 6, "block"), *((*each, "block") for each in SIZES), *((*each, "exact") for each in SIZES[::3])],
+)
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_designs_are_printable_at_many_sizes(name: str, size: Any, cell: float, stamp: str) -> None:
+    result = make(name, size=size, cell=cell, height=4, stamp=stamp)
+    mesh, report = result.mesh, result.report
+    assert_printable(mesh)
+    assert mesh.body_count == report["components"] == report["stamp"]["components"]
+    hearts = len(ConcentricHeart(cell=cell).lines(plan_of(name, size, cell).region).geoms)
+    assert mesh.body_count == (hearts if name == "concentric-heart" else 1)
+    assert mesh.euler_number == report["euler_number"] == 2 * report["result"]["euler_number"]
+    # Necks of voids can close as well as holes; what is left agrees with the stamp but for those.
+    assert abs(mesh.euler_number - predicted_euler_number(report)) <= 2 * report["changes"]["pinholes"]
+    assert report["changes"]["pinholes"] or mesh.euler_number == 2 * report["stamp"]["euler_number"]
+    expected = [min(size)] * 2 if name == "concentric-heart" else list(size)
+    assert mesh.extents == pytest.approx([*expected, 4], abs=report["spacing"])
+    assert report["problems"] == []
+
+
+def plan_of(name: str, size: Any, cell: float) -> Any:
+    return plan(
+        name,
+        size=size,
+        height=4,
+        line_width=0.45,
+        stamp="block",
+        cells=None,
+        smoothing=Smoothing(),
+        parameters={"cell": cell},
+    )
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_defaults_keep_every_hole_of_the_stamp(name: str) -> None:
+    report = make(name).report
+    assert report["stamp"] == report["result"]
+    assert set(report["changes"].values()) == {0}
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_report_tells_the_truth(name: str) -> None:
+    result = make(name, size=(30, 40), height=5)
+    mesh, report = result.mesh, result.report
+    assert json.loads(json.dumps(report, allow_nan=False)) == report
+    assert report["triangles"] == len(mesh.faces)
+    assert report["closed"] is True
+    assert report["volume"] == pytest.approx(mesh.volume)
+    assert report["area"] == pytest.approx(mesh.area)
+    assert report["extents"] == pytest.approx(mesh.extents.tolist())
+    assert report["bounds"] == pytest.approx(mesh.bounds)
+    assert report["density"] == pytest.approx(mesh.volume / math.prod([*report["size"], report["height"]]))
+    assert report["grid"] == list(result.fields["stamp"].shape) == list(result.fields["smoothed"].shape)
+    assert report["spacing"] == pytest.approx(0.15)
+    assert report["layers"] == round(5 / 0.15)
+    assert (report["steps"], report["fidelity"]) == (10, 0.01)
+    for key, field in (("stamp", "stamp"), ("result", "smoothed")):
+        counts = topology(result.fields[field])
+        assert report[key] == {
+            "components": counts.components, "holes": counts.holes, "euler_number": counts.euler_number
+        }  # fmt: skip
+    stamped = (result.fields["stamp"] > 0).sum() * 0.15**2 * 5
+    assert report["volume_change"] == pytest.approx(mesh.volume / stamped - 1)
+    assert set(report["seconds"]) == STAGES
+    assert report["wall_width"]["requested"] == 0.45
+    assert report["wall_width"]["p5"] <= report["wall_width"]["mean"] <= report["wall_width"]["p95"]
+
+
+def test_the_block_stands_on_the_bed_about_the_origin() -> None:
+    bounds = make("honeycomb", size=(30, 24), height=5).mesh.bounds
+    assert bounds == pytest.approx(np.array([[-15, -12, 0], [15, 12, 5]]), abs=1e-3)
+
+
+def test_the_block_stamp_shows_its_true_widths() -> None:
+    """Up to 41 % wide on diagonals: said, not hidden."""
+    width = make("honeycomb", angle=math.radians(7)).report["wall_width"]
+    assert width["mean"] / 0.45 == pytest.approx(1.17, abs=0.03)
+    assert width["p95"] / 0.45 == pytest.approx(1.38, abs=0.04)
+
+
+@pytest.mark.parametrize("degrees", [0, 7, 15, 22.5, 45])
+def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
+    width = make(Honeycomb(angle=math.radians(degrees)), stamp="exact", cells=5).report["wall_width"]
+    assert width["mean"] == pytest.approx(0.45, rel=0.01)
+    assert width["p5"] > 0.98 * 0.45
+    assert width["p95"] < 1.02 * 0.45
+
+
+@pytest.mark.parametrize("unit", [1 / 25.4, 0.001])
+def test_the_unit_of_length_does_not_matter(unit: float) -> None:
+    plain = make(Honeycomb(cell=5), size=20, height=3)
+    scaled = make(
+        Honeycomb(cell=5 * unit) if 5 * unit > 0.01 else Zigzag(waves=5),
+        size=20 * unit,
+        height=3 * unit,
+        line_width=0.45 * unit,
+    )
+    if 5 * unit > 0.01:
+        assert np.array_equal(plain.mesh.faces, scaled.mesh.faces)
+        assert scaled.mesh.vertices / unit == pytest.approx(plain.mesh.vertices, abs=1e-4)
+    else:
+        assert_printable(scaled.mesh)
+
+
+def test_height_costs_nothing() -> None:
+    low, high = make("honeycomb", size=30, height=6), make("honeycomb", size=30, height=600)
+    assert low.report["triangles"] == high.report["triangles"]
+    assert high.mesh.extents[2] == pytest.approx(600, abs=1e-2)
+
+
+def test_one_layer_is_enough() -> None:
+    result = make("honeycomb", size=20, height=0.1)
+    assert_printable(result.mesh)
+    assert result.report["layers"] == 1
+
+
+def test_the_fields_tell_the_story() -> None:
+    result = make("zigzag", size=24)
+    assert set(result.fields) == {"points", "lines", "stamp", "smoothed", "grid"}
+    assert isinstance(result.fields["grid"], Grid)
+    assert shapely.distance(shapely.points(result.fields["points"]), result.fields["lines"]).max() < 1e-9
+    assert set(np.unique(result.fields["stamp"])) == {-1, 1}
+
+
+def test_a_result_saves_itself(tmp_path: Any) -> None:
+    result = make("honeycomb", size=20)
+    assert result.save(tmp_path / "x.stl").stat().st_size == 84 + 50 * result.report["triangles"]
+
+
+def test_progress_is_told_in_order() -> None:
+    told: list[tuple[str, float]] = []
+    make("honeycomb", size=20, progress=lambda stage, share: told.append((stage, share)))
+    assert [stage for stage, _ in told] == ["points", "stamp", "smooth", "check", "surface"]
+    assert [share for _, share in told] == sorted(share for _, share in told)
+
+
+def test_any_pattern_will_do() -> None:
+    class Ring(Pattern):
+        name = "ring"
+        summary = "one circle"
+
+        def lines(self, region: Any, z: float = 0.0) -> shapely.MultiLineString:
+            return shapely.MultiLineString([shapely.centroid(region).buffer(5, quad_segs=64).exterior])
+
+        def line_spacing(self, region: Any) -> float:
+            return 10.0
+
+    result = make(Ring(), size=20, height=2)
+    assert result.report["parameters"] == {}
+    assert result.mesh.euler_number == 0
+
+
+# --- what must not pass ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("bad", [0, -1, math.nan, math.inf])
+@pytest.mark.parametrize("name", ["size", "height", "line_width"])
+def test_bad_lengths_are_refused(name: str, bad: float) -> None:
+    with pytest.raises(ParameterError, match="finite number above 0"):
+        make("honeycomb", **{name: bad})
+
+
+@pytest.mark.parametrize(
+    ("pattern", "options", "error", "says"),
+    [
+        ("honycomb", {}, PatternError, "did you mean 'honeycomb'"),
+        ("honeycomb", {"waves": 3}, PatternError, "honeycomb has no parameter 'waves'; it has cell, angle, phase, frame"),
+        (Honeycomb(), {"cell": 3}, ParameterError, "beside a ready-made pattern"),
+        ("honeycomb", {"cells": 4}, ParameterError, "4 × 4 cells has no middle cell"),
+        ("honeycomb", {"cells": 0}, ParameterError, "cells per line"),
+        ("honeycomb", {"stamp": "round"}, ParameterError, "choose block or exact"),
+        ("honeycomb", {"cell": 1.2}, ParameterError, "1.2 mm apart, under 3 line widths"),
+        ("zigzag", {"waves": 100}, ParameterError, "under 3 line widths"),
+        ("concentric-heart", {"hearts": 90}, ParameterError, "under 3 line widths"),
+        ("honeycomb", {"size": 1}, ParameterError, "no room for walls"),
+        ("honeycomb", {"smoothing": Smoothing(alpha=0.3)}, ParameterError, "stable up to 0.25"),
+        ("honeycomb", {"max_memory": 10_000_000}, MemoryLimitError, "needs about .* GiB of memory and 0.01 GiB is allowed"),
+        ("honeycomb", {"size": 60_000}, MemoryLimitError, "fewer cells per line"),
+        ("honeycomb", {"line_width": 1e-4, "cell": 0.01, "size": 40}, MemoryLimitError, "is at hand"),
+    ],
+)  # fmt: skip
+def test_bad_requests_are_refused(pattern: Any, options: dict[str, Any], error: type[Exception], says: str) -> None:
+    with pytest.raises(error, match=says) as caught:
+        make(pattern, **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_memory_is_refused_for_triangles_too() -> None:
+    """The grid alone would fit; the triangles on top of it do not."""
+    block = plan_of("honeycomb", (60, 60), 1.4)
+    between = (block.memory + 130_000_000 + 100 * block.grid.cells) // 2
+    with pytest.raises(MemoryLimitError):
+        make("honeycomb", cell=1.4, max_memory=between)
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"stamp": "exact", "cells": 3, "smoothing": Smoothing(steps=60)}, "vanished|broke"),
+        ({"cells": 1, "smoothing": Smoothing(steps=10)}, "vanished|broke"),
+        ({"stamp": "exact", "cells": 3, "smoothing": Smoothing(steps=25)}, "thin at the 5th percentile"),
+    ],
+)
+def test_broken_walls_are_an_error_that_says_what_to_change(options: dict[str, Any], says: str) -> None:
+    with pytest.raises(GeometryError, match=says) as caught:
+        make("honeycomb", size=30, **options)
+    for advice in ("more cells per line", "fewer steps", "more fidelity", "--allow-broken"):
+        assert advice in str(caught.value)
+
+
+def test_broken_walls_can_be_had_anyway() -> None:
+    options = {"size": 30, "stamp": "exact", "cells": 3, "smoothing": Smoothing(steps=25)}
+    result = make("honeycomb", allow_broken=True, **options)
+    assert result.report["problems"]
+    assert_printable(result.mesh)
+
+
+def test_nothing_left_is_an_error_even_then() -> None:
+    with pytest.raises(GeometryError, match="nothing is left"):
+        make("concentric-heart", size=30, cells=1, smoothing=Smoothing(steps=40), allow_broken=True)
+
+
+def test_lines_that_run_together_in_the_stamp_are_an_error() -> None:
+    class Close(Pattern):
+        name = "close"
+        summary = "two lines nearer than they say"
+
+        def lines(self, region: Any, z: float = 0.0) -> shapely.MultiLineString:
+            return shapely.MultiLineString([[(-5, 0), (5, 0)], [(-5, 0.5), (5, 0.5)]])
+
+        def line_spacing(self, region: Any) -> float:
+            return 3.0
+
+    with pytest.raises(GeometryError, match="1 separate line.* run together"):
+        make(Close(), size=20)
+
+
+def test_an_open_surface_is_never_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    from infill.surface import Surface
+
+    monkeypatch.setattr(Surface, "closed", property(lambda self: False))
+    with pytest.raises(GeometryError, match="not closed"):
+        make("honeycomb", size=20)
+
+
+# --- what it will cost -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("stamp", ["block", "exact"])
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_the_plan_expects_the_triangles(name: str, stamp: Any) -> None:
+    block = plan(
+        name, size=(50, 40), height=6, line_width=0.45, stamp=stamp, cells=None, smoothing=Smoothing(), parameters={}
+    )
+    made = make(name, size=(50, 40), stamp=stamp).report["triangles"]
+    assert block.triangles == pytest.approx(made, rel=0.25)
+    assert block.stl_bytes == 50 * block.triangles
+    assert block.memory > 130e6
+
+
+# --- the paper's parameters ------------------------------------------------------------------------------
+
+
+def disc(half: int = 50) -> np.ndarray:
+    x = (np.arange(2 * half) + 0.5 - half) / half
+    return np.where(x[:, None] ** 2 + x**2 < 0.6**2, 1.0, -1.0)
+
+
+def roughness(phi: np.ndarray) -> float:
+    """Length of the zero contour over that of the circle: 4 / pi for a staircase, 1 for a circle."""
+    from skimage.measure import find_contours
+
+    (contour,) = find_contours(phi, 0.0)
+    return float(np.linalg.norm(np.diff(contour, axis=0), axis=1).sum() / (2 * math.pi * 0.6 * len(phi) / 2))
+
+
+def relaxed(lam: float, m: float, steps: int) -> np.ndarray:
+    from infill import smooth
+
+    return smooth(disc(), Smoothing.paper(lam=lam, h=0.1, m=m, steps=steps), method="numpy")
+
+
+def test_figure_2_large_lambda_keeps_the_mosaic() -> None:
+    """lam = 10, 100, 1000 at h = 0.1 and eps_2: the larger, the more of the staircase stays."""
+    raw = roughness(disc())
+    rough = [roughness(relaxed(lam, m=2, steps=100)) for lam in (10, 100, 1000)]
+    assert raw == pytest.approx(1.0557, abs=5e-4)
+    assert rough == pytest.approx([0.9943, 1.0127, 1.0432], abs=5e-4)
+
+
+def test_figure_3_fidelity_alone_brings_the_data_back() -> None:
+    """Started from another shape, the field goes over to the data, the faster the larger lam is."""
+    from infill import smooth
+
+    data, other = disc(), np.roll(disc(), 25, axis=0)
+    left = []
+    for lam in (10, 100, 1000):
+        phi = smooth(data, Smoothing.paper(lam=lam, h=0.1, steps=10), initial=other, method="numpy")
+        left.append(float((np.sign(phi) != data).mean()))
+    assert left[0] > left[1] > left[2]
+    assert left[2] < 0.01
+    assert left[0] > 0.1
+
+
+def test_figure_4_epsilon_sets_the_width_of_the_interface() -> None:
+    """eps_8, eps_2, eps_0.4: from phi = -0.9 to 0.9 there are 2 m cells, down to a jump."""
+    widths = []
+    for m in (8, 2, 0.4):
+        phi = relaxed(lam=1, m=m, steps=200)
+        row = phi[50, 50:]
+        inside, outside = int((row > 0.9).sum()), int((row > -0.9).sum())
+        widths.append(outside - inside)
+    assert widths[0] > widths[1] > widths[2]
+    assert widths[0] == pytest.approx(16, abs=1)
+    assert widths[1] == pytest.approx(4, abs=1)
+    assert widths[2] == 0
+
+
+def test_regions_of_a_make_are_those_of_its_fields() -> None:
+    result = make("honeycomb", size=20)
+    assert regions(result.fields["stamp"]).topology.holes == result.report["stamp"]["holes"]
