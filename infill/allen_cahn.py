@@ -16,10 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.checks import positive, whole
+from infill.checks import positive, whole, within
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 
+# Within these no kernel, in 32 bits either, divides 0 by 0.
+RANGES = {"fidelity": (0.0, 1e6), "interface": (0.25, 1e3), "alpha": (1e-4, 1.0)}
 STEEPNESS = math.atanh(0.9)  # the interface is measured from the surface to phi = 0.9
 
 
@@ -57,17 +59,15 @@ class Smoothing:
     alpha: float = 1 / 7
 
     def __post_init__(self) -> None:
-        """Check the ranges that do not depend on the data."""
-        whole("the number of steps", self.steps, 0)
-        positive("interface", self.interface, "cells")
-        positive("alpha", self.alpha, "")
-        if not math.isfinite(self.fidelity) or self.fidelity < 0:
-            raise ParameterError(f"fidelity is {self.fidelity:g}; it must be a finite number of at least 0")
+        """Check the ranges that do not depend on the data, and keep plain numbers."""
+        object.__setattr__(self, "steps", whole("the number of steps", self.steps, 0))
+        for name, (low, high) in RANGES.items():
+            object.__setattr__(self, name, within(name, getattr(self, name), low, high))
 
     @classmethod
     def paper(cls, lam: float = 100, h: float = 0.01, m: float = 2, alpha: float = 1 / 7, steps: int = 10) -> Smoothing:
         """Return the same smoothing from the paper's lambda, cell size h and interface width m."""
-        return cls(steps=steps, fidelity=lam * positive("h", h, "") ** 2, interface=m, alpha=alpha)
+        return cls(steps=steps, fidelity=lam * positive("h", h) ** 2, interface=m, alpha=alpha)
 
     @property
     def decay(self) -> float:
@@ -99,7 +99,7 @@ class Smoothing:
 
 
 def phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
-    """Return `data` as an array of numbers in [-1, 1]; False and True become -1 and +1.
+    """Return `data` as an array of numbers in [-1, 1]; False and True become -1 and +1, 0 and 1 stay.
 
     Raises
     ------
@@ -114,6 +114,8 @@ def phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
     if not (np.issubdtype(field.dtype, np.integer) or np.issubdtype(field.dtype, np.floating)):
         raise ParameterError(f"{name} is of type {field.dtype}; give real numbers or booleans")
     low, high = field.min(), field.max()
+    if np.isnan(low):
+        raise ParameterError(f"{name} holds NaN; fill or cut those cells first")
     if not (low >= -1 and high <= 1):
         raise ParameterError(
             f"{name} ranges from {low:g} to {high:g}; scale it to [-1, 1] first: rescale(data), Eq. (2)"
@@ -131,7 +133,7 @@ def rescale(data: ArrayLike) -> NDArray[np.float64]:
     low, high = (psi.min(), psi.max()) if psi.size else (math.nan, math.nan)
     if not high > low or not math.isfinite(high - low):
         raise ParameterError(f"the data range from {low:g} to {high:g}; there must be two different finite values")
-    return (2 * psi - high - low) / (high - low)
+    return ((psi - low) - (high - psi)) / (high - low)  # no sum that could overflow
 
 
 def laplacian(

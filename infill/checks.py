@@ -6,21 +6,51 @@ import math
 
 from infill.errors import ParameterError
 
+SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm: beyond, files of 32-bit numbers lose it
 
-def positive(name: str, value: float, unit: str = "mm") -> float:
+
+def positive(name: str, value: float, unit: str = "") -> float:
     """Return `value` as a float, or raise ParameterError if it is not a finite number above 0.
 
-    >>> positive("height", 6)
-    6.0
+    >>> positive("alpha", 1)
+    1.0
     """
-    number = float(value)
+    number = _float(name, value)
     if not math.isfinite(number) or number <= 0:
         raise ParameterError(f"{name} is {number:g} {unit}".rstrip() + "; it must be a finite number above 0")
     return number
 
 
+def length(name: str, value: float) -> float:
+    """Return `value` as a float in mm, or raise ParameterError if no mesh can be that long.
+
+    >>> length("height", 6)
+    6.0
+    """
+    number = positive(name, value, "mm")
+    return within(name, number, SHORTEST, LONGEST, "mm")
+
+
+def within(name: str, value: float, low: float, high: float, unit: str = "") -> float:
+    """Return `value` as a float, or raise ParameterError if it does not lie between `low` and `high`."""
+    number = _float(name, value)
+    if not low <= number <= high:
+        raise ParameterError(f"{name} is {number:.10g}; it must be a number from {low:g} to {high:g} {unit}".rstrip())
+    return number
+
+
 def whole(name: str, value: float, low: int) -> int:
     """Return `value` as an int, or raise ParameterError if it is no whole number of at least `low`."""
-    if isinstance(value, bool) or not math.isfinite(value) or value != int(value) or value < low:
-        raise ParameterError(f"{name} is {value:g}; it must be a whole number of at least {low}")
+    number = _float(name, value)
+    if isinstance(value, bool) or not math.isfinite(number) or number != int(number) or number < low:
+        raise ParameterError(f"{name} is {number:.10g}; it must be a whole number of at least {low}")
     return int(value)
+
+
+def _float(name: str, value: float) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ParameterError(f"{name} is {value!r}; it must be a number") from None
+    except OverflowError:
+        return math.inf

@@ -118,9 +118,10 @@ def _march(
         helpers = [pool.submit(sweep, part) for part in range(1, threads)]
         try:
             sweep(0)
-        finally:
+        except threading.BrokenBarrierError:
             for helper in helpers:
-                helper.result()
+                helper.result()  # one of them says why
+            raise
     return u if steps % 2 == 0 else new
 
 

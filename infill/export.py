@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill import __version__
-from infill.errors import FormatError
+from infill.errors import FormatError, GeometryError
 from infill.output import whole_file
 from infill.surface import Surface
 
@@ -68,15 +68,29 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
     ------
     FormatError
         For an unknown suffix, or ascii in another format than STL.
+    GeometryError
+        For a mesh without faces, or with corners that are not finite.
     OutputError
         If the file cannot be written.
     """
     target = Path(path)
     write = writer(target, ascii=ascii)
-    surface = mesh if isinstance(mesh, Surface) else Surface(vertices=mesh.vertices, faces=mesh.faces)
+    surface = surface_of(mesh)
     with whole_file(target) as file:
         write(surface, file)
     return target
+
+
+def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
+    """Return the mesh as plain arrays, or raise GeometryError if there is nothing to write or read."""
+    if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
+        raise GeometryError(f"a {type(mesh).__name__} is no mesh; give a trimesh.Trimesh or a Surface")
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    if len(faces) == 0 or not np.isfinite(vertices).all():
+        raise GeometryError("the mesh has no faces, or corners that are not finite numbers; make it again")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise GeometryError("the mesh has faces with corners that do not exist; make it again")
+    return mesh if isinstance(mesh, Surface) else Surface(vertices=vertices, faces=faces)
 
 
 def writer(path: Path, *, ascii: bool = False) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002

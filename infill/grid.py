@@ -21,10 +21,10 @@ def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[flo
     >>> spacing_of(0.5, 2)
     (0.5, 0.5)
     """
-    sizes = tuple(spacing) if isinstance(spacing, (tuple, list, np.ndarray)) else (spacing,) * dimensions
+    sizes = tuple(spacing) if np.ndim(spacing) else (spacing,) * dimensions  # type: ignore[arg-type]
     if len(sizes) != dimensions:
         raise ParameterError(f"spacing has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis")
-    return tuple(positive("spacing", size) for size in sizes)
+    return tuple(positive("spacing", size, "mm") for size in sizes)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.export import surface_of
 from infill.intersections import self_intersections
 from infill.reading import closed_or_merged, merged, read_mesh
 from infill.surface import Surface
@@ -89,7 +90,8 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     if isinstance(mesh, (str, os.PathLike)):
         read = read_mesh(mesh)
     else:
-        read = closed_or_merged(np.asarray(mesh.vertices), np.asarray(mesh.faces))
+        given = surface_of(mesh)
+        read = closed_or_merged(given.vertices, given.faces)
     collapsed = (read.faces == np.roll(read.faces, 1, axis=1)).any(axis=1)
     if collapsed.all():
         raise FormatError("the mesh has no triangle of three different corners; export it again")
@@ -178,19 +180,25 @@ def _bodies(surface: Surface) -> NDArray[np.integer]:
 
 
 def _outward(surface: Surface, body: NDArray[np.integer]) -> bool:
-    """Return whether the whole and every body that lies in no other face outwards."""
+    """Return whether the whole faces outwards, and every body that faces inwards is a cavity of another."""
     corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
     sixfold = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
     volume = np.bincount(body, weights=sixfold)
-    count = len(volume)
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, body, corners.min(axis=1))
-    np.maximum.at(high, body, corners.max(axis=1))
-    out = np.flatnonzero(volume > 0)
-    inside_another = [
-        bool(((low[out] < low[i]) & (high[out] > high[i])).all(axis=1).any()) for i in np.flatnonzero(volume <= 0)
-    ]
-    return bool(volume.sum() > 0 and all(inside_another))
+    if volume.sum() <= 0:
+        return False
+    solid = corners[volume[body] > 0]
+    inward = np.flatnonzero(volume <= 0)
+    first = np.unique(body, return_index=True)[1]
+    return all(_winding_number(corners[first[i]].mean(axis=0), solid) > 0.5 for i in inward)
+
+
+def _winding_number(point: NDArray[np.floating], corners: NDArray[np.floating]) -> float:
+    """Return how often closed surfaces (F, 3, 3) go around a point: the sum of their solid angles over 4 pi."""
+    a, b, c = (corners[:, i] - point for i in range(3))
+    la, lb, lc = (np.linalg.norm(each, axis=1) for each in (a, b, c))
+    above = np.einsum("ij,ij->i", a, np.cross(b, c))
+    dots = (np.einsum("ij,ij->i", p, q) * r for p, q, r in ((a, b, lc), (b, c, la), (c, a, lb)))
+    return float(np.arctan2(above, la * lb * lc + sum(dots)).sum() / (2 * np.pi))
 
 
 def _manifold_status(surface: Surface) -> str:

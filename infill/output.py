@@ -6,7 +6,7 @@ import contextlib
 import errno
 import os
 import secrets
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -22,18 +22,38 @@ REASONS = {
 }
 
 
+def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -> None:
+    """Raise OutputError if a file could not be put at one of `paths`, or two of them are the same file."""
+    taken: set[Path] = set()
+    for path in paths:
+        place = check_target(path, overwrite=overwrite).resolve()
+        if place in taken:
+            raise OutputError(f"{path} is named twice; give every output a name of its own")
+        taken.add(place)
+
+
 def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
     """Return `path`, or raise OutputError if a file could not be put there; called before the work."""
     target = Path(path)
-    if target.is_dir():
-        raise OutputError(f"{target} is a folder; give a file name")
-    if not target.parent.is_dir():
-        raise OutputError(f"there is no folder {target.parent}; make it first or write elsewhere")
-    if not os.access(target.parent, os.W_OK):
-        raise OutputError(f"cannot write {target}: {REASONS[errno.EACCES]}")
-    if target.exists() and not overwrite:
-        raise OutputError(f"{target} exists; give another name, or --force to overwrite it")
+    try:
+        if target.is_dir():
+            raise OutputError(f"{target} is a folder; give a file name")
+        if not target.parent.is_dir():
+            raise OutputError(f"there is no folder {target.parent}; make it first or write elsewhere")
+        if not os.access(target.parent, os.W_OK):
+            raise _unwritable(target, OSError(errno.EACCES, ""))
+        if target.exists() and not overwrite:
+            raise OutputError(f"{target} exists; give another name, or --force to overwrite it")
+    except OSError as error:
+        raise _unwritable(target, error) from error
     return target
+
+
+def _unwritable(target: Path, error: OSError) -> OutputError:
+    """Return the error to raise for one of the system's, or the same if it is ours already."""
+    if isinstance(error, OutputError):
+        return error
+    return OutputError(f"cannot write {target}: {REASONS.get(error.errno or 0, error.strerror or str(error))}")
 
 
 @contextlib.contextmanager
@@ -46,7 +66,7 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         If the file cannot be written: full disk, missing or read-only folder.
     """
     target = Path(path)
-    partial = target.with_name(f".{target.name}.{secrets.token_hex(4)}.partial")
+    partial = target.with_name(f".{secrets.token_hex(4)}.partial")
     if target.exists() and not target.is_file() and not target.is_dir():
         partial = target  # a device such as /dev/null has no name to be replaced
     try:
@@ -55,10 +75,7 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
         if partial != target:
             os.replace(partial, target)
     except OSError as error:
-        if isinstance(error, OutputError):
-            raise
-        reason = REASONS.get(error.errno or 0, error.strerror or str(error))
-        raise OutputError(f"cannot write {target}: {reason}") from error
+        raise _unwritable(target, error) from error
     finally:
         if partial != target:
             with contextlib.suppress(OSError):

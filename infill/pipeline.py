@@ -32,7 +32,7 @@ from infill.stacking import extruded
 from infill.stamping import stamp as stamp_points
 from infill.stamping import stamp_lines
 from infill.surface import Surface
-from infill.topology import Changes, Regions, changes, regions
+from infill.topology import Changes, Regions, changes, regions, solid_area
 from infill.width import WallWidth, wall_width
 from patterns import Pattern
 from patterns.linework import bodies
@@ -45,7 +45,7 @@ Progress = Callable[[str, float], None]
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile: below, a wall counts as lost
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
-ADVICE = "use more cells per line, fewer steps, more fidelity or the exact stamp (or --allow-broken, to have it anyway)"
+ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -184,7 +184,7 @@ def make(
         surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=origin)
         if not surface.closed or surface.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
-    report = _report(block, surface, data, before, after, found, width, problems)
+    report = _report(block, surface, data, smoothed, before, after, found, width, problems)
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
     fields = {"points": points, "lines": block.lines, "stamp": data, "smoothed": smoothed, "grid": block.grid}
     return Result(surface=surface, report=report, fields=fields)
@@ -204,6 +204,7 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
     for count, what in (
         (found.broken, "wall(s) broke"),
         (found.vanished, "part(s) vanished"),
+        (found.appeared, "part(s) came out of nothing"),
         (found.fused, "gap(s) between walls closed up"),
         (found.closed, "hole(s) closed"),
     ):
@@ -220,6 +221,7 @@ def _report(
     block: Block,
     surface: Surface,
     data: NDArray[np.floating],
+    smoothed: NDArray[np.floating],
     before: Regions,
     after: Regions,
     found: Changes,
@@ -227,8 +229,6 @@ def _report(
     problems: list[str],
 ) -> dict[str, Any]:
     """Return the report as plain numbers: lengths in mm, areas in mm², volumes in mm³, angles in degrees."""
-    cell_volume = float(block.grid.cell_size.prod()) * block.height
-    data_volume = float((data.astype(np.float64) + 1).sum()) / 2 * cell_volume
     bounds = surface.bounds
     smoothing = block.smoothing
     return {
@@ -260,7 +260,7 @@ def _report(
         "result": _counts(after),
         "changes": asdict(found),
         "wall_width": {name: _finite(value) for name, value in asdict(width).items()},
-        "volume_change": surface.volume / data_volume - 1,
+        "volume_change": solid_area(smoothed) / solid_area(data) - 1,
         "problems": problems,
     }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, fields, is_dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import shapely
 
 from infill.allen_cahn import Smoothing
-from infill.checks import positive, whole
+from infill.checks import length, whole
 from infill.errors import ParameterError
 from infill.grid import Grid
 from infill.machine import require_memory
@@ -68,7 +69,16 @@ class Block:
     @cached_property
     def lines(self) -> MultiLineString:
         """The centre lines of the walls, mm."""
-        return self.pattern.lines(self.region)
+        try:
+            lines = self.pattern.lines(self.region)
+        except Exception as error:
+            if isinstance(error, PatternError):
+                raise
+            said = " ".join(str(error).split())
+            raise PatternError(f"the pattern {self.pattern.name} failed: {type(error).__name__}: {said}") from error
+        if lines.is_empty:
+            raise PatternError(f"no line of {self.pattern.name} lies in the block; use smaller cells or a larger block")
+        return lines
 
     @property
     def layers(self) -> int:
@@ -78,9 +88,9 @@ class Block:
     @property
     def triangles(self) -> int:
         """Expected number of triangles, right to about a quarter."""
-        length, cell = float(shapely.length(self.lines)), float(self.grid.cell_size.min())
-        caps = CAP_TRIANGLES_PER_CELL * length * self.line_width / cell**2
-        return round(caps + SIDE_TRIANGLES_PER_CELL * 2 * length / cell)
+        run, cell = float(shapely.length(self.lines)), float(self.grid.cell_size.min())
+        caps = CAP_TRIANGLES_PER_CELL * run * self.line_width / cell**2
+        return round(caps + SIDE_TRIANGLES_PER_CELL * 2 * run / cell)
 
     @property
     def stl_bytes(self) -> int:
@@ -88,17 +98,28 @@ class Block:
         return self.triangles * STL_BYTES_PER_TRIANGLE
 
     @property
+    def grid_memory(self) -> int:
+        """Bytes of memory for the program and the grid."""
+        return int(BYTES_BEFORE) + BYTES_PER_CELL * self.grid.cells
+
+    @property
     def memory(self) -> int:
         """Bytes of memory the work will need, the program itself included."""
-        return round(BYTES_BEFORE + BYTES_PER_CELL * self.grid.cells + BYTES_PER_TRIANGLE * self.triangles)
+        return self.grid_memory + BYTES_PER_TRIANGLE * self.triangles
 
     def require_memory(self, limit: int | None) -> None:
         """Raise MemoryLimitError if the work needs more than `limit` bytes, or than the machine has free."""
+        self.require_grid_memory(limit)
+        require_memory(self.memory, limit, self._advice)
+
+    def require_grid_memory(self, limit: int | None) -> None:
+        """Do the same for the grid alone: to know the triangles takes the lines, which may be many as well."""
+        require_memory(self.grid_memory, limit, self._advice)
+
+    @property
+    def _advice(self) -> str:
         cells = " × ".join(str(count) for count in self.grid.shape)
-        advice = f"the grid has {cells} cells: take fewer cells per line, wider lines or a smaller block"
-        # The grid alone first: the number of triangles is known from the lines, which may be many as well.
-        require_memory(round(BYTES_BEFORE + BYTES_PER_CELL * self.grid.cells), limit, advice)
-        require_memory(self.memory, limit, advice)
+        return f"the grid has {cells} cells: take fewer cells per line, wider lines or a smaller block"
 
 
 def plan(
@@ -114,9 +135,11 @@ def plan(
 ) -> Block:
     """Check a request and return it with its grid; the parameters are those of `infill.make`."""
     made = pattern_of(pattern, parameters)
-    width, depth = (size, size) if isinstance(size, (int, float)) else size
-    width, depth, height = positive("size x", width), positive("size y", depth), positive("height", height)
-    line_width = positive("line width", line_width)
+    sides = list(size) if isinstance(size, Iterable) else [size, size]
+    if len(sides) != 2:
+        raise ParameterError(f"size has {len(sides)} numbers; give x and y in mm, or one number for a square")
+    width, depth, height = length("size x", sides[0]), length("size y", sides[1]), length("height", height)
+    line_width = length("line width", line_width)
     if stamp not in get_args(StampMethod):
         raise ParameterError(f"there is no stamp {stamp!r}; choose block or exact")
     across = whole("the number of cells per line", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
@@ -125,7 +148,7 @@ def plan(
             f"a block of {across} × {across} cells has no middle cell; use an odd number of cells, or the exact stamp"
         )
     cell = line_width / across
-    counts = tuple(max(1, round(length / cell)) for length in (width, depth))
+    counts = tuple(max(1, round(side / cell)) for side in (width, depth))
     if min(counts) < (1 + LINES_PER_CELL) * across:
         raise ParameterError(
             f"a block of {width:g} × {depth:g} mm has no room for walls of {line_width:g} mm; "
@@ -141,6 +164,8 @@ def plan(
         cells=across,
         smoothing=smoothing,
     )
+    if not made.prismatic:
+        raise ParameterError(f"the lines of {made.name} change with height; only prismatic patterns can be made")
     spacing = made.line_spacing(block.region)
     if not math.isfinite(spacing) or spacing < LINES_PER_CELL * line_width * (1 - 1e-9):
         raise ParameterError(
@@ -153,6 +178,8 @@ def plan(
 def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters stand for, or the pattern itself."""
     if not isinstance(pattern, str):
+        if isinstance(pattern, type) or not isinstance(pattern, Pattern):
+            raise ParameterError(f"{pattern!r} is no pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
             raise ParameterError(
                 f"{', '.join(parameters)} given beside a ready-made pattern; set parameters where the pattern is made"

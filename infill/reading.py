@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import codecs
+import io
 import os
 import re
 import struct
 import zipfile
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from xml.etree import ElementTree
@@ -19,11 +22,14 @@ from infill.surface import Surface
 
 STL_HEAD = 84
 NUMBER = rb"\s+([^\s]+)"
-STL_VERTEX = re.compile(rb"\bvertex" + 3 * NUMBER, re.IGNORECASE)
+STL_VERTEX = re.compile(rb"[\r\n]\s*vertex" + 3 * NUMBER, re.IGNORECASE)
+STL_VERTEX_WORD = re.compile(rb"[\r\n]\s*vertex\b", re.IGNORECASE)
 UNITS_3MF = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 # What the readers of trimesh raise for files that hold something else than they should.
-BROKEN = (ValueError, KeyError, IndexError, TypeError, AttributeError, EOFError, struct.error, NotImplementedError)
+BROKEN = (ValueError, LookupError, TypeError, AttributeError, EOFError, struct.error, NotImplementedError)
+BROKEN_3MF = (zipfile.BadZipFile, ElementTree.ParseError, EOFError, zlib.error, RuntimeError, LookupError, ValueError)
+TEXT_FORMATS = {".obj", ".off"}
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Surface:
@@ -67,30 +73,31 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
 
 
 def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh as it stands if it is closed, else with equal vertices merged."""
-    surface = Surface(vertices=np.asarray(vertices, dtype=np.float64), faces=faces)
-    return surface if surface.closed else merged(vertices, faces)
+    """Return the mesh as it stands if it is closed, else with equal vertices merged; unused ones are left out."""
+    used, index = np.unique(faces, return_inverse=True)
+    surface = Surface(vertices=np.asarray(vertices, dtype=np.float64)[used], faces=index.reshape(faces.shape))
+    return surface if surface.closed else merged(surface.vertices, surface.faces)
 
 
 def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh with vertices merged where they are equal, and those without a face left out."""
-    used, index = np.unique(faces, return_inverse=True)
-    points = vertices[used] + 0.0  # no -0, which is equal to 0 but has other bits
+    """Return the mesh with vertices merged where they are equal."""
+    points = vertices + 0.0  # no -0, which is equal to 0 but has other bits
     order = np.lexsort(points.T)
-    differs = np.concatenate([[False], (points[order][1:] != points[order][:-1]).any(axis=1)])
+    differs = np.concatenate([[True], (points[order][1:] != points[order][:-1]).any(axis=1)])
     number = np.empty(len(points), dtype=np.intp)
-    number[order] = np.cumsum(differs)
-    first = order[np.flatnonzero(np.concatenate([[True], differs[1:]]))]
-    return Surface(vertices=points[first].astype(np.float64), faces=number[index.reshape(faces.shape)])
+    number[order] = np.cumsum(differs) - 1
+    return Surface(vertices=points[order[differs]].astype(np.float64), faces=number[faces])
 
 
 def _read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     data = path.read_bytes()
     count = int.from_bytes(data[80:STL_HEAD], "little")
-    if len(data) == STL_HEAD + count * STL_RECORD.itemsize:
-        corners = np.frombuffer(data, dtype=STL_RECORD, offset=STL_HEAD)["corners"]
-    elif data.lstrip()[:5].lower() == b"solid":
+    if count and len(data) >= STL_HEAD + count * STL_RECORD.itemsize:  # some programs add bytes at the end
+        corners = np.frombuffer(data, dtype=STL_RECORD, offset=STL_HEAD, count=count)["corners"]
+    elif data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid":
         corners = _text_corners(path, data)
+    elif len(data) == STL_HEAD and not count:
+        corners = np.empty((0, 3, 3), dtype=np.float32)
     else:
         raise FormatError(
             f"{path} is neither text nor a whole binary STL ({len(data)} bytes, {count} triangles announced); "
@@ -102,7 +109,7 @@ def _read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
 def _text_corners(path: Path, data: bytes) -> NDArray[np.floating]:
     found = STL_VERTEX.findall(data)
     broken = FormatError(f"{path} holds a vertex that is not three numbers, or is cut off; export the mesh again")
-    if len(found) != len(re.findall(rb"\bvertex\b", data, re.IGNORECASE)) or len(found) % 3:
+    if len(found) != len(STL_VERTEX_WORD.findall(data)) or len(found) % 3:
         raise broken
     try:
         return np.array(found, dtype="S").astype(np.float32).reshape(-1, 3, 3)
@@ -117,17 +124,19 @@ def _read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
         with zipfile.ZipFile(path) as package:
             models = [name for name in package.namelist() if name.lower().endswith(".model")]
             roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
-    except (zipfile.BadZipFile, ElementTree.ParseError, EOFError) as error:
+            start = _start_part(package)
+    except BROKEN_3MF as error:
         raise FormatError(f"{path} is no 3MF file ({error}); export the mesh again") from error
-    root = next((each for each in roots.values() if each.find("{*}build") is not None), None)
-    if root is None:
+    built = [part for part, each in roots.items() if each.find("{*}build/{*}item") is not None]
+    main = start if start in roots else next(iter(built), "")
+    root = roots.get(main)
+    if root is None or root.find("{*}build") is None:
         raise FormatError(f"{path} has nothing to build in it; export the mesh again")
     objects = {
         (part, each.get("id")): each
         for part, model in roots.items()
         for each in model.findall("{*}resources/{*}object")
     }
-    main = next(part for part, model in roots.items() if model is root)
     vertices: list[NDArray[np.floating]] = []
     faces: list[NDArray[np.integer]] = []
 
@@ -145,17 +154,20 @@ def _read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
         if triangles:
             if max(map(max, triangles)) >= len(corners) or min(map(min, triangles)) < 0:
                 raise FormatError(f"{path} has triangles with corners that do not exist; export the mesh again")
-            faces.append(np.array(triangles) + sum(len(some) for some in vertices))
+            # A mirrored part would face inwards: its corners are taken in the other order.
+            ordered = np.array(triangles)[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
+            faces.append(ordered + sum(len(some) for some in vertices))
             vertices.append(np.array(corners) @ outer[:3] + outer[3])
         for component in each.iterfind("{*}components/{*}component"):
             inner = _transform(component.get("transform", IDENTITY))
             joined = np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]])
-            other = next((value for key, value in component.items() if key.endswith("}path")), part)
-            place(other, component.get("objectid"), joined, depth + 1)
+            place(_path(component, part), component.get("objectid"), joined, depth + 1)
 
     try:
         for item in root.iterfind("{*}build/{*}item"):
-            place(main, item.get("objectid"), _transform(item.get("transform", IDENTITY)))
+            if item.get("printable") == "0":
+                continue
+            place(_path(item, main), item.get("objectid"), _transform(item.get("transform", IDENTITY)))
     except ValueError as error:
         if isinstance(error, FormatError):
             raise
@@ -163,6 +175,20 @@ def _read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     if not faces:
         return np.empty((0, 3)), np.empty((0, 3), dtype=int)
     return np.concatenate(vertices) * UNITS_3MF.get(root.get("unit", "millimeter"), 1.0), np.concatenate(faces)
+
+
+def _start_part(package: zipfile.ZipFile) -> str:
+    """Return the part that the package says to begin with, or nothing."""
+    if "_rels/.rels" not in package.namelist():
+        return ""
+    relations = ElementTree.fromstring(package.read("_rels/.rels"))  # noqa: S314 - as the models
+    targets = [each.get("Target", "") for each in relations if each.get("Type", "").endswith("/3dmodel")]
+    return "/" + targets[0].lstrip("/") if targets else ""
+
+
+def _path(element: ElementTree.Element, part: str) -> str:
+    """Return the part in which the object of a component or an item stands."""
+    return next((value for key, value in element.items() if key.endswith("}path")), part)
 
 
 def _transform(text: str) -> NDArray[np.float64]:
@@ -174,7 +200,12 @@ def _read_by_trimesh(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integ
     import trimesh
 
     try:
-        mesh = trimesh.load_mesh(path, process=False)
+        if path.suffix.lower() in TEXT_FORMATS:
+            # Only comments and names can hold what is not ASCII; their encoding does not matter.
+            text = path.read_bytes().decode("ascii", errors="replace")
+            mesh = trimesh.load_mesh(io.StringIO(text), file_type=path.suffix.lower()[1:], process=False)
+        else:
+            mesh = trimesh.load_mesh(path, process=False)
     except BROKEN as error:
         raise FormatError(f"{path} is broken ({type(error).__name__}: {error}); export the mesh again") from error
     return np.asarray(mesh.vertices), np.asarray(mesh.faces)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import math
-import os
 import re
 import tomllib
 from dataclasses import dataclass, field
@@ -16,7 +15,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.errors import FormatError, ParameterError
-from infill.output import whole_file
 from patterns import PATTERNS, Pattern, parameters
 
 if TYPE_CHECKING:
@@ -95,11 +93,6 @@ class MakeSettings:
         rows = [f"{name} = {_toml(value)}" for name, value in {**plain, **own}.items() if value is not None]
         return "\n".join(["# infill make --config THIS_FILE -o OUT", *rows, ""])
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write `to_toml` to a file."""
-        with whole_file(path) as file:
-            file.write(self.to_toml().encode())
-
 
 def resolve(flags: dict[str, Any], config: Path | None = None) -> MakeSettings:
     """Return the settings: flags that are not None win over the file, the file over the defaults.
@@ -111,16 +104,26 @@ def resolve(flags: dict[str, Any], config: Path | None = None) -> MakeSettings:
     FormatError
         If the file is missing or no TOML.
     """
-    given = _read(config) if config else {}
-    given = {name.replace("-", "_"): value for name, value in given.items()}
-    given |= {name: value for name, value in flags.items() if value is not None}
-    if "pattern" not in given:
+    given = {name.replace("-", "_"): value for name, value in (_read(config) if config else {}).items()}
+    flagged = {name: value for name, value in flags.items() if value is not None}
+    if "pattern" not in given | flagged:
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    kind = PATTERNS.find(str(given["pattern"]))
+    kind = PATTERNS.find(str((given | flagged)["pattern"]))
     common = {each.name: each for each in dataclasses.fields(MakeSettings) if each.name != "parameters"}
     own = parameters(kind)
+    for name, (_, described) in own.items():
+        rival = described.replaces
+        if rival in flagged and name not in flagged:
+            given.pop(name, None)  # the flag for one drops the other from the file
+        elif name in flagged and rival not in flagged:
+            given.pop(rival, None)
+        if {name, rival} <= set(given | flagged):
+            raise ParameterError(
+                f"{name} and {rival} of {kind.name} are both given; {name} replaces {rival}: leave one out"
+            )
+    given |= flagged
     for name in given:
         if name not in common and name not in own:
             near = difflib.get_close_matches(name, [*common, *own], n=1)
@@ -170,11 +173,15 @@ def parse_bytes(text: str) -> int:
 
 
 def in_degrees(pattern: Pattern) -> dict[str, Any]:
-    """Return the parameters of a pattern by name, angles in degrees."""
-    values = {name: getattr(pattern, name) for name in parameters(pattern)}
+    """Return the parameters of a pattern that count, by name, angles in degrees."""
+    found = parameters(pattern)
+    values = {name: getattr(pattern, name) for name in found}
+    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
+    turn = {name for name, (_, described) in found.items() if described.unit == "rad" and values[name] is not None}
     return {
-        name: round(math.degrees(value), 9) if parameters(pattern)[name][1].unit == "rad" else _plain(value)
+        name: round(math.degrees(value), 9) if name in turn else _plain(value)
         for name, value in values.items()
+        if name not in replaced
     }
 
 

@@ -30,8 +30,8 @@ def smooth(
     Parameters
     ----------
     f : (...) array in [-1, 1], or bool
-        The data, in any number of dimensions: +1 solid, -1 void, grey between. It holds the
-        result by the fidelity term; it is not changed.
+        The data, in any number of dimensions: +1 solid, -1 void, grey between; of booleans True is
+        solid. It holds the result by the fidelity term; it is not changed.
     smoothing : Smoothing
         Steps, fidelity, interface width and time step, in units of cells.
     spacing : float or one float per axis

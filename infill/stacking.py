@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.checks import positive, whole
+from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
 from infill.grid import VOID, spacing_of
 from infill.surface import Surface, extract
@@ -97,8 +97,8 @@ def extruded(
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
 ) -> Surface:
     """Return what `extrude` returns, as plain arrays, without the check that it is closed."""
-    height = positive("height", height)
-    layers = layer_count(height, min(spacing) if layer_height is None else positive("layer height", layer_height))
+    height = length("height", height)
+    layers = layer_count(height, min(spacing) if layer_height is None else length("layer height", layer_height))
     thickness = height / layers
     surface = extract(
         stack(layer, min(layers, 2)), spacing=(*spacing, thickness), origin=(*origin[:2], origin[2] - thickness)
@@ -125,4 +125,6 @@ def _plane(layer: ArrayLike) -> NDArray[np.floating]:
         raise ParameterError(f"the layer has the shape {plane.shape}; give two axes [x, y] with cells")
     if not np.issubdtype(plane.dtype, np.floating):
         plane = np.where(plane, 1.0, -1.0) if plane.dtype == bool else plane.astype(np.float64)
+    if np.isnan(plane.min()):
+        raise ParameterError("the layer holds NaN; fill or cut those cells first")
     return plane

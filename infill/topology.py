@@ -67,19 +67,21 @@ class Changes:
     ----------
     broken : int
         Walls that let two voids run together, or fell apart.
-    vanished : int
-        Bodies of solid that are gone.
+    vanished, appeared : int
+        Bodies of solid that are gone, or new.
     fused : int
         Bodies of solid that ran together, or walls that met across a void and cut it in two.
     closed : int
         Holes that are gone.
     pinholes : int
-        The same for holes, and for necks of voids, of which every cell touches a wall: no 3x3 cells
-        fit in. They are left over where lines meet at an acute angle, and are no fault.
+        Changes of holes, and of necks of voids, of which every cell touches a wall (no 3x3 cells fit
+        in): closed, cut, or run together with a neighbour. They are left over where lines meet at an
+        acute angle, and are no fault.
     """
 
     broken: int
     vanished: int
+    appeared: int
     fused: int
     closed: int
     pinholes: int
@@ -87,7 +89,7 @@ class Changes:
     @property
     def harmless(self) -> bool:
         """True if nothing changed but pinholes."""
-        return not (self.broken or self.vanished or self.fused or self.closed)
+        return not (self.broken or self.vanished or self.appeared or self.fused or self.closed)
 
 
 def regions(layer: NDArray[np.floating]) -> Regions:
@@ -116,14 +118,46 @@ def changes(before: Regions, after: Regions) -> Changes:
     wide[np.unique(before.void[cores > 0]) - 1] = True
     wide[before.void[0, 0] - 1] = True  # the outside, of which only a shell is seen
     gone = voids.sum(axis=1) == 0
-    cut = _extra(kept, axis=1)
+    cut, merged = _extra(kept, axis=1), _extra(voids[wide], axis=0)
     return Changes(
-        broken=_extra(held, axis=1) + _extra(voids[wide], axis=0) + int((voids.sum(axis=0) == 0).sum()),
+        broken=_extra(held, axis=1) + merged + int((voids.sum(axis=0) == 0).sum()),
         vanished=int((held.sum(axis=1) == 0).sum()),
+        appeared=int((held.sum(axis=0) == 0).sum()),
         fused=_extra(held, axis=0) + cut,
         closed=int((gone & wide).sum()),
-        pinholes=int((gone & ~wide).sum()) + max(0, _extra(voids, axis=1) - cut),
+        pinholes=int((gone & ~wide).sum())
+        + max(0, _extra(voids, axis=1) - cut)
+        + max(0, _extra(voids, axis=0) - merged),
     )
+
+
+def solid_area(layer: NDArray[np.floating]) -> float:
+    """Return the area, in cells, inside the zero contour that marching squares draws, saddles joined.
+
+    >>> round(solid_area(np.ones((4, 4))), 9)  # the four corners are cut off
+    15.5
+    """
+    field = np.pad(layer, 1, constant_values=VOID).astype(np.float64)
+    corners = np.stack([field[:-1, :-1], field[1:, :-1], field[1:, 1:], field[:-1, 1:]], axis=-1)
+    inside = corners > 0
+    whole = inside.all(axis=-1)
+    mixed = inside.any(axis=-1) & ~whole
+    value, solid = corners[mixed], inside[mixed]
+    # Walk around the square: a corner counts if it is solid, a side if the contour crosses it. A point
+    # that does not count repeats the one before, which adds no area.
+    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=np.float64)
+    following = np.roll(value, -1, axis=1)
+    crossed = solid != np.roll(solid, -1, axis=1)
+    part = np.where(crossed, value / np.where(crossed, value - following, 1), 0)[..., None]
+    crossing = square + part * (np.roll(square, -1, axis=0) - square)
+    points = np.stack([np.broadcast_to(square, crossing.shape), crossing], axis=2).reshape(-1, 8, 2)
+    counts = np.stack([solid, crossed], axis=2).reshape(-1, 8)
+    twice = np.tile(np.where(counts, np.arange(1, 9), 0), 2)
+    last = np.maximum.accumulate(twice + 8 * (twice > 0) * (np.arange(16) >= 8), axis=1)[:, 8:]
+    walked = np.take_along_axis(points, ((last - 1) % 8)[..., None], axis=1)
+    ahead = np.roll(walked, -1, axis=1)
+    area = (walked[..., 0] * ahead[..., 1] - walked[..., 1] * ahead[..., 0]).sum(axis=1) / 2
+    return float(whole.sum() + area.sum())
 
 
 def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -53,8 +53,10 @@ class ConcentricHeart(Pattern):
     name: ClassVar[str] = "concentric-heart"
     summary: ClassVar[str] = "nested hearts; lines that follow an outline and never cross"
 
-    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.01, high=1000)
-    hearts: int | None = parameter(None, "number of hearts, instead of cell", unit="", low=1, high=1000)
+    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
+    hearts: int | None = parameter(
+        None, "number of hearts, instead of cell", unit="", low=1, high=1000, whole=True, replaces="cell"
+    )
     angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
     frame: bool = parameter(False, "a wall around the block", unit="")
 

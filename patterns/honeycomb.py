@@ -27,7 +27,7 @@ class Honeycomb(Pattern):
     name: ClassVar[str] = "honeycomb"
     summary: ClassVar[str] = "stiff in every direction for little material"
 
-    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.01, high=1000)
+    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
     angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
     phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)
     frame: bool = parameter(True, "a wall around the block", unit="")

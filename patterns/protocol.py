@@ -9,7 +9,8 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, runtime_checkable
+from numbers import Real
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, get_args, runtime_checkable
 
 from patterns.errors import PatternError
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from shapely import MultiLineString, MultiPolygon, Polygon
 
 Unit = Literal["mm", "rad", ""]
+
+
+UNITS = get_args(Unit)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,24 +37,44 @@ class Parameter:
         Lengths are millimetres; angles are radians here and degrees at the command line.
     low, high : float
         Both ends belong to the range.
+    whole : bool
+        True for whole numbers.
+    replaces : str
+        The parameter that counts for nothing once this one is given.
     """
 
     help: str
     unit: Unit = "mm"
     low: float = -math.inf
     high: float = math.inf
+    whole: bool = False
+    replaces: str = ""
 
 
 def parameter(
-    default: object,
+    default: bool | float | tuple[float, ...] | None,
     help: str,  # noqa: A002 - the word the command line uses
     *,
     unit: Unit = "mm",
     low: float = -math.inf,
     high: float = math.inf,
+    whole: bool = False,
+    replaces: str = "",
 ) -> Any:  # noqa: ANN401 - stands for a field of any type, as dataclasses.field does
-    """Return a dataclass field that carries its `Parameter`."""
-    described = Parameter(help=help, unit=unit, low=low, high=high)
+    """Return a dataclass field that carries its `Parameter`.
+
+    Raises
+    ------
+    PatternError
+        For a unit or a default that the command line could not offer.
+    """
+    numbers = default if isinstance(default, tuple) else (default,)
+    if unit not in UNITS or not all(each is None or isinstance(each, (bool, Real)) for each in numbers):
+        raise PatternError(
+            f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
+            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))}"
+        )
+    described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces)
     return dataclasses.field(default=default, metadata={"parameter": described})
 
 
@@ -66,20 +90,41 @@ def parameters(pattern: type[Pattern] | Pattern) -> dict[str, tuple[dataclasses.
 
 
 def check_parameters(pattern: Pattern) -> None:
-    """Raise PatternError if a described field is out of its range, infinite or not a number."""
-    for name, (_, described) in parameters(pattern).items():
+    """Turn the described fields of a pattern into plain numbers, or raise PatternError.
+
+    A number must be finite and in its range, a flag True or False, a tuple as long as its default.
+    """
+    for name, (field, described) in parameters(pattern).items():
         value = getattr(pattern, name)
-        if value is None or isinstance(value, bool):
+        if value is None and field.default is None:
             continue
-        for number in value if isinstance(value, tuple) else (value,):
-            if not math.isfinite(number) or not described.low <= number <= described.high:
-                in_degrees = math.degrees if described.unit == "rad" else float
-                unit = {"rad": " degrees", "mm": " mm", "": ""}[described.unit]
-                low, high = in_degrees(described.low), in_degrees(described.high)
-                raise PatternError(
-                    f"{name} of {pattern.name} is {in_degrees(number):g}{unit}; "
-                    f"it must be a number from {low:g} to {high:g}{unit}"
-                )
+        if isinstance(field.default, bool):
+            if not isinstance(value, bool):
+                raise PatternError(f"{name} of {pattern.name} is {value!r}; it must be True or False")
+            continue
+        wanted = len(field.default) if isinstance(field.default, tuple) else 1
+        several = list(value) if isinstance(field.default, tuple) and hasattr(value, "__len__") else [value]
+        if len(several) != wanted:
+            raise PatternError(f"{name} of {pattern.name} is {value!r}; it must be {wanted} numbers")
+        numbers = tuple(_checked(pattern, name, described, number) for number in several)
+        object.__setattr__(pattern, name, numbers if isinstance(field.default, tuple) else numbers[0])
+
+
+def _checked(pattern: Pattern, name: str, described: Parameter, number: object) -> float:
+    """Return a number as a plain int or float, or raise PatternError if it is out of its range."""
+    if isinstance(number, bool) or not isinstance(number, Real):
+        raise PatternError(f"{name} of {pattern.name} is {number!r}; it must be a number")
+    value = float(number)
+    if not described.low <= value <= described.high or (described.whole and value != round(value)):
+        in_degrees = math.degrees if described.unit == "rad" else float
+        unit = {"rad": " degrees", "mm": " mm", "": ""}[described.unit]
+        low, high = in_degrees(described.low), in_degrees(described.high)
+        kind = "whole number" if described.whole else "number"
+        raise PatternError(
+            f"{name} of {pattern.name} is {in_degrees(value):.10g}{unit}; "
+            f"it must be a {kind} from {low:g} to {high:g}{unit}"
+        )
+    return int(value) if described.whole else value
 
 
 @runtime_checkable
@@ -141,5 +186,5 @@ class Pattern(Protocol):
         return sample(self.lines(region, z), spacing)
 
     def __post_init__(self) -> None:
-        """Check the parameters; a subclass with checks of its own calls this first."""
+        """Check the parameters; a subclass with a `__post_init__` of its own calls this first."""
         check_parameters(self)

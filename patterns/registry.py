@@ -12,11 +12,17 @@ import difflib
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from importlib.metadata import EntryPoint, entry_points
+from typing import Any
 
 from patterns.errors import PatternError
-from patterns.protocol import Pattern
+from patterns.protocol import Pattern, parameters
 
 GROUP = "infill.patterns"
+NEEDED = ("name", "summary", "prismatic", "lines", "points", "line_spacing")
+# Options of `infill make` that belong to no pattern: a parameter of that name could not be given.
+RESERVED = frozenset(
+    ["pattern", "output", "preview", "ascii_stl", "ascii", "force", "config", "save_config", "size", "height", "line_width", "stamp", "cells", "steps", "fidelity", "interface", "alpha", "allow_broken", "max_memory", "dry_run", "as_json", "json", "quiet", "verbose", "help", "parameters"]
+)
 
 
 class PatternWarning(UserWarning):
@@ -31,8 +37,8 @@ def installed_plugins() -> list[EntryPoint]:
 class Registry(Mapping[str, type[Pattern]]):
     """Patterns by name; plug-ins are looked for once, when the registry is first read.
 
-    A plug-in that cannot be imported, is no pattern, or takes a name that is in use, is one
-    `PatternWarning` that names it.
+    A plug-in that cannot be imported or made without arguments, is no pattern, or takes a name that is
+    in use, is one `PatternWarning` that names it.
     """
 
     def __init__(
@@ -75,20 +81,28 @@ class Registry(Mapping[str, type[Pattern]]):
 
 def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern]:
     """Return the class behind `entry`, or raise PatternError that names the plug-in."""
-    where = f"plug-in pattern {entry.name!r} ({entry.value})"
+    where = f"plug-in pattern {entry.name!r} ({entry.value}) is left out:"
     if entry.name in taken:
-        raise PatternError(f"{where} is left out: the name is taken; rename the entry point")
+        raise PatternError(f"{where} the name is taken; rename the entry point")
     try:
         pattern = entry.load()
-    except Exception as error:
-        raise PatternError(f"{where} is left out: {type(error).__name__}: {error}; mend or uninstall it") from error
-    lacking = [
-        word
-        for word in ("name", "summary", "prismatic", "lines", "points", "line_spacing")
-        if not hasattr(pattern, word)
-    ]
+        _check_class(pattern, entry.name)
+        pattern()
+    except (Exception, SystemExit) as error:
+        said = " ".join(str(error).split())
+        kind = "" if isinstance(error, PatternError) else f"{type(error).__name__}: "
+        raise PatternError(f"{where} {kind}{said}; mend or uninstall it") from error
+    found: type[Pattern] = pattern
+    return found
+
+
+def _check_class(pattern: Any, name: str) -> None:  # noqa: ANN401 - whatever a plug-in offers
+    """Raise PatternError if `pattern` is no pattern class that can go by `name`."""
+    lacking = [word for word in NEEDED if not hasattr(pattern, word)]
     if not isinstance(pattern, type) or lacking:
-        raise PatternError(
-            f"{where} is left out: it is not a pattern class ({', '.join(lacking) or 'no class'} missing)"
-        )
-    return pattern
+        raise PatternError(f"it is not a pattern class ({', '.join(lacking) or 'no class'} missing)")
+    if pattern.name != name:  # type: ignore[attr-defined]
+        raise PatternError(f"its class is named {pattern.name!r}; name both alike")  # type: ignore[attr-defined]
+    clashes = sorted(RESERVED & set(parameters(pattern)))
+    if clashes:
+        raise PatternError(f"its parameter {clashes[0]!r} is an option of every pattern; rename it")

@@ -27,9 +27,14 @@ class Zigzag(Pattern):
     name: ClassVar[str] = "zigzag"
     summary: ClassVar[str] = "two crossing waves; each is one unbroken line"
 
-    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.01, high=1000)
+    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
     waves: float | None = parameter(
-        None, "waves along the diagonal, instead of cell (the paper draws 7.5)", unit="", low=0.5, high=1e4
+        None,
+        "waves along the diagonal, instead of cell (the paper draws 7.5)",
+        unit="",
+        low=0.5,
+        high=1e4,
+        replaces="cell",
     )
     angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
     phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import math
 import os
@@ -24,10 +25,12 @@ from typer.testing import CliRunner
 
 import infill
 from infill import ParameterError, read_mesh
-from infill.cli import build
+from infill.cli import making
+from infill.cli.app import build
 from infill.cli.console import as_bytes
 from infill.settings import MakeSettings, parse_bytes, parse_size, resolve
 from patterns import Pattern, Registry, parameter
+from patterns.registry import RESERVED
 
 COMMANDS = ["make", "list", "check"]
 SMALL = ["--size", "20", "--height", "2"]
@@ -38,7 +41,7 @@ RUN = [sys.executable, "-m", "infill.cli"]
 class Rings(Pattern):
     name: ClassVar[str] = "rings"
     summary: ClassVar[str] = "rings about the middle"
-    rings: int = parameter(1, "how many", unit="", low=1, high=9)
+    rings: int = parameter(1, "how many", unit="", low=1, high=9, whole=True)
 
     def lines(self, region: Any, z: float = 0.0) -> shapely.MultiLineString:
         middle = shapely.centroid(region)
@@ -239,20 +242,24 @@ def test_every_parameter_of_a_pattern_is_an_option() -> None:
     text = plain(run("make", "--help").stdout)
     for word in ("--cell", "--waves", "--hearts", "--angle", "--phase", "--frame", "--no-frame"):
         assert word in text
-    assert "(0.01 to 1000 mm; default: 6)" in text
+    assert "(0.001 to 10000 mm; default: 6)" in text
     assert "(-180 to 180 degrees; default: 0)" in text
 
 
 def test_a_plugin_brings_its_own_options(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     entry = EntryPoint(name="rings", value=f"{__name__}:Rings", group="infill.patterns")
     registry = Registry(tuple(infill.settings.PATTERNS.built_in.values()), plugins=lambda: [entry])
-    for module in ("infill.cli", "infill.cli.making", "infill.cli.listing", "infill.settings", "infill.plan"):
+    for module in ("infill.cli.app", "infill.cli.making", "infill.cli.listing", "infill.settings", "infill.plan"):
         monkeypatch.setattr(f"{module}.PATTERNS", registry)
     runner = CliRunner()
     assert "--rings" in plain(runner.invoke(build(), ["make", "--help"]).stdout)
     done = runner.invoke(build(), ["make", "rings", *SMALL, "--rings", "2", "-o", str(tmp_path / "a.stl")])
     assert done.exit_code == 0, done.output
     assert read_mesh(tmp_path / "a.stl").to_trimesh().body_count == 2
+
+
+def test_no_pattern_takes_a_name_that_every_pattern_has() -> None:
+    assert set(inspect.signature(making.make).parameters) - {"own_options"} <= RESERVED
 
 
 # --- settings --------------------------------------------------------------------------------------------
@@ -285,7 +292,7 @@ def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_settings_survive_the_file(name: str, tmp_path: Path) -> None:
     settings = resolve({"pattern": name, "size": "30x20", "cell": 5, "angle": 20, "alpha": 0.2})
-    settings.save(tmp_path / "a.toml")
+    (tmp_path / "a.toml").write_text(settings.to_toml())
     again = resolve({}, tmp_path / "a.toml")
     assert again.to_toml() == settings.to_toml()
     assert again.plan().pattern == settings.plan().pattern
@@ -352,6 +359,19 @@ def test_toml_quotes_what_it_must() -> None:
     assert _toml('a "b" \\ c') == '"a \\"b\\" \\\\ c"'
 
 
+def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
+    """A flag for one drops the other from the file; both at once are an error."""
+    config = tmp_path / "a.toml"
+    config.write_text(resolve({"pattern": "concentric-heart", "hearts": 5, "angle": 10}).to_toml())
+    assert "cell" not in config.read_text()
+    assert resolve({}, config).parameters["hearts"] == 5
+    assert resolve({"cell": 8.0}, config).parameters == {"cell": 8.0, "angle": 10.0, "frame": False}
+    config.write_text('pattern = "concentric-heart"\ncell = 8\n')
+    assert resolve({"hearts": 2}, config).parameters == {"hearts": 2}
+    with pytest.raises(ParameterError, match="hearts replaces cell: leave one out"):
+        resolve({"pattern": "concentric-heart", "hearts": 5, "cell": 4})
+
+
 # --- errors: one clear line, exit 1, nothing written -----------------------------------------------------
 
 BAD = [
@@ -361,7 +381,7 @@ BAD = [
       for option in ("--size", "--height", "--line-width") for value in ("0", "-3", "nan", "inf")],
     (["honeycomb", "--size", "60x0"], "size y is 0 mm; it must be a finite number above 0"),
     (["honeycomb", "--size", "big"], "size is 'big'; give millimetres as 60x40"),
-    *[(["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.01 to 1000 mm") for value in ("0", "-3", "nan", "inf")],
+    *[(["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.001 to 10000 mm") for value in ("0", "-3", "nan", "inf")],
     (["honeycomb", "--cells", "4"], "no middle cell; use an odd number"),
     (["honeycomb", "--cells", "0"], "whole number of at least 1"),
     (["honeycomb", "--cell", "1.3"], "1.3 mm apart, under 3 line widths .1.35 mm."),
@@ -375,7 +395,7 @@ BAD = [
     (["honeycomb", "--max-memory", "lots"], "the memory limit is 'lots'"),
     (["honeycomb", "--waves", "3"], "honeycomb has no option 'waves'"),
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
-    (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps, more fidelity"),
+    (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps or more fidelity"),
     (["honeycomb", "--size", "1"], "no room for walls"),
 ]  # fmt: skip
 
@@ -404,6 +424,19 @@ def test_existing_files_are_kept_without_force(flag: str, tmp_path: Path) -> Non
     assert path.read_text() == "precious"
     assert run("make", "honeycomb", *SMALL, flag, path, "--force").exit_code == 0
     assert path.read_bytes() != b"precious"
+
+
+def test_two_outputs_are_two_files(tmp_path: Path) -> None:
+    same = tmp_path / "a.stl"
+    one_line_error(run("make", "honeycomb", *SMALL, "-o", same, "--save-config", same), "is named twice")
+    one_line_error(run("make", "honeycomb", *SMALL, "-o", same, "-o", tmp_path / "." / "a.stl"), "is named twice")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_all_outputs_appear_or_none(tmp_path: Path) -> None:
+    long = tmp_path / ("x" * 300 + ".obj")
+    one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "a.stl", "-o", long), "cannot write|too long")
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -460,6 +493,28 @@ def test_ctrl_c_leaves_no_file(delay: float, tmp_path: Path) -> None:
     assert "Traceback" not in stderr
     assert stdout == ""
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_other_signals_leave_no_file_either(number: int, tmp_path: Path) -> None:
+    words = ["make", "honeycomb", "--size", "200", "-o", str(tmp_path / "a.obj")]
+    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    while not list(tmp_path.iterdir()) and process.poll() is None:  # until it writes
+        time.sleep(0.01)
+    process.send_signal(number)
+    _, stderr = process.communicate(timeout=30)
+    assert process.returncode == 143
+    assert "Traceback" not in stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+def test_a_full_stdout_is_told() -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([*RUN, "list", "--json"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert "cannot write the report: No space left" in done.stderr
 
 
 def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:

@@ -244,6 +244,40 @@ def test_a_broken_3mf_is_one_clear_line(text: str, says: str, tmp_path: Path) ->
         read_mesh(package(tmp_path / "broken.3mf", text))
 
 
+def test_3mf_items_elsewhere_unprinted_and_mirrored(tmp_path: Path) -> None:
+    """Parts are found by the relations; what is not to be printed is left out; a mirrored part faces out."""
+    part = model(f'<object id="7">{CUBE_XML}</object>', "")
+    main = model(
+        f'<object id="1">{CUBE_XML}</object>',
+        '<item p:path="/3D/a.model" objectid="7" transform="-2 0 0 0 1 0 0 0 1 9 0 0"/><item objectid="1" printable="0"/>',
+    )
+    kind = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+    relations = f'<Relationships xmlns="x"><Relationship Target="/3D/main.model" Id="a" Type="{kind}"/></Relationships>'
+    path = tmp_path / "a.3mf"
+    with zipfile.ZipFile(path, "w") as file:
+        for name, text in {"3D/a.model": part, "3D/main.model": main, "_rels/.rels": relations}.items():
+            file.writestr(name, text)
+    mesh = read_mesh(path)
+    assert mesh.volume == pytest.approx(2)
+    assert mesh.bounds[:, 0] == pytest.approx([8, 10])
+
+
+def test_stl_with_bytes_at_the_end_or_a_mark_at_the_start(block: trimesh.Trimesh, tmp_path: Path) -> None:
+    path = save(block, tmp_path / "a.stl")
+    path.write_bytes(path.read_bytes() + b"\r\n")
+    assert read_mesh(path).closed
+    text = save(block, tmp_path / "b.stl", ascii=True)
+    text.write_bytes(b"\xef\xbb\xbf" + text.read_bytes().replace(b"solid phasefill", b"solid a vertex of mine", 1))
+    assert read_mesh(text).closed
+
+
+def test_text_formats_may_hold_any_encoding(tmp_path: Path) -> None:
+    path = tmp_path / "a.obj"
+    rows = [f"v {x} {y} {z}" for x, y, z in CUBE.vertices] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in CUBE.faces]
+    path.write_bytes(b"# f\xfcr\n" + "\n".join(rows).encode())
+    assert read_mesh(path).volume == pytest.approx(1)
+
+
 @pytest.mark.parametrize("suffix", list(READERS))
 @pytest.mark.parametrize("content", [b"", b"solid", b"\0" * 200, b"nonsense " * 40, struct.pack("<80sI", b"", 5)])
 def test_rubbish_is_one_clear_line(suffix: str, content: bytes, tmp_path: Path) -> None:

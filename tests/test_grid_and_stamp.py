@@ -69,7 +69,7 @@ def test_no_points_stamp_nothing() -> None:
 
 @pytest.mark.parametrize("block", [0, 2, 4, -3])
 def test_even_blocks_are_refused(block: int) -> None:
-    with pytest.raises(ParameterError, match="odd"):
+    with pytest.raises(ParameterError, match="odd|whole number"):
         stamp([(0.5, 0.5)], Grid(shape=(3, 3), spacing=1), block=block)
 
 
@@ -84,6 +84,21 @@ def test_points_outside_are_an_error_or_clipped() -> None:
 def test_points_that_are_no_numbers_are_refused() -> None:
     with pytest.raises(ParameterError, match="finite"):
         stamp([(math.nan, 0.5)], Grid(shape=(3, 3), spacing=1), outside="clip")
+
+
+@pytest.mark.parametrize("points", [[(1, 1, 4), (2, 2, 4)], [1.0, 2.0], np.ones((2, 2, 2))])
+def test_points_must_have_the_axes_of_the_grid(points: object) -> None:
+    with pytest.raises(ParameterError, match=r"give \(N, 2\) for a grid of 2 axes"):
+        stamp(points, Grid(shape=(5, 5), spacing=1.0))
+
+
+def test_stamps_refuse_what_they_do_not_know() -> None:
+    grid = Grid(shape=(3, 3), spacing=np.array(1.0))
+    with pytest.raises(ParameterError, match="outside is 'cut'"):
+        stamp([(1, 1)], grid, outside="cut")
+    with pytest.raises(ParameterError, match="block"):
+        stamp([(1, 1)], grid, block=1.5)
+    assert (stamp([(1.5, 1.5)], grid, block=3.0) == 1).all()
 
 
 def test_stamping_follows_mirrors(rng: np.random.Generator) -> None:

@@ -12,7 +12,7 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from infill import FormatError, check, isosurface
+from infill import FormatError, GeometryError, Surface, check, isosurface, save
 from infill.inspection import guess_unit
 from infill.intersections import self_intersections
 
@@ -76,6 +76,30 @@ def test_a_cavity_faces_in() -> None:
     assert found.printable
     assert found.components == 2
     assert found.volume == pytest.approx(1000 - 64)
+
+
+def test_a_hole_is_no_cavity() -> None:
+    """An inverted cube in the empty middle of a ring lies in no solid."""
+    ring = trimesh.creation.annulus(5, 8, 4)
+    cube = trimesh.creation.box()
+    found = check(joined(ring, with_faces(cube, cube.faces[:, ::-1])))
+    assert not found.outward
+    assert not found.printable
+
+
+def test_vertices_without_a_face_do_not_count(tmp_path: Path) -> None:
+    stray = trimesh.Trimesh(np.concatenate([BOX.vertices, [[1000, 0, 0], [0, 0, 500]]]), BOX.faces, process=False)
+    for found in (check(stray), check(save(stray, tmp_path / "stray.ply"))):
+        assert found.components == 1
+        assert found.extents == pytest.approx([10, 10, 10])
+
+
+@pytest.mark.parametrize("faces", [np.empty((0, 3), dtype=int), np.array([[0, 1, 99]])])
+def test_what_is_no_mesh_is_told(faces: np.ndarray) -> None:
+    with pytest.raises(GeometryError, match="no faces|do not exist"):
+        check(Surface(vertices=BOX.vertices, faces=faces))
+    with pytest.raises(GeometryError, match="is no mesh"):
+        check(trimesh.Scene(BOX))
 
 
 def test_bodies_that_overlap_are_a_warning() -> None:

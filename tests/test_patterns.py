@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import dataclass
 from importlib.metadata import EntryPoint
 
 import numpy as np
@@ -206,6 +207,18 @@ class Lines(Pattern):
         return 4.0
 
 
+@dataclass(frozen=True, kw_only=True)
+class Clash(Lines):
+    name = "clash"
+    size: float = described(3.0, "a name that is taken")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Needs(Lines):
+    name = "needs"
+    thing: float
+
+
 def registry_with(*entries: EntryPoint) -> Registry:
     return Registry((Honeycomb,), plugins=lambda: list(entries))
 
@@ -227,6 +240,9 @@ def test_a_plugin_is_a_pattern_like_any_other() -> None:
         ("gone", "no_such_module:Thing", "ModuleNotFoundError"),
         ("odd", "math:pi", "no pattern class|not a pattern class"),
         ("honeycomb", f"{__name__}:Lines", "the name is taken"),
+        ("other", f"{__name__}:Lines", "its class is named 'lines'; name both alike"),
+        ("clash", f"{__name__}:Clash", "its parameter 'size' is an option of every pattern"),
+        ("needs", f"{__name__}:Needs", "TypeError"),
     ],
 )
 def test_a_broken_plugin_is_one_warning_that_names_it(name: str, value: str, says: str) -> None:
@@ -240,6 +256,21 @@ def test_a_broken_plugin_is_one_warning_that_names_it(name: str, value: str, say
     assert issubclass(caught[0].category, PatternWarning)
     assert name in str(caught[0].message)
     assert says.split("|")[-1] in str(caught[0].message)
+
+
+def test_a_plugin_that_quits_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    def quits(self: EntryPoint) -> None:
+        raise SystemExit("over\nand out")
+
+    monkeypatch.setattr(EntryPoint, "load", quits)
+    with pytest.warns(PatternWarning, match="SystemExit: over and out"):
+        assert list(registry_with(entry("quits", "a:b"))) == ["honeycomb"]
+
+
+@pytest.mark.parametrize(("default", "unit"), [("a", "mm"), (3, "deg"), ((1, "b"), ""), ([1], "")])
+def test_a_parameter_must_be_one_that_can_be_offered(default: object, unit: str) -> None:
+    with pytest.raises(PatternError, match="a parameter has the default"):
+        described(default, "something", unit=unit)
 
 
 def test_parameters_carry_their_range() -> None:

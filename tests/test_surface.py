@@ -109,6 +109,8 @@ def test_a_stack_needs_layers(layers: float) -> None:
 
 
 def test_a_layer_has_two_axes() -> None:
+    with pytest.raises(ParameterError, match="holds NaN"):
+        extrude(np.array([[1, np.nan], [1, 1]]), 1)
     for bad in (np.ones(3), np.ones((2, 2, 2)), np.ones((0, 2))):
         with pytest.raises(ParameterError, match="two axes"):
             stack(bad, 1)

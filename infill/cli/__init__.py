@@ -1,61 +1,52 @@
 """The command line: parses, calls the library, reports.
 
-`main` is the console script. Commands live in modules of their own; `make` takes its options from the
-registry of patterns, so a new pattern needs no line here.
+`main` is the console script. It loads nothing before it can be interrupted cleanly.
 """
 
 from __future__ import annotations
 
+import contextlib
+import signal
 import sys
-import warnings
-from typing import Annotated
+from types import FrameType
 
-import typer
-
-from infill import __version__
-from infill.cli.checking import check
-from infill.cli.console import warn
-from infill.cli.listing import list_patterns
-from infill.cli.making import make_command
-from patterns import PATTERNS
-
+INTERRUPTED, TERMINATED = 130, 143
 PLUGIN_COMMANDS = {"make", "list"}
 
 
-def build(*, plugins: bool = True) -> typer.Typer:
-    """Return the app; without plug-ins, `make` knows the options of the built-in patterns only."""
-    app = typer.Typer(
-        name="infill",
-        no_args_is_help=True,
-        pretty_exceptions_enable=False,
-        context_settings={"help_option_names": ["-h", "--help"]},
-        help="Infill patterns as smooth, watertight, printable meshes.",
-        epilog="Example: infill make honeycomb -o honeycomb.stl",
-    )
-
-    @app.callback()
-    def common(
-        version: Annotated[
-            bool, typer.Option("--version", help="Show the version and exit.", callback=_version, is_eager=True)
-        ] = False,
-    ) -> None: ...
-
-    app.command("make", no_args_is_help=True, epilog="Example: infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf")(
-        make_command(list(PATTERNS.values()) if plugins else list(PATTERNS.built_in.values()))
-    )
-    app.command("list", epilog="Example: infill list --json")(list_patterns)
-    app.command("check", no_args_is_help=True, epilog="Example: infill check part.stl --json")(check)
-    return app
-
-
 def main() -> None:
-    """Run the command line: exit 0 when done, 1 for our errors, 2 for usage."""
+    """Run the command line: exit 0 when done, 1 for our errors, 2 for usage, 130 when interrupted."""
+    for name in ("SIGTERM", "SIGHUP"):
+        with contextlib.suppress(AttributeError, ValueError):  # no such signal here, or not the main thread
+            signal.signal(getattr(signal, name), _terminate)
+    try:
+        _run()
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
+    except OSError as error:  # stdout or stderr is full or gone; files have errors of their own
+        with contextlib.suppress(OSError):
+            sys.stderr.write(f"error: cannot write the report: {error.strerror or error}\n")
+        # What is still held back for stdout would fail again when Python ends.
+        sys.stdout = None
+        sys.exit(1)
+
+
+def _run() -> None:
+    import warnings
+
+    from infill.cli.app import build
+    from infill.cli.console import warn
+
     warnings.showwarning = warn
     # Plug-ins may import anything: only the commands that need them wait for them.
-    build(plugins=bool(PLUGIN_COMMANDS & set(sys.argv[1:])))()
+    try:
+        build(plugins=bool(PLUGIN_COMMANDS & set(sys.argv[1:])))()
+    except SystemExit as end:
+        if end.code:
+            raise
 
 
-def _version(asked: bool) -> None:
-    if asked:
-        typer.echo(f"infill {__version__} (phasefill)")
-        raise typer.Exit
+def _terminate(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - the signature of a handler
+    """End as after an error, so that half-written files are removed."""
+    raise SystemExit(TERMINATED)

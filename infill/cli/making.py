@@ -124,8 +124,9 @@ def make(
     own_options: dict[str, Any],
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
-    from infill.export import save, writer
-    from infill.output import check_target
+    from infill.delivery import deliver
+    from infill.export import writer
+    from infill.output import check_targets
     from infill.settings import parse_bytes, resolve
 
     common = {
@@ -143,36 +144,30 @@ def make(
         from infill.preview import check_preview
 
         check_preview(preview)
-    for path in filter(None, (*outputs, preview, save_config)):
-        check_target(path, overwrite=force)
+    check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)
     if dry_run:
-        _show_plan(settings.plan(), as_json=as_json)
+        _show_plan(settings.plan(), limit, as_json=as_json)
         return
-    if not (outputs or preview or as_json):
-        settings.plan()
-    else:
-        with progress_bar(shown=not quiet) as progress:
+    result = None
+    with progress_bar(shown=not quiet) as progress:
+        if outputs or preview or as_json:
             result = settings.make(allow_broken=allow_broken, max_memory=limit, progress=progress)
-            for path in outputs:
-                save(result.surface, path, ascii=ascii_stl)
-            if preview is not None:
-                from infill.preview import save_preview
-
-                save_preview(result, preview)
-    if save_config is not None:
-        settings.save(save_config)
-    files = [str(path) for path in filter(None, (*outputs, preview, save_config))]
-    if not (outputs or preview or as_json):
-        if not quiet:
-            say(f"wrote {', '.join(files)}")
-        return
+        else:
+            settings.plan()  # what is saved shall be right
+        if progress is not None:
+            progress("write", 0.8)
+        written = deliver(
+            result, meshes=outputs, picture=preview, settings=settings, settings_file=save_config, ascii=ascii_stl
+        )
+    files = [str(path) for path in written]
     if not quiet:
-        say(_summary(result.report, files, verbose=verbose))
-    if as_json:
+        say(f"wrote {', '.join(files)}" if result is None else _summary(result.report, files, verbose=verbose))
+    if as_json and result is not None:
         print_json({**result.report, "files": files})
 
 
-def _show_plan(block: Any, *, as_json: bool) -> None:  # noqa: ANN401 - Block, not imported for --help
+def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa: ANN401 - Block, not imported for --help
+    block.require_grid_memory(limit)  # else the lines alone might fill it
     facts = {
         "pattern": block.pattern.name,
         "size": list(block.grid.extents),
@@ -212,7 +207,9 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
         "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, volume {report['volume_change']:+.2%}",
     }
     if change["pinholes"]:
-        rows["pinholes"] = f"{change['pinholes']} closed where lines meet"
+        rows["pinholes"] = (
+            f"{change['pinholes']} hole(s) or neck(s) without room for 3 x 3 cells changed where lines meet"
+        )
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
@@ -244,9 +241,10 @@ def _option(name: str, uses: list[tuple[str, Any, Parameter]], *, everyone: bool
     text = " ".join(f"{what}." if shared else f"{', '.join(names)}: {what}." for what, names in texts.items())
     word = name.replace("_", "-")
     flag = f"--{word}/--no-{word}" if isinstance(field.default, bool) else f"--{word}"
-    kinds: dict[type, Any] = {bool: bool, tuple: tuple[float, float]}
-    whole = "int" in str(field.type)
-    kind = kinds.get(type(field.default), int if whole else float)
+    kinds: dict[type, Any] = {bool: bool, tuple: tuple}
+    kind = kinds.get(type(field.default), int if uses[0][2].whole else float)
+    if kind is tuple:
+        kind = tuple.__class_getitem__((float,) * len(field.default))
     option = typer.Option(flag, help=text, rich_help_panel="Pattern", show_default=False)
     return inspect.Parameter(
         name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, option]

@@ -1,0 +1,48 @@
+"""The app: its commands live in modules of their own.
+
+`make` takes its options from the registry of patterns, so a new pattern needs no line here.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from infill import __version__
+from infill.cli.checking import check
+from infill.cli.listing import list_patterns
+from infill.cli.making import make_command
+from patterns import PATTERNS
+
+
+def build(*, plugins: bool = True) -> typer.Typer:
+    """Return the app; without plug-ins, `make` knows the options of the built-in patterns only."""
+    app = typer.Typer(
+        name="infill",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        help="Infill patterns as smooth, watertight, printable meshes.",
+        epilog="Example: infill make honeycomb -o honeycomb.stl",
+    )
+
+    @app.callback()
+    def common(
+        version: Annotated[
+            bool, typer.Option("--version", help="Show the version and exit.", callback=_version, is_eager=True)
+        ] = False,
+    ) -> None: ...
+
+    app.command("make", no_args_is_help=True, epilog="Example: infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf")(
+        make_command(list(PATTERNS.values()) if plugins else list(PATTERNS.built_in.values()))
+    )
+    app.command("list", epilog="Example: infill list --json")(list_patterns)
+    app.command("check", no_args_is_help=True, epilog="Example: infill check part.stl --json")(check)
+    return app
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"infill {__version__} (phasefill)")
+        raise typer.Exit
