@@ -35,25 +35,28 @@ def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -
 def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
     """Return `path`, or raise OutputError if a file could not be put there; called before the work."""
     target = Path(path)
-    try:
+    with _told(target):
         if target.is_dir():
             raise OutputError(f"{target} is a folder; give a file name")
         if not target.parent.is_dir():
             raise OutputError(f"there is no folder {target.parent}; make it first or write elsewhere")
         if not os.access(target.parent, os.W_OK):
-            raise _unwritable(target, OSError(errno.EACCES, ""))
+            raise OutputError(f"cannot write {target}: {REASONS[errno.EACCES]}")
         if target.exists() and not overwrite:
             raise OutputError(f"{target} exists; give another name, or --force to overwrite it")
-    except OSError as error:
-        raise _unwritable(target, error) from error
     return target
 
 
-def _unwritable(target: Path, error: OSError) -> OutputError:
-    """Return the error to raise for one of the system's, or the same if it is ours already."""
-    if isinstance(error, OutputError):
-        return error
-    return OutputError(f"cannot write {target}: {REASONS.get(error.errno or 0, error.strerror or str(error))}")
+@contextlib.contextmanager
+def _told(target: Path) -> Iterator[None]:
+    """Turn what the system says of a file into an error of ours."""
+    try:
+        yield
+    except OutputError:
+        raise
+    except OSError as error:
+        reason = REASONS.get(error.errno or 0, error.strerror or str(error))
+        raise OutputError(f"cannot write {target}: {reason}") from error
 
 
 @contextlib.contextmanager
@@ -70,12 +73,11 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     if target.exists() and not target.is_file() and not target.is_dir():
         partial = target  # a device such as /dev/null has no name to be replaced
     try:
-        with open(partial, "wb" if partial == target else "xb") as file:
-            yield file
-        if partial != target:
-            os.replace(partial, target)
-    except OSError as error:
-        raise _unwritable(target, error) from error
+        with _told(target):
+            with open(partial, "wb" if partial == target else "xb") as file:
+                yield file
+            if partial != target:
+                os.replace(partial, target)
     finally:
         if partial != target:
             with contextlib.suppress(OSError):

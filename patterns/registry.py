@@ -20,9 +20,11 @@ from patterns.protocol import Pattern, parameters
 GROUP = "infill.patterns"
 NEEDED = ("name", "summary", "prismatic", "lines", "points", "line_spacing")
 # Options of `infill make` that belong to no pattern: a parameter of that name could not be given.
-RESERVED = frozenset(
-    ["pattern", "output", "preview", "ascii_stl", "ascii", "force", "config", "save_config", "size", "height", "line_width", "stamp", "cells", "steps", "fidelity", "interface", "alpha", "allow_broken", "max_memory", "dry_run", "as_json", "json", "quiet", "verbose", "help", "parameters"]
-)
+RESERVED = frozenset({
+    "pattern", "output", "preview", "ascii_stl", "ascii", "force", "config", "save_config", "size", "height",
+    "line_width", "stamp", "cells", "steps", "fidelity", "interface", "alpha", "allow_broken", "max_memory",
+    "dry_run", "as_json", "json", "quiet", "verbose", "help", "parameters",
+})  # fmt: skip
 
 
 class PatternWarning(UserWarning):
