@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
 from infill import __version__
 from infill.allen_cahn import Smoothing
@@ -175,6 +174,7 @@ def make(
     with clock.stage("check", 0.3):
         before, after = regions(data), regions(smoothed)
         found = changes(before, after)
+        volume_change = solid_area(smoothed) / solid_area(data) - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
         problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
         if problems and not allow_broken:
@@ -184,7 +184,7 @@ def make(
         surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=origin)
         if not surface.closed or surface.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
-    report = _report(block, surface, data, smoothed, before, after, found, width, problems)
+    report = _report(block, surface, volume_change, before, after, found, width, problems)
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
     fields = {"points": points, "lines": block.lines, "stamp": data, "smoothed": smoothed, "grid": block.grid}
     return Result(surface=surface, report=report, fields=fields)
@@ -220,8 +220,7 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
 def _report(
     block: Block,
     surface: Surface,
-    data: NDArray[np.floating],
-    smoothed: NDArray[np.floating],
+    volume_change: float,
     before: Regions,
     after: Regions,
     found: Changes,
@@ -260,7 +259,7 @@ def _report(
         "result": _counts(after),
         "changes": asdict(found),
         "wall_width": {name: _finite(value) for name, value in asdict(width).items()},
-        "volume_change": solid_area(smoothed) / solid_area(data) - 1,
+        "volume_change": volume_change,
         "problems": problems,
     }
 

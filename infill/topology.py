@@ -137,27 +137,28 @@ def solid_area(layer: NDArray[np.floating]) -> float:
     >>> round(solid_area(np.ones((4, 4))), 9)  # the four corners are cut off
     15.5
     """
-    field = np.pad(layer, 1, constant_values=VOID).astype(np.float64)
-    corners = np.stack([field[:-1, :-1], field[1:, :-1], field[1:, 1:], field[:-1, 1:]], axis=-1)
-    inside = corners > 0
-    whole = inside.all(axis=-1)
-    mixed = inside.any(axis=-1) & ~whole
-    value, solid = corners[mixed], inside[mixed]
-    # Walk around the square: a corner counts if it is solid, a side if the contour crosses it. A point
-    # that does not count repeats the one before, which adds no area.
-    square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], dtype=np.float64)
-    following = np.roll(value, -1, axis=1)
-    crossed = solid != np.roll(solid, -1, axis=1)
-    part = np.where(crossed, value / np.where(crossed, value - following, 1), 0)[..., None]
-    crossing = square + part * (np.roll(square, -1, axis=0) - square)
-    points = np.stack([np.broadcast_to(square, crossing.shape), crossing], axis=2).reshape(-1, 8, 2)
-    counts = np.stack([solid, crossed], axis=2).reshape(-1, 8)
-    twice = np.tile(np.where(counts, np.arange(1, 9), 0), 2)
-    last = np.maximum.accumulate(twice + 8 * (twice > 0) * (np.arange(16) >= 8), axis=1)[:, 8:]
-    walked = np.take_along_axis(points, ((last - 1) % 8)[..., None], axis=1)
-    ahead = np.roll(walked, -1, axis=1)
-    area = (walked[..., 0] * ahead[..., 1] - walked[..., 1] * ahead[..., 0]).sum(axis=1) / 2
-    return float(whole.sum() + area.sum())
+    field = np.pad(layer, 1, constant_values=VOID)
+    is_solid = field > 0
+    squares = [(slice(i, i - 1 or None), slice(j, j - 1 or None)) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
+    count = np.zeros(tuple(n - 1 for n in field.shape), dtype=np.int8)
+    for square in squares:
+        count += is_solid[square]
+    mixed = np.nonzero((count > 0) & (count < 4))
+    value = np.stack([field[square][mixed] for square in squares]).astype(np.float64)
+    solid, following = value > 0, np.roll(value, -1, axis=0)
+    crossed = solid != (following > 0)
+    # How far along its sides, to the next corner and to the one before, the contour is from a corner.
+    ahead = np.where(crossed, value / np.where(crossed, value - following, 1), 0)
+    behind = np.where(np.roll(crossed, 1, axis=0), 1 - np.roll(ahead, 1, axis=0), 0)
+    corner = ahead * behind / 2
+    few = count[mixed]
+    beside = (few == 2) & (solid[0] != solid[2])  # two corners on one side: a trapezium
+    area = np.where(
+        beside,
+        ((ahead + behind) * solid).sum(axis=0) / 2,
+        np.where(few == 1, (corner * solid).sum(axis=0), 1 - (corner * ~solid).sum(axis=0)),
+    )
+    return float((count == 4).sum() + area.sum())
 
 
 def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -26,8 +26,11 @@ $(CURA_DEFINITIONS): | slicer-programs
 	mkdir -p $(dir $(CURA)); \
 	temporary=$$(mktemp -d $(dir $(CURA))XXXXXX); \
 	trap 'rm -rf "$$temporary"' EXIT; \
-	(cd "$$temporary" && apt-get download -q -o APT::Sandbox::User=root cura) || \
-		{ echo "slicers: apt-get found no package cura; has 'apt-get update' been run?" >&2; exit 1; }; \
+	sudo=; \
+	[ "$$(id -u)" = 0 ] || sudo=$$(command -v sudo) || true; \
+	download="apt-get download -q -o APT::Sandbox::User=root cura"; \
+	(cd "$$temporary" && { $$download || { $$sudo apt-get update -q && $$download; }; }) || \
+		{ echo "slicers: apt-get found no package cura; CuraEngine's definitions are in it" >&2; exit 1; }; \
 	dpkg-deb -x "$$temporary"/cura_*.deb "$$temporary"; \
 	rm -rf $(CURA); \
 	mkdir $(CURA); \
