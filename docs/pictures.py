@@ -21,6 +21,11 @@ def main() -> None:
         block = make(name, size=40, height=8, stamp="exact")
         picture = Image.fromarray(render(block.surface, width=360, height=240))
         picture.save(FOLDER / f"{name}-mesh.png", optimize=True)
+    both = Image.new("RGB", (960, 400), "white")
+    for left, stamp in ((0, "block"), (480, "exact")):
+        block = make("honeycomb", size=14, height=3, angle=0.12, stamp=stamp)
+        both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
+    both.save(FOLDER / "stamps.png", optimize=True)
 
 
 if __name__ == "__main__":
