@@ -1,23 +1,25 @@
-# Two commands on a fresh machine: `make demo` and `make test`. Python 3.11 or newer is all they need.
+# Two commands on a fresh machine: `make demo` and `make test`. Python 3.11 or newer and a POSIX shell
+# are all they need.
 # Both make .venv once and are silent about what is already done.
 
 PYTHON ?= python3
 DEMO ?= demo
 DESIGNS = concentric-heart zigzag honeycomb
 
-BIN = .venv/$(if $(filter Windows_NT,$(OS)),Scripts,bin)
+BIN = .venv/bin
 SOURCES = $(shell find infill patterns -name '*.py')
 
 .DELETE_ON_ERROR:
 .PHONY: demo test lint types check slicers bench pictures clean
 
-demo: $(DESIGNS:%=$(DEMO)/%.stl)
+demo: $(DESIGNS:%=$(DEMO)/%.stl) $(DESIGNS:%=$(DEMO)/%.png)
 	@echo "The paper's three designs, with a picture of each:"
 	@for design in $(DESIGNS); do echo "  $(CURDIR)/$(DEMO)/$$design.stl  $(CURDIR)/$(DEMO)/$$design.png"; done
 
-$(DEMO)/%.stl: .venv/demo $(SOURCES)
+# Both come from one run.
+$(DEMO)/%.stl $(DEMO)/%.png: .venv/demo $(SOURCES)
 	@mkdir -p $(DEMO)
-	@$(BIN)/infill make $* -o $@ --preview $(DEMO)/$*.png --force
+	@$(BIN)/infill make $* -o $(DEMO)/$*.stl --preview $(DEMO)/$*.png --force
 
 test: .venv/test
 	@$(BIN)/python -m pytest -q -n 2 --cov --cov-report=term:skip-covered --cov-fail-under=95

@@ -1,4 +1,4 @@
-"""Patterns, parts and scans as smooth, watertight, printable meshes.
+"""Infill patterns as smooth, watertight, printable meshes.
 
 Names are loaded when they are first asked for, so that a command does not pay for what it does not use.
 

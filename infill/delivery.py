@@ -2,22 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Sequence
 from pathlib import Path
-from typing import BinaryIO
 
 from infill.export import writer
-from infill.output import whole_file
+from infill.output import told, whole_files
 from infill.pipeline import Result
 from infill.settings import MakeSettings
-
-
-@contextmanager
-def whole_files(paths: Sequence[Path]) -> Iterator[list[BinaryIO]]:
-    """Yield a file for each path; all appear at the end, or none if anything fails."""
-    with ExitStack() as stack:
-        yield [stack.enter_context(whole_file(path)) for path in paths]
 
 
 def deliver(
@@ -37,14 +28,17 @@ def deliver(
         If one of the files cannot be written; then none is.
     """
     paths = [*meshes, *([picture] if picture else []), *([settings_file] if settings_file else [])]
+    if not paths:
+        return paths
     with whole_files(paths) as files:
         for path, file in zip(paths, files, strict=True):
-            if path is settings_file and settings is not None:
-                file.write(settings.to_toml().encode())
-            elif path is picture and result is not None:
-                from infill.preview import preview
+            with told(path):
+                if path is settings_file and settings is not None:
+                    file.write(settings.to_toml().encode())
+                elif path is picture and result is not None:
+                    from infill.preview import preview
 
-                preview(result).save(file, format="PNG")
-            elif result is not None:
-                writer(path, ascii=ascii)(result.surface, file)
+                    preview(result).save(file, format="PNG")
+                elif result is not None:
+                    writer(path, ascii=ascii)(result.surface, file)
     return paths

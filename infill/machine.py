@@ -21,7 +21,7 @@ def usable_cores() -> int:
 
 
 def available_memory() -> int | None:
-    """Return the bytes of memory that can be had without swapping, None where the system does not say."""
+    """Return the bytes of memory that are free, or all there are where only that is told; None for neither."""
     if sys.platform == "win32":
         return _windows_available()
     try:

@@ -6,7 +6,7 @@ import contextlib
 import errno
 import os
 import secrets
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
@@ -16,8 +16,8 @@ REASONS = {
     errno.ENOSPC: "the disk is full; free some space or write elsewhere",
     errno.EDQUOT: "the disk quota is used up; free some space or write elsewhere",
     errno.EFBIG: "the file would be larger than is allowed; choose larger cells or a smaller block",
-    errno.EACCES: "the folder may not be written to; choose another",
-    errno.EPERM: "the folder may not be written to; choose another",
+    errno.EACCES: "it may not be written to, or another program has it open; choose another name or folder",
+    errno.EPERM: "it may not be written to, or another program has it open; choose another name or folder",
     errno.EROFS: "the folder is read-only; choose another",
 }
 
@@ -35,7 +35,7 @@ def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -
 def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
     """Return `path`, or raise OutputError if a file could not be put there; called before the work."""
     target = Path(path)
-    with _told(target):
+    with told(target):
         if target.is_dir():
             raise OutputError(f"{target} is a folder; give a file name")
         if not target.parent.is_dir():
@@ -48,7 +48,7 @@ def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
 
 
 @contextlib.contextmanager
-def _told(target: Path) -> Iterator[None]:
+def told(target: Path) -> Iterator[None]:
     """Turn what the system says of a file into an error of ours."""
     try:
         yield
@@ -60,25 +60,48 @@ def _told(target: Path) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Yield a file to write to; `path` is replaced by it at the end, and untouched if anything fails.
+def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[BinaryIO]]:
+    """Yield a file to write to for each path; they replace the paths at the end, once all are written.
+
+    If anything fails, an interrupt included, all paths are as they were.
 
     Raises
     ------
     OutputError
-        If the file cannot be written: full disk, missing or read-only folder.
+        If a file cannot be written: full disk, missing or read-only folder.
     """
-    target = Path(path)
-    partial = target.with_name(f".{secrets.token_hex(4)}.partial")
-    if target.exists() and not target.is_file() and not target.is_dir():
-        partial = target  # a device such as /dev/null has no name to be replaced
+    targets = [Path(path) for path in paths]
+    partials = [_partial(target) for target in targets]
     try:
-        with _told(target):
-            with open(partial, "wb" if partial == target else "xb") as file:
-                yield file
+        with told(targets[0]), contextlib.ExitStack() as stack:
+            files: list[BinaryIO] = []
+            for target, partial in zip(targets, partials, strict=True):
+                with told(target):
+                    files.append(stack.enter_context(open(partial, "wb" if partial == target else "xb")))
+            yield files
+            for target, file in zip(targets, files, strict=True):
+                with told(target):
+                    file.close()  # the last bytes go out, or do not
+        for target, partial in zip(targets, partials, strict=True):
             if partial != target:
-                os.replace(partial, target)
+                with told(target):
+                    os.replace(partial, target)
     finally:
-        if partial != target:
-            with contextlib.suppress(OSError):
-                partial.unlink(missing_ok=True)
+        for target, partial in zip(targets, partials, strict=True):
+            if partial != target:
+                with contextlib.suppress(OSError):
+                    partial.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Yield one file to write to, as `whole_files` does."""
+    with whole_files([path]) as files, told(Path(path)):
+        yield files[0]
+
+
+def _partial(target: Path) -> Path:
+    """Return the name to write under: beside the target, but a device's own, which cannot be replaced."""
+    if target.exists() and not target.is_file() and not target.is_dir():
+        return target
+    return target.with_name(f".{secrets.token_hex(4)}.partial")

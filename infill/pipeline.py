@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], None]
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile: below, a wall counts as lost
+MOST_PINHOLES = 0.02  # of the void in holes: more is no matter of acute angles
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
@@ -153,6 +154,10 @@ def make(
     -----
     Source: Wang et al. 2020, section 3.4.
 
+    The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its Euler number is
+    that of the surface; those under "stamp" and "result" are of the layer, half as large. Its volume change
+    is that of the layer by smoothing: the rounding of the rims, at most half a layer, is left out.
+
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
     """
@@ -173,7 +178,7 @@ def make(
         smoothed = smooth(data, block.smoothing, spacing=block.grid.spacing)
     with clock.stage("check", 0.3):
         before, after = regions(data), regions(smoothed)
-        found = changes(before, after)
+        found = changes(before, after, line_cells=block.cells)
         volume_change = solid_area(smoothed) / solid_area(data) - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
         problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
@@ -210,6 +215,11 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
     ):
         if count:
             yield f"{count} {what} in smoothing"
+    if found.pinhole_share > MOST_PINHOLES:
+        yield (
+            f"{found.pinholes} hole(s) narrower than a line, {found.pinhole_share:.0%} of all void, closed in "
+            "smoothing: use larger cells or a thinner line"
+        )
     if width.p5 < THINNEST * width.requested:
         yield (
             f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {THINNEST:.0%} of the "

@@ -16,7 +16,7 @@ from infill.errors import ParameterError
 from infill.grid import Grid
 from infill.machine import require_memory
 from infill.stacking import layer_count
-from patterns import PATTERNS, Pattern, PatternError
+from patterns import PATTERNS, Pattern, PatternError, lacking
 
 if TYPE_CHECKING:
     from shapely import MultiLineString, Polygon
@@ -178,7 +178,7 @@ def plan(
 def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters stand for, or the pattern itself."""
     if not isinstance(pattern, str):
-        if isinstance(pattern, type) or not isinstance(pattern, Pattern):
+        if isinstance(pattern, type) or lacking(pattern):
             raise ParameterError(f"{pattern!r} is no pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
             raise ParameterError(

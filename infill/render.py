@@ -1,6 +1,6 @@
 """A shaded picture of a mesh, without a display, a GPU or a plotting library.
 
-Every triangle is spread over the pixels of its box, all triangles at once; the nearest wins.
+Every triangle is spread over the pixels of its box, many triangles at once; the nearest wins.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Pixels = NDArray[np.uint8]
 LIGHT = np.array([-0.45, -0.6, 0.9]) / np.linalg.norm([-0.45, -0.6, 0.9])
 AMBIENT = 0.35
 SAMPLES = 2  # along each side of a pixel
-FRAGMENTS_AT_ONCE = 2_000_000
+FRAGMENTS_AT_ONCE = 300_000
 
 
 def render(

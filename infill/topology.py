@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.grid import VOID
-from infill.stamping import widened
 from infill.surface import TIE
+
+PINHOLE = 3  # cells: a void with no room for a square of so many is one that every cell of touches a wall
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +67,7 @@ class Changes:
     Parameters
     ----------
     broken : int
-        Walls that let two voids run together, or fell apart.
+        Walls that let two voids run together, or fell apart, or got a hole.
     vanished, appeared : int
         Bodies of solid that are gone, or new.
     fused : int
@@ -74,9 +75,11 @@ class Changes:
     closed : int
         Holes that are gone.
     pinholes : int
-        Changes of holes, and of necks of voids, of which every cell touches a wall (no 3x3 cells fit
-        in): closed, cut, or run together with a neighbour. They are left over where lines meet at an
-        acute angle, and are no fault.
+        Holes that are gone, and necks of voids that are cut, with no room for a square of `PINHOLE` cells,
+        or of a line if that has fewer. They are left over where lines meet at an acute angle or run
+        side by side, and nothing could be printed in them.
+    pinhole_share : float
+        Cells of those holes over the cells of all holes.
     """
 
     broken: int
@@ -85,11 +88,7 @@ class Changes:
     fused: int
     closed: int
     pinholes: int
-
-    @property
-    def harmless(self) -> bool:
-        """True if nothing changed but pinholes."""
-        return not (self.broken or self.vanished or self.appeared or self.fused or self.closed)
+    pinhole_share: float
 
 
 def regions(layer: NDArray[np.floating]) -> Regions:
@@ -109,25 +108,33 @@ def topology(layer: NDArray[np.floating]) -> Topology:
     return regions(layer).topology
 
 
-def changes(before: Regions, after: Regions) -> Changes:
-    """Compare two states of the same layer, body by body."""
+def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Changes:
+    """Compare two states of the same layer, body by body.
+
+    Parameters
+    ----------
+    before, after : Regions
+    line_cells : int
+        Cells across a line: what is as wide as a line is no pinhole.
+    """
     held, voids = _overlaps(before.solid, after.solid), _overlaps(before.void, after.void)
-    cores = _bodies(_opened(before.void > 0), np.empty((0, 2), dtype=np.intp))
-    kept = _overlaps(cores, after.void)
+    room = _opened(before.void > 0, min(PINHOLE, line_cells))
+    cores = _bodies(room, np.empty((0, 2), dtype=np.intp))
     wide = np.zeros(voids.shape[0], dtype=bool)
-    wide[np.unique(before.void[cores > 0]) - 1] = True
+    wide[np.unique(before.void[room]) - 1] = True
     wide[before.void[0, 0] - 1] = True  # the outside, of which only a shell is seen
     gone = voids.sum(axis=1) == 0
-    cut, merged = _extra(kept, axis=1), _extra(voids[wide], axis=0)
+    cells = np.bincount(before.void.ravel(), minlength=len(gone) + 1)[1:]
+    outside = cells[before.void[0, 0] - 1]
+    cut = _extra(_overlaps(cores, after.void), axis=1)
     return Changes(
-        broken=_extra(held, axis=1) + merged + int((voids.sum(axis=0) == 0).sum()),
+        broken=_extra(held, axis=1) + _extra(voids, axis=0) + int((voids.sum(axis=0) == 0).sum()),
         vanished=int((held.sum(axis=1) == 0).sum()),
         appeared=int((held.sum(axis=0) == 0).sum()),
         fused=_extra(held, axis=0) + cut,
         closed=int((gone & wide).sum()),
-        pinholes=int((gone & ~wide).sum())
-        + max(0, _extra(voids, axis=1) - cut)
-        + max(0, _extra(voids, axis=0) - merged),
+        pinholes=int((gone & ~wide).sum()) + max(0, _extra(voids, axis=1) - cut),
+        pinhole_share=float(cells[gone & ~wide].sum() / max(1, cells.sum() - outside)),
     )
 
 
@@ -208,14 +215,19 @@ def _extra(table: NDArray[np.bool_], axis: int) -> int:
     return int((table.sum(axis=axis) - 1).clip(0).sum())
 
 
-def _opened(inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the cells that lie in some 3x3 cells, all inside."""
-    fits = inside
+def _opened(inside: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
+    """Return the cells that lie in some square of `size` cells, all inside."""
+    if min(inside.shape) < size:
+        return np.zeros_like(inside)
+    found = inside
     for axis in range(2):
-        along = np.moveaxis(fits, axis, 0)
-        run = np.zeros_like(along)
-        run[1:-1] = along[2:] & along[1:-1] & along[:-2]
-        fits = np.moveaxis(run, 0, axis)
+        along = np.moveaxis(found, axis, 0)
+        count = len(along) - size + 1
+        found = np.moveaxis(np.logical_and.reduce([along[shift : shift + count] for shift in range(size)]), 0, axis)
     for axis in range(2):
-        fits = widened(fits, axis, 1)
-    return fits
+        along = np.moveaxis(found, axis, 0)
+        grown = np.zeros((len(along) + size - 1, along.shape[1]), dtype=bool)
+        for shift in range(size):
+            grown[shift : shift + len(along)] |= along
+        found = np.moveaxis(grown, 0, axis)
+    return found

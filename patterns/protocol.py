@@ -10,7 +10,7 @@ import dataclasses
 import math
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, get_args, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, get_args
 
 from patterns.errors import PatternError
 
@@ -69,10 +69,14 @@ def parameter(
         For a unit or a default that the command line could not offer.
     """
     numbers = default if isinstance(default, tuple) else (default,)
-    if unit not in UNITS or not all(each is None or isinstance(each, (bool, Real)) for each in numbers):
+    if (
+        unit not in UNITS
+        or (unit == "rad" and isinstance(default, tuple))
+        or not all(each is None or isinstance(each, (bool, Real)) for each in numbers)
+    ):
         raise PatternError(
             f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
-            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))}"
+            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))} (a tuple in rad cannot be)"
         )
     described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces)
     return dataclasses.field(default=default, metadata={"parameter": described})
@@ -127,7 +131,18 @@ def _checked(pattern: Pattern, name: str, described: Parameter, number: object) 
     return int(value) if described.whole else value
 
 
-@runtime_checkable
+NEEDED = ("name", "summary", "prismatic", "lines", "points", "line_spacing")
+
+
+def lacking(pattern: object) -> list[str]:
+    """Return what a pattern, or a class of patterns, would need and does not have.
+
+    >>> lacking("honeycomb")[:2]
+    ['name', 'summary']
+    """
+    return [word for word in NEEDED if not hasattr(pattern, word)]
+
+
 class Pattern(Protocol):
     """Lines in a plane at height z, in millimetres.
 

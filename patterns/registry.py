@@ -15,10 +15,9 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any
 
 from patterns.errors import PatternError
-from patterns.protocol import Pattern, parameters
+from patterns.protocol import Pattern, lacking, parameters
 
 GROUP = "infill.patterns"
-NEEDED = ("name", "summary", "prismatic", "lines", "points", "line_spacing")
 # Options of `infill make` that belong to no pattern: a parameter of that name could not be given.
 RESERVED = frozenset({
     "pattern", "output", "preview", "ascii_stl", "ascii", "force", "config", "save_config", "size", "height",
@@ -100,9 +99,9 @@ def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern
 
 def _check_class(pattern: Any, name: str) -> None:  # noqa: ANN401 - whatever a plug-in offers
     """Raise PatternError if `pattern` is no pattern class that can go by `name`."""
-    lacking = [word for word in NEEDED if not hasattr(pattern, word)]
-    if not isinstance(pattern, type) or lacking:
-        raise PatternError(f"it is not a pattern class ({', '.join(lacking) or 'no class'} missing)")
+    missing = lacking(pattern)
+    if not isinstance(pattern, type) or missing:
+        raise PatternError(f"it is not a pattern class ({', '.join(missing) or 'no class'} missing)")
     if pattern.name != name:  # type: ignore[attr-defined]
         raise PatternError(f"its class is named {pattern.name!r}; name both alike")  # type: ignore[attr-defined]
     clashes = sorted(RESERVED & set(parameters(pattern)))

@@ -25,7 +25,7 @@ class Zigzag(Pattern):
     """
 
     name: ClassVar[str] = "zigzag"
-    summary: ClassVar[str] = "two crossing waves; each is one unbroken line"
+    summary: ClassVar[str] = "two crossing waves, drawn in long, nearly straight strokes"
 
     cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
     waves: float | None = parameter(

@@ -22,6 +22,7 @@ def test_systems_without_affinity(monkeypatch: pytest.MonkeyPatch) -> None:
     assert machine.usable_cores() == os.cpu_count()
 
 
+@pytest.mark.skipif(not hasattr(os, "sysconf"), reason="no sysconf on this system")
 def test_systems_without_proc(monkeypatch: pytest.MonkeyPatch) -> None:
     def missing(self: Path, **options: str) -> str:
         raise FileNotFoundError

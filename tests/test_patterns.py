@@ -24,6 +24,7 @@ from patterns import (
     PatternWarning,
     Registry,
     Zigzag,
+    lacking,
     parameters,
 )
 from patterns import parameter as described
@@ -70,7 +71,7 @@ def test_height_does_not_matter_to_prismatic_patterns(pattern: Pattern) -> None:
 
 @every_design
 def test_patterns_keep_the_protocol(pattern: Pattern) -> None:
-    assert isinstance(pattern, Pattern)
+    assert lacking(pattern) == []
     assert PATTERNS[pattern.name] is type(pattern)
     assert pattern.summary
     assert pattern.line_spacing(REGIONS[0]) > 0
@@ -267,7 +268,7 @@ def test_a_plugin_that_quits_is_left_out(monkeypatch: pytest.MonkeyPatch) -> Non
         assert list(registry_with(entry("quits", "a:b"))) == ["honeycomb"]
 
 
-@pytest.mark.parametrize(("default", "unit"), [("a", "mm"), (3, "deg"), ((1, "b"), ""), ([1], "")])
+@pytest.mark.parametrize(("default", "unit"), [("a", "mm"), ((0.1, 0.2), "rad"), (3, "deg"), ((1, "b"), ""), ([1], "")])
 def test_a_parameter_must_be_one_that_can_be_offered(default: object, unit: str) -> None:
     with pytest.raises(PatternError, match="a parameter has the default"):
         described(default, "something", unit=unit)

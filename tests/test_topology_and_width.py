@@ -16,8 +16,7 @@ from infill import Grid, ParameterError, Smoothing, extrude, smooth, stamp_lines
 from infill.topology import Changes, Topology, changes, regions, solid_area, topology
 from patterns import Honeycomb
 
-NONE = Changes(broken=0, vanished=0, appeared=0, fused=0, closed=0, pinholes=0)
-ONE_PINHOLE = dataclasses.replace(NONE, pinholes=1)
+NONE = Changes(broken=0, vanished=0, appeared=0, fused=0, closed=0, pinholes=0, pinhole_share=0.0)
 
 
 def drawn(text: str) -> np.ndarray:
@@ -82,13 +81,11 @@ RING = """
 
 def test_no_change_is_none() -> None:
     assert compare(RING, RING) == NONE
-    assert NONE.harmless
 
 
 def test_a_broken_ring_is_found() -> None:
     found = compare(RING, RING.replace("#.......#", "#........", 1))
     assert found.broken == 1
-    assert not found.harmless
 
 
 def test_a_wall_that_falls_apart_is_found() -> None:
@@ -115,15 +112,24 @@ def test_a_void_that_is_cut_in_two_is_found() -> None:
 
 
 def test_pinholes_are_counted_apart() -> None:
+    """Every cell of a void two cells wide touches a wall; what is left of the void is told too."""
+    narrow = "##############\n#.......#....#\n#.......#....#\n#########....#\n##############"
+    found = compare(narrow, narrow.replace("#.......#", "#########"))
+    assert found == dataclasses.replace(NONE, pinholes=1, pinhole_share=14 / 26)
+
+
+def test_what_is_as_wide_as_a_line_is_no_pinhole() -> None:
     narrow = "#########\n#.......#\n#.......#\n#########"
-    found = compare(narrow, narrow.replace(".", "#"))
-    assert found == ONE_PINHOLE
-    assert found.harmless
+    before, after = regions(drawn(narrow)), regions(drawn(narrow.replace(".", "#")))
+    assert changes(before, after, line_cells=5) == dataclasses.replace(NONE, pinholes=1, pinhole_share=1.0)
+    for line_cells in (1, 2):
+        assert changes(before, after, line_cells=line_cells) == dataclasses.replace(NONE, closed=1)
 
 
 def test_a_neck_that_closes_is_a_pinhole() -> None:
     dumbbell = "###########\n#...###...#\n#.........#\n#...###...#\n###########"
-    assert compare(dumbbell, dumbbell.replace("#.........#", "#...###...#")) == ONE_PINHOLE
+    found = compare(dumbbell, dumbbell.replace("#.........#", "#...###...#"))
+    assert found == dataclasses.replace(NONE, pinholes=1)
 
 
 def test_a_part_out_of_nothing_is_found() -> None:
@@ -131,9 +137,9 @@ def test_a_part_out_of_nothing_is_found() -> None:
     assert compare(empty, empty[:14] + "#" + empty[15:]).appeared == 1
 
 
-def test_a_wall_beside_a_narrow_void_is_counted() -> None:
-    two = "########\n#..#...#\n#..#...#\n#..#...#\n########"
-    assert compare(two, two.replace("#..#...#", "#......#")) == ONE_PINHOLE
+def test_a_wall_between_narrow_voids_is_a_wall() -> None:
+    two = "########\n#..#..##\n#..#..##\n#..#..##\n########"
+    assert compare(two, two.replace("#..#..#", "#.....#")).broken == 1
 
 
 @given(seed=st.integers(0, 2**32 - 1))
@@ -159,7 +165,7 @@ def test_what_kills_a_wall_is_seen() -> None:
     f[13:47, 13:47] = -1
     before = regions(f)
     assert changes(before, regions(smooth(f, Smoothing(steps=10)))) == NONE
-    assert not changes(before, regions(smooth(f, Smoothing(steps=60)))).harmless
+    assert changes(before, regions(smooth(f, Smoothing(steps=60)))).vanished == 1
 
 
 def wall(angle: float, width: float) -> tuple[shapely.MultiLineString, Grid]:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import signal
 import sys
 from types import FrameType
@@ -19,6 +20,9 @@ def main() -> None:
     for name in ("SIGTERM", "SIGHUP"):
         with contextlib.suppress(AttributeError, ValueError):  # no such signal here, or not the main thread
             signal.signal(getattr(signal, name), _terminate)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):  # a name that the console cannot show is no reason to fail
+            stream.reconfigure(errors="backslashreplace")
     try:
         _run()
         sys.stdout.flush()

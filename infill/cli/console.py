@@ -75,7 +75,7 @@ def table(rows: Mapping[str, str], title: str = "") -> str:
 
 def print_json(value: Mapping[str, Any]) -> None:
     """Print one JSON object to stdout."""
-    typer.echo(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+    typer.echo(json.dumps(value, indent=2, allow_nan=False))
 
 
 def as_bytes(count: float) -> str:

@@ -6,7 +6,7 @@ import inspect
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Optional
+from typing import Annotated, Any
 
 import typer
 
@@ -40,11 +40,11 @@ def _names(incomplete: str) -> list[str]:
 def make(
     *,
     pattern: Annotated[
-        Optional[str],  # noqa: UP045 - read by typer
+        str | None,
         typer.Argument(help="Name of the pattern: 'infill list' shows all.", autocompletion=_names),
     ] = None,
     output: Annotated[
-        Optional[list[Path]],  # noqa: UP045
+        list[Path] | None,
         typer.Option(
             "-o",
             "--output",
@@ -53,33 +53,33 @@ def make(
         ),
     ] = None,
     preview: Annotated[
-        Optional[Path],  # noqa: UP045
+        Path | None,
         typer.Option(help="Picture of the four stages to write: FILE.png.", rich_help_panel=FILES),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     config: Annotated[
-        Optional[Path],  # noqa: UP045
+        Path | None,
         typer.Option(help="TOML file of options; flags win over it.", rich_help_panel=FILES),
     ] = None,
     save_config: Annotated[
-        Optional[Path],  # noqa: UP045
+        Path | None,
         typer.Option(help="TOML file to write all options to, as resolved.", rich_help_panel=FILES),
     ] = None,
     size: Annotated[
-        Optional[str],  # noqa: UP045
+        str | None,
         typer.Option(help="Block in x and y, mm: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK),
     ] = None,
     height: Annotated[
-        Optional[float],  # noqa: UP045
+        float | None,
         typer.Option(help="Height of the block, mm. (default: 6)", rich_help_panel=BLOCK),
     ] = None,
     line_width: Annotated[
-        Optional[float],  # noqa: UP045
+        float | None,
         typer.Option(help="Width of the walls, mm. (default: 0.45)", rich_help_panel=BLOCK),
     ] = None,
     stamp: Annotated[
-        Optional[str],  # noqa: UP045
+        str | None,
         typer.Option(
             help="block: the paper's stamps, walls up to 41 % wider on diagonals; "
             "exact: the same width in every direction. (default: block)",
@@ -87,30 +87,30 @@ def make(
         ),
     ] = None,
     cells: Annotated[
-        Optional[int],  # noqa: UP045
+        int | None,
         typer.Option(help="Grid cells across a line. (default: 3 for block, 5 for exact)", rich_help_panel=BLOCK),
     ] = None,
     steps: Annotated[
-        Optional[int],  # noqa: UP045
+        int | None,
         typer.Option(help="Smoothing steps. (default: 10)", rich_help_panel=BLOCK),
     ] = None,
     fidelity: Annotated[
-        Optional[float],  # noqa: UP045
+        float | None,
         typer.Option(help="How strongly the stamp holds, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK),
     ] = None,
     interface: Annotated[
-        Optional[float],  # noqa: UP045
+        float | None,
         typer.Option(help="Cells from the surface to phi = 0.9. (default: 2)", rich_help_panel=BLOCK),
     ] = None,
     alpha: Annotated[
-        Optional[float],  # noqa: UP045
+        float | None,
         typer.Option(help="Time step over the cell size squared, up to 0.25. (default: 1/7)", rich_help_panel=BLOCK),
     ] = None,
     allow_broken: Annotated[
         bool, typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN)
     ] = False,
     max_memory: Annotated[
-        Optional[str],  # noqa: UP045
+        str | None,
         typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
     ] = None,
     dry_run: Annotated[
@@ -168,6 +168,8 @@ def make(
 
 def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa: ANN401 - Block, not imported for --help
     block.require_grid_memory(limit)  # else the lines alone might fill it
+    if limit is not None:
+        block.require_memory(limit)
     facts = {
         "pattern": block.pattern.name,
         "size": list(block.grid.extents),
@@ -204,12 +206,12 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
         f"{report['components']} component(s), Euler number {report['euler_number']}",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
-        "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, volume {report['volume_change']:+.2%}",
+        "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, "
+        f"volume {report['volume_change']:+.2%} (rims apart)",
     }
     if change["pinholes"]:
-        rows["pinholes"] = (
-            f"{change['pinholes']} hole(s) or neck(s) without room for 3 x 3 cells changed where lines meet"
-        )
+        share = f"{change['pinhole_share']:.2%} of the void"
+        rows["pinholes"] = f"{change['pinholes']} hole(s) or neck(s) narrower than a line closed, {share}"
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
