@@ -3,17 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from infill.allen_cahn import Smoothing, phase_field, smooth_reference
-from infill.dense import smooth_dense
 from infill.errors import ParameterError
+from infill.inplace import smooth_inplace
 
-Method = Literal["auto", "numpy", "dense"]
-KERNELS: dict[str, Callable[..., NDArray[np.floating]]] = {"numpy": smooth_reference, "dense": smooth_dense}
+Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
+Kernel = Callable[..., NDArray[np.floating]]
+COMPILED_AXES = 3
+
+
+def _dense(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
+    from infill.compiled import smooth_dense
+
+    return smooth_dense(*args, **options)
+
+
+def _sparse(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
+    from infill.sparse import smooth_sparse
+
+    return smooth_sparse(*args, **options)
+
+
+KERNELS: dict[str, Kernel] = {
+    "numpy": smooth_reference,
+    "inplace": smooth_inplace,
+    "dense": _dense,
+    "sparse": _sparse,
+}
 
 
 def smooth(
@@ -40,9 +61,11 @@ def smooth(
         The field to start from; the data if left out.
     mask : (...) bool, optional
         The domain. No flux crosses its edge; cells outside keep what they start with.
-    method : {"auto", "numpy", "dense"}
-        "numpy" is the specification in float64; "dense" is in-place float32, the same to 2e-5;
-        "auto" takes "dense".
+    method : {"auto", "numpy", "inplace", "dense", "sparse"}
+        "numpy" is the specification in float64; the others are float32, the same to 2e-5.
+        "inplace" needs no compiler. "dense" and "sparse" take up to three axes; they are compiled when
+        first used, some seconds, and kept on disk. "sparse" leaves out what cannot move, and gives the
+        bits of "dense". "auto" takes "inplace".
 
     Returns
     -------
@@ -63,6 +86,8 @@ def smooth(
     """
     if method != "auto" and method not in KERNELS:
         raise ParameterError(f"there is no method {method!r}; choose from auto, {', '.join(KERNELS)}")
+    if method in ("dense", "sparse") and np.ndim(f) > COMPILED_AXES:
+        raise ParameterError(f"method {method!r} takes up to {COMPILED_AXES} axes, not {np.ndim(f)}; choose inplace")
     field = phase_field(f)
     start = None if initial is None else phase_field(initial, "the initial field")
     domain = None if mask is None else np.asarray(mask)
@@ -71,5 +96,5 @@ def smooth(
             raise ParameterError(f"{name} has the shape {other.shape}, the data {field.shape}; give equal shapes")
     if domain is not None and domain.dtype != bool:
         raise ParameterError(f"the mask is of type {domain.dtype}; give booleans")
-    kernel = KERNELS["dense" if method == "auto" else method]
+    kernel = KERNELS["inplace" if method == "auto" else method]
     return kernel(field, smoothing, spacing=spacing, initial=start, mask=domain)

@@ -61,6 +61,11 @@ def test_make_needs_neither_a_compiler_nor_trimesh(tmp_path: Path) -> None:
     assert not {"numba", "llvmlite", "trimesh", "manifold3d", "PIL"} & modules_after(code)
 
 
+def test_smoothing_without_a_choice_loads_no_compiler() -> None:
+    code = "import numpy as np; from infill import smooth; smooth(np.ones((9, 9))); smooth(np.ones((5, 5, 5)))"
+    assert not {"numba", "llvmlite", "scipy"} & modules_after(code)
+
+
 def test_every_public_name_is_found() -> None:
     import infill
     import patterns

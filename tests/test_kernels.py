@@ -15,6 +15,7 @@ from shapes import smooth_noise
 
 from infill import ParameterError, Smoothing, rescale, smooth
 from infill.allen_cahn import laplacian
+from infill.compiled import parts_of_one
 from infill.smoothing import KERNELS
 
 FAST = 2e-5  # what the issue allows a float32 kernel over 30 steps
@@ -92,33 +93,99 @@ def test_the_comparison_can_fail() -> None:
     assert np.abs(smooth(f, Smoothing(steps=5, fidelity=0.3), method="numpy") - other).max() > 100 * FAST
 
 
+fast_kernels = pytest.mark.parametrize("method", [method for method in KERNELS if method != "numpy"])
+
+
+@fast_kernels
 @pytest.mark.parametrize(("f", "spacing", "options"), cases())
-def test_the_dense_kernel_agrees(f: np.ndarray, spacing: tuple[float, ...], options: dict[str, Any]) -> None:
+def test_fast_kernels_agree(method: str, f: np.ndarray, spacing: tuple[float, ...], options: dict[str, Any]) -> None:
     for smoothing in (Smoothing(steps=30, fidelity=0.05), Smoothing(steps=3, fidelity=2, interface=8, alpha=0.1)):
         reference = smooth(f, smoothing, spacing=spacing, method="numpy", **options)
-        fast = smooth(f, smoothing, spacing=spacing, method="dense", **options)
+        fast = smooth(f, smoothing, spacing=spacing, method=method, **options)
         assert fast.dtype == np.float32
         assert np.abs(fast - reference).max() < FAST
 
 
+@fast_kernels
 @given(shape=shapes, seed=st.integers(0, 2**32 - 1), steps=st.integers(0, 30), fidelity=st.floats(0, 1))
-def test_the_dense_kernel_agrees_on_any_shape(shape: tuple[int, ...], seed: int, steps: int, fidelity: float) -> None:
+def test_fast_kernels_agree_on_any_shape(
+    method: str, shape: tuple[int, ...], seed: int, steps: int, fidelity: float
+) -> None:
     f = np.random.default_rng(seed).uniform(-1, 1, shape)
     smoothing = Smoothing(steps=steps, fidelity=fidelity)
-    assert np.abs(smooth(f, smoothing, method="dense") - smooth(f, smoothing, method="numpy")).max() < FAST
+    assert np.abs(smooth(f, smoothing, method=method) - smooth(f, smoothing, method="numpy")).max() < FAST
+
+
+@given(
+    shape=st.one_of(
+        st.tuples(st.integers(1, 150)),
+        st.tuples(st.integers(1, 60), st.integers(1, 60)),
+        st.tuples(st.integers(1, 40), st.integers(1, 40), st.integers(1, 50)),
+    ),
+    seed=st.integers(0, 2**32 - 1),
+    steps=st.integers(0, 40),
+    fidelity=st.floats(0, 1),
+    feature=st.floats(0.5, 6),
+    spacing=st.tuples(*[st.floats(0.6, 1.5)] * 3),
+    extra=st.sets(st.sampled_from(["mask", "initial", "int8"])),
+)
+def test_sparse_is_dense_to_the_last_bit(
+    shape: tuple[int, ...], seed: int, steps: int, fidelity: float, feature: float, spacing: Any, extra: set[str]
+) -> None:
+    """Shapes that are no multiple of a block, steps beyond a block, surfaces at the edge, anisotropy, masks."""
+    rng = np.random.default_rng(seed)
+    f = np.where(ndimage.gaussian_filter(rng.standard_normal(shape), feature) > rng.uniform(-0.05, 0.05), 1.0, -1.0)
+    options: dict[str, Any] = {"spacing": spacing[: len(shape)]}
+    if "mask" in extra:
+        options["mask"] = rng.random(shape) > 0.2
+    if "initial" in extra:
+        options["initial"] = np.where(rng.random(shape) > 0.9, -f, f)
+    data = f.astype(np.int8) if "int8" in extra else f
+    smoothing = Smoothing(steps=steps, fidelity=fidelity, alpha=0.1)
+    dense, sparse = (smooth(data, smoothing, method=method, **options) for method in ("dense", "sparse"))
+    assert np.array_equal(dense, sparse)
+
+
+@pytest.mark.parametrize("method", ["dense", "sparse"])
+def test_compiled_kernels_take_three_axes(method: str) -> None:
+    with pytest.raises(ParameterError, match="up to 3 axes, not 4; choose inplace"):
+        smooth(np.ones((2, 2, 2, 2)), method=method)
+
+
+@given(decay=st.floats(1e-30, 1.0))
+def test_the_parts_of_one_are_one(decay: float) -> None:
+    """In 32 bits too: so that +1 and -1 are fixed points to the last bit."""
+    one, other = parts_of_one(decay)
+    assert one + other == np.float32(1)
+    assert one > 0
+    assert one == pytest.approx(decay, abs=1e-7)
+
+
+def test_far_from_the_surface_nothing_is_touched() -> None:
+    """A half space of 200 cells: ten steps reach one block on either side of the surface."""
+    from infill.sparse import BLOCK, block_states, levels
+
+    f = -np.ones((200, 12, 16), dtype=np.float32)
+    f[100:] = 1
+    state = block_states(f, f, BLOCK)
+    level = levels(state, steps=10, smallest=12)[:, 0, 0]
+    touched = np.flatnonzero(level >= 0)
+    assert 100 // 12 in touched
+    assert len(touched) <= 5
+    assert (state[level < 0] != 0).all()
 
 
 def test_threads_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch, rng: np.random.Generator) -> None:
     f = smooth_noise(rng, (90, 70))
-    alone = smooth(f, Smoothing(steps=7))
-    monkeypatch.setattr("infill.dense.BLOCK", 512)
-    monkeypatch.setattr("infill.dense.usable_cores", lambda: 3)
-    assert np.array_equal(smooth(f, Smoothing(steps=7)), alone)
+    alone = smooth(f, Smoothing(steps=7), method="inplace")
+    monkeypatch.setattr("infill.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.inplace.usable_cores", lambda: 3)
+    assert np.array_equal(smooth(f, Smoothing(steps=7), method="inplace"), alone)
 
 
 def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("infill.dense.BLOCK", 512)
-    monkeypatch.setattr("infill.dense.usable_cores", lambda: 2)
+    monkeypatch.setattr("infill.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.inplace.usable_cores", lambda: 2)
     real = np.sqrt
     calls = []
 
@@ -128,9 +195,9 @@ def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
             raise MemoryError
         return real(*args, **options)
 
-    monkeypatch.setattr("infill.dense.np.sqrt", failing)
+    monkeypatch.setattr("infill.inplace.np.sqrt", failing)
     with pytest.raises(MemoryError):
-        smooth(np.ones((80, 80)), Smoothing(steps=50))
+        smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")
 
 
 @every_kernel
@@ -318,7 +385,9 @@ def test_bad_data_are_refused(method: str, f: np.ndarray, options: dict[str, Any
 
 
 def test_an_unknown_kernel_is_refused() -> None:
-    with pytest.raises(ParameterError, match="there is no method 'magic'; choose from auto, numpy, dense"):
+    with pytest.raises(
+        ParameterError, match="there is no method 'magic'; choose from auto, numpy, inplace, dense, sparse"
+    ):
         smooth(np.ones(3), method="magic")
 
 
@@ -347,8 +416,8 @@ def test_settings_are_plain_numbers() -> None:
 
 def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the main thread comes out as such, not as the failure of another thread."""
-    monkeypatch.setattr("infill.dense.BLOCK", 512)
-    monkeypatch.setattr("infill.dense.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.inplace.usable_cores", lambda: 3)
     real, main = np.sqrt, threading.main_thread()
 
     def interrupted(*args: Any, **options: Any) -> Any:
@@ -356,6 +425,6 @@ def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
             raise KeyboardInterrupt
         return real(*args, **options)
 
-    monkeypatch.setattr("infill.dense.np.sqrt", interrupted)
+    monkeypatch.setattr("infill.inplace.np.sqrt", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        smooth(np.ones((80, 80)), Smoothing(steps=50))
+        smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")

@@ -31,7 +31,7 @@ BLOCK = 180000  # cells handled at once: long enough that threads seldom wait fo
 TOGETHER = 8  # steps that a thread does alone: fewer meetings against a wider halo
 
 
-def smooth_dense(
+def smooth_inplace(
     f: NDArray[np.generic],
     smoothing: Smoothing,
     *,
