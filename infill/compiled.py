@@ -58,14 +58,14 @@ def prepared(
     shape = (1,) * (3 - f.ndim) + f.shape
     start = f if initial is None else initial
     small = np.issubdtype(f.dtype, np.integer)
-    data: Data = np.ascontiguousarray(f, dtype=np.int8 if small else np.float32).reshape(shape)
+    data: Data = np.ascontiguousarray(f, np.int8) if small else np.ascontiguousarray(f, np.float32)
     inside: NDArray[np.bool_] = np.ones((0, 0, 0), dtype=bool)
     if mask is not None:
         inside = np.ascontiguousarray(mask).reshape(shape)
     w0, w1, w2 = (np.float32(weight) for weight in (0.0,) * (3 - f.ndim) + weights)
     hold = np.float32(smoothing.pull / (1 + smoothing.pull))
     numbers = (w0, w1, w2, *parts_of_one(smoothing.decay), hold)
-    return data, start.astype(np.float32).reshape(shape), inside, numbers
+    return data.reshape(shape), start.astype(np.float32).reshape(shape), inside, numbers
 
 
 def parts_of_one(decay: float) -> tuple[np.float32, np.float32]:
