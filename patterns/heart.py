@@ -47,7 +47,7 @@ class ConcentricHeart(Pattern):
     Copies are scaled about the middle of the square they stand on, in even steps. The gap between
     neighbours is `cell` at the straight sides and at the notch and twice that at the tips of the
     lobes; no other centre makes it more even. A region that is not square carries the hearts in
-    its middle. Source: Wang et al. 2020, Fig. 17(a).
+    its middle; what a phase shifts out of the region is cut off. Source: Wang et al. 2020, Fig. 17(a).
     """
 
     name: ClassVar[str] = "concentric-heart"
@@ -58,6 +58,7 @@ class ConcentricHeart(Pattern):
         None, "number of hearts, instead of cell", unit="", low=1, high=1000, whole=True, replaces="cell"
     )
     angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
+    phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)
     frame: bool = parameter(False, "a wall around the block", unit="")
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
@@ -72,7 +73,7 @@ class ConcentricHeart(Pattern):
         count = self.hearts or max(1, math.floor((largest - gap) / (2 * gap)) + 1)
         sides = largest - 2 * gap * np.arange(count)
         hearts = turn(sides[:, None, None] * (outline() - 0.5), self.angle)
-        placed = hearts - (hearts[0].min(axis=0) + hearts[0].max(axis=0)) / 2 + middle(region)
+        placed = hearts - (hearts[0].min(axis=0) + hearts[0].max(axis=0)) / 2 + middle(region) + self.phase
         lines = clip(shapely.linestrings(placed), region)
         return framed(lines, region) if self.frame else lines
 

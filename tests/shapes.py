@@ -21,6 +21,7 @@ DESIGNS: list[Pattern] = [
     ConcentricHeart(),
     ConcentricHeart(hearts=3, angle=0.4),
     ConcentricHeart(cell=5, frame=True),
+    ConcentricHeart(cell=7, phase=(3.0, -2.0)),
 ]
 BUILT_IN = list(PATTERNS.built_in)
 REGIONS: list[Polygon] = [

@@ -182,6 +182,13 @@ def test_hearts_are_nested_with_even_gaps(hearts: int) -> None:
     assert ConcentricHeart(hearts=hearts).line_spacing(region) == pytest.approx(gap)
 
 
+def test_phase_moves_the_hearts() -> None:
+    region, small = box(-30, -30, 30, 30), box(-12, -12, 12, 12)
+    plain, moved = (ConcentricHeart(hearts=4, phase=phase).lines(region) for phase in ((0, 0), (3, -2)))
+    inside = shapely.affinity.translate(plain, 3, -2).intersection(small)
+    assert shapely.hausdorff_distance(moved.intersection(small), inside) < ROUNDING
+
+
 def test_a_region_without_area_is_refused() -> None:
     with pytest.raises(PatternError, match="no area"):
         ConcentricHeart().lines(box(0, 0, 0, 5))
