@@ -360,7 +360,9 @@ def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
     config.write_text(resolve({"pattern": "concentric-heart", "hearts": 5, "angle": 10}).to_toml())
     assert "cell" not in config.read_text()
     assert resolve({}, config).parameters["hearts"] == 5
-    assert resolve({"cell": 8.0}, config).parameters == {"cell": 8.0, "angle": 10.0, "frame": False}
+    assert resolve({"cell": 8.0}, config).parameters == {
+        "cell": 8.0, "angle": 10.0, "phase": (0.0, 0.0), "frame": False
+    }  # fmt: skip
     config.write_text('pattern = "concentric-heart"\ncell = 8\n')
     assert resolve({"hearts": 2}, config).parameters == {"hearts": 2}
     with pytest.raises(ParameterError, match="hearts replaces cell: leave one out"):
