@@ -47,22 +47,22 @@ def smooth_inplace(
     pull, decay = smoothing.pull, smoothing.decay
     scale = math.sqrt(1 - decay) * (1 + pull)
     interior = (slice(1, -1),) * f.ndim
-    exists = _padded(np.ones(f.shape, dtype=np.float32) if mask is None else mask, interior)
-    field = _padded(start, interior, scale)
+    field = _padded(start if mask is None else np.where(mask, start, 0), interior, scale)
     data = _padded(f, interior, scale * pull / (1 + pull))
-    if mask is not None:
-        field *= exists
+    exists = np.zeros(field.shape, dtype=bool)
+    exists[interior] = True if mask is None else mask
 
     axes = list(zip(weights, [stride // field.itemsize for stride in field.strides], strict=True))
     margin = sum(shift for _, shift in axes)
     first, last = margin, field.size - margin  # from the first cell of the grid to the last
-    here, there = exists.ravel()[first:last], exists.ravel()
-    keep = np.full_like(here, 1 / weights[0])
+    there = exists.ravel()
+    missing = first + np.flatnonzero(~there[first:last])
+    keep = np.full(last - first, np.float32(1 / weights[0] - 2 * sum(weights) / weights[0]))
+    absent = np.flatnonzero(~there)
     for weight, shift in axes:
-        for neighbour in (there[first - shift : last - shift], there[first + shift : last + shift]):
-            keep -= np.float32(weight / weights[0]) * neighbour
-
-    missing = first + np.flatnonzero(here == 0)
+        for step in (-shift, shift):  # a cell keeps what it would give a neighbour that is not there
+            cells = absent + step - first
+            keep[cells[(cells >= 0) & (cells < last - first)]] += np.float32(weight / weights[0])
     u, known = field.ravel(), data.ravel()
     floor = np.float32(decay * ((1 + pull) / weights[0]) ** 2)
     shares = [(None if weight == weights[0] else np.float32(weight / weights[0]), shift) for weight, shift in axes]
@@ -143,5 +143,6 @@ def _march(
 def _padded(values: NDArray[np.generic], interior: tuple[slice, ...], factor: float = 1.0) -> NDArray[np.float32]:
     """Return `values` times `factor` as float32 in a shell of zeros one cell thick."""
     padded = np.zeros(tuple(count + 2 for count in values.shape), dtype=np.float32)
-    np.multiply(values, np.float32(factor), out=padded[interior], casting="unsafe")
+    padded[interior] = values
+    padded *= np.float32(factor)
     return padded
