@@ -53,6 +53,7 @@ def ratio(ours: Sequence[Run], theirs: Sequence[Run]) -> float:
     return statistics.median(a.seconds / b.seconds for a, b in zip(ours, theirs, strict=True))
 
 
-def row(name: str, figure: str, limit: str, *, holds: bool) -> None:
-    """Print one line of the table."""
-    print(f"{'ok ' if holds else 'NO '} {name:<58} {figure:<34} limit {limit}", flush=True)
+def row(name: str, figure: str, limit: str = "", *, holds: bool | None = None) -> None:
+    """Print one line of the table; a figure without a limit is told and not judged."""
+    verdict = {True: "ok", False: "NO", None: ""}[holds]
+    print(f"{verdict:<3} {name:<58} {figure:<34} {'limit ' + limit if limit else ''}".rstrip(), flush=True)

@@ -107,6 +107,18 @@ class Block:
         """Bytes of memory the work will need, the program itself included."""
         return self.grid_memory + BYTES_PER_TRIANGLE * self.triangles
 
+    def facts(self) -> dict[str, Any]:
+        """Return what a dry run shows, as plain numbers: lengths in mm, sizes in bytes."""
+        return {
+            "pattern": self.pattern.name,
+            "size": list(self.grid.extents),
+            "grid": list(self.grid.shape),
+            "spacing": float(self.grid.cell_size.min()),
+            "memory": self.memory,
+            "triangles": self.triangles,
+            "stl_bytes": self.stl_bytes,
+        }
+
     def require_memory(self, limit: int | None) -> None:
         """Raise MemoryLimitError if the work needs more than `limit` bytes, or than the machine has free."""
         self.require_grid_memory(limit)

@@ -57,13 +57,17 @@ class MakeSettings:
     alpha: float = 1 / 7
     parameters: dict[str, Any] = field(default_factory=dict)
 
+    def _pattern(self) -> Pattern:
+        kind = PATTERNS.find(self.pattern)
+        angles = {name for name, (_, described) in parameters(kind).items() if described.unit == "rad"}
+        return kind(**{name: math.radians(v) if name in angles else v for name, v in self.parameters.items()})
+
     def _request(self) -> dict[str, Any]:
         from infill.allen_cahn import Smoothing
 
-        kind = PATTERNS.find(self.pattern)
         smoothing = Smoothing(steps=self.steps, fidelity=self.fidelity, interface=self.interface, alpha=self.alpha)
         return {
-            "pattern": kind(**{name: _inside(kind, name, value) for name, value in self.parameters.items()}),
+            "pattern": self._pattern(),
             "size": self.size,
             "height": self.height,
             "line_width": self.line_width,
@@ -89,7 +93,8 @@ class MakeSettings:
     def to_toml(self) -> str:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = dataclasses.asdict(self)
-        own = in_degrees(PATTERNS.find(self.pattern)(**_radians(self.pattern, plain.pop("parameters"))))
+        del plain["parameters"]
+        own = in_degrees(self._pattern())
         rows = [f"{name} = {_toml(value)}" for name, value in {**plain, **own}.items() if value is not None]
         return "\n".join(["# infill make --config THIS_FILE -o OUT", *rows, ""])
 
@@ -188,17 +193,6 @@ def in_degrees(pattern: Pattern) -> dict[str, Any]:
 def _plain(value: object) -> object:
     """Return a list for a tuple: what JSON and TOML give back."""
     return list(value) if isinstance(value, tuple) else value
-
-
-def _radians(pattern: str, values: dict[str, Any]) -> dict[str, Any]:
-    kind = PATTERNS.find(pattern)
-    return {name: _inside(kind, name, value) for name, value in values.items()}
-
-
-def _inside(kind: type[Pattern], name: str, value: Any) -> Any:  # noqa: ANN401 - of whatever type the field is
-    """Return a value in the unit used inside: radians for angles."""
-    described = parameters(kind)[name][1]
-    return math.radians(value) if described.unit == "rad" else value
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from shapes import smooth_noise
 
@@ -146,8 +146,7 @@ def test_a_wall_between_narrow_voids_is_a_wall() -> None:
 def test_the_solid_area_is_the_extruded_volume(seed: int) -> None:
     """A tall prism with sharp edges: every layer but the rounded ends has the area of the layer."""
     layer = smooth(np.sign(smooth_noise(np.random.default_rng(seed), (14, 12))))
-    if layer.max() <= 0.9 or not topology(layer).components:
-        return
+    assume(topology(layer).components)
     low, high = (extrude(layer, height, 1.0, layer_height=1.0).volume for height in (10, 11))
     # Float32, values moved off the level by 2^-10; saddles are joined here and may be parted there.
     assert high - low == pytest.approx(solid_area(layer), rel=2e-3, abs=0.5)

@@ -170,15 +170,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
     block.require_grid_memory(limit)  # else the lines alone might fill it
     if limit is not None:
         block.require_memory(limit)
-    facts = {
-        "pattern": block.pattern.name,
-        "size": list(block.grid.extents),
-        "grid": list(block.grid.shape),
-        "spacing": float(block.grid.cell_size.min()),
-        "memory": block.memory,
-        "triangles": block.triangles,
-        "stl_bytes": block.stl_bytes,
-    }
+    facts = block.facts()
     if as_json:
         print_json(facts)
         return
