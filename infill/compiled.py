@@ -13,6 +13,7 @@ this module loads numba; each function is compiled when it is first called and t
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numba import njit, prange
@@ -35,7 +36,11 @@ def smooth_dense(
     mask: NDArray[np.bool_] | None = None,
 ) -> Field:
     """Return what `smooth_reference` returns, to 2e-5, for up to three axes, every cell in every step."""
-    data, old, inside, numbers = prepared(f, smoothing, spacing, initial, mask)
+    numbers = numbers_of(smoothing, spacing, f.ndim)
+    small = np.issubdtype(f.dtype, np.integer)
+    data = on_three_axes(f).astype(np.int8 if small else np.float32, copy=False)
+    old = on_three_axes(f if initial is None else initial).astype(np.float32)
+    inside = np.ones((0, 0, 0), dtype=bool) if mask is None else on_three_axes(mask)
     new = old.copy()
     for _ in range(smoothing.steps):
         sweep(old, data, inside, new, numbers)
@@ -43,29 +48,17 @@ def smooth_dense(
     return old.reshape(f.shape)
 
 
-def prepared(
-    f: NDArray[np.generic],
-    smoothing: Smoothing,
-    spacing: float | tuple[float, ...],
-    initial: NDArray[np.generic] | None,
-    mask: NDArray[np.bool_] | None,
-) -> tuple[Data, Field, NDArray[np.bool_], Numbers]:
-    """Return data, start, mask (empty for none) on three axes, and the numbers of the scheme.
+def on_three_axes(field: NDArray[Any]) -> NDArray[Any]:
+    """Return the field as (n0, n1, n2), with axes of one cell in front, contiguous."""
+    return np.ascontiguousarray(field.reshape((1,) * (3 - field.ndim) + field.shape))
 
-    The numbers are the weights of the three axes, E, 1 - E and p / (1 + p).
-    """
-    weights = smoothing.weights(spacing_of(spacing, f.ndim))
-    shape = (1,) * (3 - f.ndim) + f.shape
-    start = f if initial is None else initial
-    small = np.issubdtype(f.dtype, np.integer)
-    data: Data = np.ascontiguousarray(f, np.int8) if small else np.ascontiguousarray(f, np.float32)
-    inside: NDArray[np.bool_] = np.ones((0, 0, 0), dtype=bool)
-    if mask is not None:
-        inside = np.ascontiguousarray(mask).reshape(shape)
-    w0, w1, w2 = (np.float32(weight) for weight in (0.0,) * (3 - f.ndim) + weights)
+
+def numbers_of(smoothing: Smoothing, spacing: float | tuple[float, ...], dimensions: int) -> Numbers:
+    """Return the weights of the three axes, E, 1 - E and p / (1 + p)."""
+    weights = smoothing.weights(spacing_of(spacing, dimensions))
+    w0, w1, w2 = (np.float32(weight) for weight in (0.0,) * (3 - dimensions) + weights)
     hold = np.float32(smoothing.pull / (1 + smoothing.pull))
-    numbers = (w0, w1, w2, *parts_of_one(smoothing.decay), hold)
-    return data.reshape(shape), start.astype(np.float32).reshape(shape), inside, numbers
+    return (w0, w1, w2, *parts_of_one(smoothing.decay), hold)
 
 
 def parts_of_one(decay: float) -> tuple[np.float32, np.float32]:
@@ -83,7 +76,7 @@ def parts_of_one(decay: float) -> tuple[np.float32, np.float32]:
     return max(one - rest, np.float32(decay)), rest
 
 
-@njit(inline="always", cache=True)
+@njit(inline="always", cache=True, error_model="numpy")
 def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201  # pragma: no cover
     """Return the value of one cell after a step, from its own, its six neighbours' and its datum."""
     w0, w1, w2, decay, rest, hold = numbers
@@ -92,7 +85,7 @@ def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  
     return v + hold * (f - v)
 
 
-@njit(parallel=True, cache=True)
+@njit(parallel=True, cache=True, error_model="numpy")
 def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201  # pragma: no cover
     """Do one step from `u` to `new`, (n0, n1, n2); a neighbour that does not exist has the cell's own value."""
     n0, n1, n2 = u.shape

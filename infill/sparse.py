@@ -1,24 +1,61 @@
 """The compiled scheme on blocks around the surface only; everywhere else nothing moves.
 
-Where phi = f = +-1 among equal neighbours, a cell is a fixed point (see `infill.compiled`), and what happens
-at the surface travels one cell a step. So after n steps only blocks within n cells of the surface differ from the
-data, and in step k only those within k cells need work. The result is that of the dense kernel to the last bit.
+Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.compiled`). So a
+block in which that holds need not be kept, and a step touches a block only once a neighbour's face has another
+value. The result is that of the dense kernel to the last bit, and cost and memory grow with the surface.
+
+The blocks lie on a lattice that begins one cell before the grid and ends at least one cell behind it: there the
+surface of what touches the edge of the grid will close. Those outer cells repeat the value beside them, which is
+the zero Neumann edge.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
-from numba import njit, prange
 from numpy.typing import NDArray
 
+from infill import sparse_kernels as kernels
 from infill.allen_cahn import Smoothing
-from infill.compiled import Data, Field, advanced, prepared
+from infill.compiled import Data, Field, Numbers, numbers_of, on_three_axes
+from infill.sparse_kernels import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
+from infill.threads import in_threads, thread_count
 
-BLOCK = (12, 12, 16)  # cells; the last axis is contiguous
-MIXED = np.int8(0)  # the state of a block that is neither all solid nor all void
-EDGE = -3  # a neighbour beyond the grid; -1 and -2 stand for blocks of -1 and +1 that are left alone
+MORE = 1.5  # blocks to make room for, over those there are
+
+
+@dataclass(frozen=True, kw_only=True)
+class SparseField:
+    """A phase field of which only the blocks around the surface are kept.
+
+    Parameters
+    ----------
+    shape : (n0, n1, n2)
+        Cells of the grid.
+    slots : (m0, m1, m2) int32
+        The lattice of blocks: the number of a block that is kept, else `VOID_BLOCK`, `SOLID_BLOCK` or `OUTSIDE`.
+    where : (n, 3) int32
+        Place on the lattice of each block that is kept.
+    values : (n, 8, 8, 16) float32
+        Its cells; cell 0 of block 0 lies one cell before the grid.
+    data : (n, 8, 8, 16) int8 or float32
+        What the cells were smoothed from.
+    """
+
+    shape: tuple[int, int, int]
+    slots: NDArray[np.int32]
+    where: NDArray[np.int32]
+    values: Field
+    data: Data
+
+    def to_dense(self) -> Field:
+        """Return the whole field, (n0, n1, n2) float32."""
+        whole = np.empty(self.shape, dtype=np.float32)
+        in_threads(kernels.spread, self.slots, self.values.reshape(-1, CELLS), whole, threads=thread_count())
+        return whole
 
 
 def smooth_sparse(
@@ -31,224 +68,151 @@ def smooth_sparse(
 ) -> Field:
     """Return what `infill.compiled.smooth_dense` returns, to the last bit, for up to three axes.
 
-    Cost and extra memory grow with the surface. Grey data are all surface: there it does what the dense
-    kernel does, with a little more overhead.
+    Grey data are all surface: there it does what the dense kernel does, with more overhead.
     """
-    data, start, inside, numbers = prepared(f, smoothing, spacing, initial, mask)
-    if smoothing.steps == 0:
-        return start.reshape(f.shape)
-    block = tuple(min(size, count) for size, count in zip(BLOCK, start.shape, strict=True))
-    level = levels(block_states(start, data, block), steps=smoothing.steps, smallest=_smallest(block, start.shape))
-    where = np.argwhere(level >= 0)
-    where = where[np.argsort(level[tuple(where.T)], kind="stable")]
-    reached = level[tuple(where.T)]
-    number = np.full(level.shape, -1, dtype=np.int32)
-    number[tuple(where.T)] = np.arange(len(where))
-    beside = neighbours(where, number, start, block)
-    old, held, open_cells = gathered(where, start, data, inside, block)
-    new = old.copy()
-    extents = np.minimum(np.array(start.shape) - where * block, block)
-    for step in range(smoothing.steps):
-        count = np.searchsorted(reached, step // _smallest(block, start.shape) + 1, side="right")
-        sweep_blocks(old, held, open_cells, new, beside[:count], extents[:count], numbers)
-        old, new = new, old
-    scatter(where, old, extents, start)
-    return start.reshape(f.shape)
+    return smooth_blocks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
 
-def _smallest(block: tuple[int, ...], shape: tuple[int, ...]) -> int:
-    """Return the fewest steps in which news can cross a block: along an axis with more than one of them."""
-    return min((size for size, count in zip(block, shape, strict=True) if count > size), default=max(block))
-
-
-def levels(state: NDArray[np.int8], *, steps: int, smallest: int) -> NDArray[np.int32]:
-    """Return for every block how many blocks it lies from the surface, -1 if `steps` do not reach it.
+def smooth_blocks(
+    f: NDArray[np.generic],
+    smoothing: Smoothing,
+    *,
+    spacing: float | tuple[float, ...] = 1.0,
+    initial: NDArray[np.generic] | None = None,
+    mask: NDArray[np.bool_] | None = None,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> SparseField:
+    """Return the smoothed field in blocks, without ever holding it whole.
 
     Parameters
     ----------
-    state : (m0, m1, m2) int8
-        +1 and -1 for blocks of one value, `MIXED` for others.
-    steps, smallest : int
-        Steps to do, and steps in which news cross a block.
+    f : up to three axes
+        bool, True solid; or numbers in [-1, 1]. No copy is made of booleans and of int8 without zeros.
+    smoothing, spacing, initial, mask
+        As in `infill.smooth`.
+    threads : int, optional
+        See `infill.threads.thread_count`.
+    progress : callable, optional
+        Called before each step with the share of steps done.
     """
-    from scipy import ndimage
-
-    padded = np.pad(state, 1, mode="edge")
-    around = (slice(1, -1),) * 3
-    differs = ndimage.maximum_filter(padded, 3)[around] != ndimage.minimum_filter(padded, 3)[around]
-    reached = (state == MIXED) | differs
-    level = np.where(reached, 0, -1).astype(np.int32)
-    for distance in range(1, (steps - 1) // smallest + 2):
-        grown = ndimage.binary_dilation(reached, np.ones((3, 3, 3), dtype=bool))
-        if (grown == reached).all():
-            break
-        level[grown & ~reached] = distance
-        reached = grown
-    return level
-
-
-def neighbours(
-    where: NDArray[np.intp], number: NDArray[np.int32], start: Field, block: tuple[int, ...]
-) -> NDArray[np.int32]:
-    """Return for each block its six neighbours: their number, or what stands for them, (n, 6) int32."""
-    found = np.empty((len(where), 6), dtype=np.int32)
-    for side in range(6):
-        place = where.copy()
-        place[:, side // 2] += 1 if side % 2 else -1
-        beyond: NDArray[np.bool_] = np.any((place < 0) | (place >= number.shape), axis=1)
-        place = np.where(beyond[:, None], 0, place)
-        found[:, side] = number[tuple(place.T)]
-        alone = found[:, side] < 0
-        sign = start[tuple((place * block).T)]
-        found[:, side] = np.where(alone, np.where(sign > 0, -2, -1), found[:, side])
-        found[beyond, side] = EDGE
-    return found
+    threads = thread_count(threads)
+    numbers = numbers_of(smoothing, spacing, f.ndim)
+    data, state = _states_of(on_three_axes(f), threads)
+    start = data
+    if initial is not None:
+        start = on_three_axes(initial).astype(np.float32)
+        state = np.where(state == _states_of(start, threads)[1], state, MIXED)
+    domain = np.ones((0, 0, 0), dtype=bool) if mask is None else on_three_axes(mask)
+    blocks = _Blocks.around(state, data, threads)
+    blocks.gather(start, data)
+    for n in range(smoothing.steps):
+        if progress is not None:
+            progress(n / smoothing.steps)
+        blocks.activate()
+        blocks.step(numbers, domain)
+    shape = data.shape
+    return SparseField(
+        shape=(shape[0], shape[1], shape[2]), slots=blocks.slots, where=blocks.where[: blocks.count],
+        values=blocks.phi[: blocks.count].reshape(-1, *BLOCK), data=blocks.held[: blocks.count].reshape(-1, *BLOCK),
+    )  # fmt: skip
 
 
-def block_states(start: Field, data: Data, block: tuple[int, ...]) -> NDArray[np.int8]:
-    """Return +1 or -1 for blocks in which start and data have that value throughout, else `MIXED`."""
-    shape = tuple(math.ceil(count / size) for count, size in zip(start.shape, block, strict=True))
-    state = np.empty(shape, dtype=np.int8)
-    _fill_states(start, data, np.array(block), state)
-    return state
+def _states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
+    """Return the field as the kernels take it, and the state of every block: +1, -1, `MIXED` or `OUTER`."""
+    if field.dtype == bool:
+        data: Data = field.view(np.int8)
+    elif np.issubdtype(field.dtype, np.integer):
+        data = field.astype(np.int8, copy=False)
+    else:
+        data = field.astype(np.float32, copy=False)
+    lattice = tuple(math.ceil((count + 2) / size) for count, size in zip(data.shape, BLOCK, strict=True))
+    state = np.empty(lattice, dtype=np.int8)
+    zeros = np.zeros(lattice[:2], dtype=bool)
+    if data.dtype == np.int8:
+        in_threads(kernels.fill_states, data, state, zeros, threads=threads)
+        if zeros.any() and field.dtype != bool:  # a whole number between void and solid: that is grey
+            return _states_of(data.astype(np.float32), threads)
+    else:
+        in_threads(kernels.fill_grey_states, data, state, threads=threads)
+    return data, state
 
 
-def gathered(
-    where: NDArray[np.intp], start: Field, data: Data, inside: NDArray[np.bool_], block: tuple[int, ...]
-) -> tuple[Field, Data, NDArray[np.bool_]]:
-    """Return start, data and mask (empty for none) of the given blocks, (n, *block) each."""
-    field = np.zeros((len(where), *block), dtype=np.float32)
-    held = np.zeros((len(where), *block), dtype=data.dtype)
-    open_cells = np.zeros((len(where), *block) if inside.size else (0, 0, 0, 0), dtype=bool)
-    _gather(where, start, field)
-    _gather(where, data, held)
-    if inside.size:
-        _gather(where, inside, open_cells)
-    return field, held, open_cells
+class _Blocks:
+    """The blocks at work: their cells, their data, and copies of their faces before and after a step."""
 
+    def __init__(self, slots: NDArray[np.int32], where: NDArray[np.int32], data: Data, threads: int) -> None:
+        self.slots, self.count, self.shape, self.threads = slots, len(where), data.shape, threads
+        self.where = where
+        room = max(16, int(MORE * self.count))
+        self.phi = np.empty((0, CELLS), dtype=np.float32)
+        self.held: Data = np.empty((0, CELLS), dtype=data.dtype)
+        self.faces, self.next_faces = (np.empty((0, FACES), dtype=np.float32) for _ in range(2))
+        self.flat, self.next_flat = (np.empty((0, 6), dtype=np.int8) for _ in range(2))
+        self.uniform = np.empty(0, dtype=np.int8)  # the value of a block in which nothing moved yet, else 0
+        self.beside = np.empty((0, 6), dtype=np.int32)
+        self._grow(room)
+        self.uniform[: self.count] = 0
+        kernels.find_neighbours(self.slots, self.where, self.beside, 0, self.count)
 
-# What follows is compiled, so that no tool sees its lines run.
+    @classmethod
+    def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> _Blocks:
+        """Return room for the blocks that are mixed, or beside one of the other phase."""
+        kept = state == MIXED
+        for axis in range(3):
+            low, high = (
+                tuple(part if a == axis else slice(None) for a in range(3))
+                for part in (slice(None, -1), slice(1, None))
+            )
+            differs = state[low] * state[high] == -1
+            kept[low] |= differs
+            kept[high] |= differs
+        slots = np.full(state.shape, VOID_BLOCK, dtype=np.int32)
+        slots[state == 1] = SOLID_BLOCK
+        slots[state == OUTER] = OUTSIDE
+        where = np.argwhere(kept).astype(np.int32)
+        slots[kept] = np.arange(len(where))
+        return cls(slots, where, data, threads)
 
+    def gather(self, start: Data, data: Data) -> None:
+        """Take over start and data, which may be the same array."""
+        for whole, blocks in ((data, self.held), (start, self.phi)):
+            take = kernels.gather_binary if whole.dtype == np.int8 else kernels.gather_grey
+            in_threads(take, whole, self.where, blocks, self.count, threads=self.threads)
+        in_threads(kernels.emit_all, self.phi, self.faces, self.flat, self.count, threads=self.threads)
 
-@njit(parallel=True, cache=True)
-def _fill_states(start, data, block, state):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202  # pragma: no cover
-    m0, m1, m2 = state.shape
-    for row in prange(m0 * m1):
-        p, q = row // m1, row % m1
-        for r in range(m2):
-            first = start[p * block[0], q * block[1], r * block[2]]
-            same = first == 1 or first == -1
-            for i in range(p * block[0], min((p + 1) * block[0], start.shape[0])):
-                for j in range(q * block[1], min((q + 1) * block[1], start.shape[1])):
-                    if not same:
-                        break
-                    for k in range(r * block[2], min((r + 1) * block[2], start.shape[2])):
-                        if start[i, j, k] != first or data[i, j, k] != first:
-                            same = False
-            state[p, q, r] = np.int8(first) if same else MIXED
+    def activate(self) -> None:
+        """Begin to keep the blocks beside faces of another value."""
+        wanted = kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count)
+        if len(wanted) == 0:
+            return
+        first, self.count = self.count, self.count + len(wanted)
+        if self.count > len(self.phi):
+            self._grow(int(MORE * self.count))
+        self.where[first : self.count] = wanted
+        values = np.where(self.slots[tuple(wanted.T)] == SOLID_BLOCK, 1, -1).astype(np.int8)
+        self.uniform[first : self.count] = values
+        self.slots[tuple(wanted.T)] = np.arange(first, self.count)
+        kernels.find_neighbours(self.slots, self.where, self.beside, first, self.count)
+        in_threads(
+            kernels.fill, self.phi, self.held, self.faces, self.next_faces, self.flat, self.next_flat, self.uniform,
+            first, self.count, threads=self.threads,
+        )  # fmt: skip
 
+    def step(self, numbers: Numbers, domain: NDArray[np.bool_]) -> None:
+        """Do one step, in place."""
+        in_threads(
+            kernels.step, self.phi, self.held, self.faces, self.next_faces, self.flat, self.next_flat, self.uniform,
+            self.beside, self.where, domain, self.count, numbers, self.shape, threads=self.threads,
+        )  # fmt: skip
+        self.faces, self.next_faces = self.next_faces, self.faces
+        self.flat, self.next_flat = self.next_flat, self.flat
 
-@njit(parallel=True, cache=True)
-def _gather(where, whole, blocks):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202  # pragma: no cover
-    _, b0, b1, b2 = blocks.shape
-    for n in prange(len(where)):
-        i0, j0, k0 = where[n, 0] * b0, where[n, 1] * b1, where[n, 2] * b2
-        for i in range(min(b0, whole.shape[0] - i0)):
-            for j in range(min(b1, whole.shape[1] - j0)):
-                for k in range(min(b2, whole.shape[2] - k0)):
-                    blocks[n, i, j, k] = whole[i0 + i, j0 + j, k0 + k]
-
-
-@njit(parallel=True, cache=True)
-def scatter(where, blocks, extents, whole):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201  # pragma: no cover
-    """Write blocks back into the whole field."""
-    _, b0, b1, b2 = blocks.shape
-    for n in prange(len(where)):
-        i0, j0, k0 = where[n, 0] * b0, where[n, 1] * b1, where[n, 2] * b2
-        for i in range(extents[n, 0]):
-            for j in range(extents[n, 1]):
-                for k in range(extents[n, 2]):
-                    whole[i0 + i, j0 + j, k0 + k] = blocks[n, i, j, k]
-
-
-@njit(cache=True)
-def _surrounded(n, fields, beside, sizes, alone):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202  # pragma: no cover
-    """Return block `n` in a shell one cell thick of what its neighbours hold.
-
-    Beyond the grid the shell repeats the block's own cells; for blocks left alone it is `alone[0]` for
-    blocks of -1 and `alone[1]` for blocks of +1.
-    """
-    e0, e1, e2 = sizes
-    _, b0, b1, b2 = fields.shape
-    own = fields[n]
-    shell = np.empty((e0 + 2, e1 + 2, e2 + 2), dtype=fields.dtype)
-    for i in range(e0):
-        for j in range(e1):
-            for k in range(e2):
-                shell[i + 1, j + 1, k + 1] = own[i, j, k]
-    for up in range(2):
-        other = beside[n, up]
-        place, last, first = (e0 + 1 if up else 0), (e0 - 1 if up else 0), (0 if up else b0 - 1)
-        for j in range(e1):
-            for k in range(e2):
-                if other >= 0:
-                    shell[place, j + 1, k + 1] = fields[other, first, j, k]
-                else:
-                    shell[place, j + 1, k + 1] = own[last, j, k] if other == EDGE else alone[-other - 1]
-        other = beside[n, 2 + up]
-        place, last, first = (e1 + 1 if up else 0), (e1 - 1 if up else 0), (0 if up else b1 - 1)
-        for i in range(e0):
-            for k in range(e2):
-                if other >= 0:
-                    shell[i + 1, place, k + 1] = fields[other, i, first, k]
-                else:
-                    shell[i + 1, place, k + 1] = own[i, last, k] if other == EDGE else alone[-other - 1]
-        other = beside[n, 4 + up]
-        place, last, first = (e2 + 1 if up else 0), (e2 - 1 if up else 0), (0 if up else b2 - 1)
-        for i in range(e0):
-            for j in range(e1):
-                if other >= 0:
-                    shell[i + 1, j + 1, place] = fields[other, i, j, first]
-                else:
-                    shell[i + 1, j + 1, place] = own[i, j, last] if other == EDGE else alone[-other - 1]
-    return shell
-
-
-@njit(parallel=True, cache=True)
-def sweep_blocks(old, held, open_cells, new, beside, extents, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201  # pragma: no cover
-    """Do one step from `old` to `new` for the first blocks, as many as `beside` has rows."""
-    masked = open_cells.size > 0
-    phases, cells = np.array([-1, 1], dtype=np.float32), np.array([True, True])
-    for n in prange(len(beside)):
-        e0, e1, e2 = extents[n]
-        u = _surrounded(n, old, beside, (e0, e1, e2), phases)
-        if masked:
-            there = _surrounded(n, open_cells, beside, (e0, e1, e2), cells)
-            for i in range(e0):
-                for j in range(e1):
-                    for k in range(e2):
-                        x, y, z = i + 1, j + 1, k + 1
-                        if not there[x, y, z]:
-                            continue
-                        c = u[x, y, z]
-                        new[n, i, j, k] = advanced(
-                            c,
-                            u[x - 1, y, z] if there[x - 1, y, z] else c,
-                            u[x + 1, y, z] if there[x + 1, y, z] else c,
-                            u[x, y - 1, z] if there[x, y - 1, z] else c,
-                            u[x, y + 1, z] if there[x, y + 1, z] else c,
-                            u[x, y, z - 1] if there[x, y, z - 1] else c,
-                            u[x, y, z + 1] if there[x, y, z + 1] else c,
-                            np.float32(held[n, i, j, k]),
-                            numbers,
-                        )
-        else:
-            for i in range(e0):
-                for j in range(e1):
-                    own, a, b = u[i + 1, j + 1], u[i, j + 1], u[i + 2, j + 1]
-                    d, e, data, out = u[i + 1, j], u[i + 1, j + 2], held[n, i, j], new[n, i, j]
-                    for k in range(e2):
-                        z = k + 1
-                        out[k] = advanced(
-                            own[z], a[z], b[z], d[z], e[z], own[k], own[k + 2], np.float32(data[k]), numbers
-                        )
+    def _grow(self, room: int) -> None:
+        """Make room; what is not used of it costs no memory."""
+        names = ("phi", "held", "faces", "next_faces", "flat", "next_flat", "uniform", "beside", "where")
+        for name in names:
+            old = getattr(self, name)
+            new = np.empty((room, *old.shape[1:]), dtype=old.dtype)
+            new[: min(len(old), self.count)] = old[: self.count]
+            setattr(self, name, new)

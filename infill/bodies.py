@@ -1,0 +1,204 @@
+"""Bodies of solid and of void in a field of blocks: how many, how large, and what smoothing did to them.
+
+Everything is found from rows of sixteen bits and from the blocks that are kept, so that cost grows with the surface.
+Cells of solid are joined by faces, cells of void by faces and edges, as marching cubes joins them on raw data.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill import bodies_kernels as kernels
+from infill.sparse import SparseField
+from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK
+from infill.sparse_surface_kernels import ROWS, bits_above
+from infill.surface import Surface
+from infill.threads import in_threads, thread_count
+
+SMALLEST_PART = 8  # cells: what comes off a body and is smaller is a crumb, no part of it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bodies:
+    """The bodies of solid, or of void, of one field.
+
+    Parameters
+    ----------
+    cells : (b,) int64
+        Cells of each body.
+    thick : (b,) bool
+        Whether a body holds 2 x 2 x 2 cells somewhere: it is more than one cell thick.
+    bits, blocks, starts, alone, names
+        How a cell finds its body: bits of every row, numbers of runs, of blocks of one value, and names of both.
+    """
+
+    cells: NDArray[np.int64]
+    thick: NDArray[np.bool_]
+    bits: NDArray[np.uint16]
+    blocks: NDArray[np.int64]
+    starts: NDArray[np.int16]
+    alone: NDArray[np.int32]
+    names: NDArray[np.int32]
+
+    @property
+    def count(self) -> int:
+        """Number of bodies."""
+        return len(self.cells)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fate:
+    """What became of bodies, by their numbers before and after.
+
+    Parameters
+    ----------
+    vanished : (n,) int
+        Bodies that have no cell in common with any after.
+    broken : (n,) int
+        Bodies of which two or more parts of at least `SMALLEST_PART` cells are left.
+    joined : (n,) int
+        Bodies after that hold as much of two or more before, all of those more than one cell thick.
+    appeared : (n,) int
+        Bodies after that have no cell in common with any before.
+    """
+
+    vanished: NDArray[np.integer]
+    broken: NDArray[np.integer]
+    joined: NDArray[np.integer]
+    appeared: NDArray[np.integer]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shells:
+    """The connected parts of a surface.
+
+    Parameters
+    ----------
+    names : (V,) int32
+        Shell of each vertex.
+    volume : (s,) float64
+        Enclosed volume, mm³; negative for the walls of a cavity.
+    slope : (s,) float64
+        Its change when the level rises by one, mm³.
+    euler : (s,) int64
+        Euler number.
+    """
+
+    names: NDArray[np.int32]
+    volume: NDArray[np.float64]
+    slope: NDArray[np.float64]
+    euler: NDArray[np.int64]
+
+    @property
+    def components(self) -> int:
+        """Bodies of solid."""
+        return int((self.volume > 0).sum())
+
+    @property
+    def cavities(self) -> int:
+        """Bodies of void that solid encloses."""
+        return int((self.volume <= 0).sum())
+
+    @property
+    def tunnels(self) -> int:
+        """Handles: holes that lead through."""
+        return int((2 - self.euler).sum() // 2)
+
+
+def solid_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return which cells of the kept blocks are solid, (n, rows) uint16."""
+    return _bits(field, field.values, threads)
+
+
+def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return which cells of the kept blocks are solid in the data, (n, rows) uint16."""
+    return _bits(field, field.data, threads)
+
+
+def _bits(field: SparseField, values: NDArray[Any], threads: int | None) -> NDArray[np.uint16]:
+    bits = np.empty((len(field.where), ROWS), dtype=np.uint16)
+    level = values.dtype.type(0)
+    flat = values.reshape(-1, CELLS)
+    in_threads(bits_above, flat, field.where, level, field.shape, bits, threads=thread_count(threads))
+    return bits
+
+
+def bodies(field: SparseField, bits: NDArray[np.uint16], *, void: bool = False) -> Bodies:
+    """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first."""
+    alone = np.full(field.slots.shape, -1, dtype=np.int32)
+    if void:
+        bits = ~bits
+        single = (field.slots < 0) & (field.slots != SOLID_BLOCK)
+    else:
+        single = field.slots == SOLID_BLOCK
+    blocks = np.empty(len(bits), dtype=np.int64)
+    starts = np.empty((len(bits), ROWS), dtype=np.int16)
+    runs = kernels.number_runs(bits, blocks, starts)
+    alone[single] = runs + np.arange(single.sum())
+    parent = np.arange(runs + int(single.sum()))
+    if void:
+        kernels.join_beyond(field.where, bits, blocks, starts, field.shape, parent)
+        rim = np.zeros(alone.shape, dtype=bool)
+        for axis in range(3):
+            rim[tuple([0, -1] if a == axis else slice(None) for a in range(3))] = True
+        parent[alone[single & rim]] = 0
+    kernels.join_alone(alone, parent)
+    kernels.join_runs(field.slots, field.where, bits, blocks, starts, alone, parent, void)
+    names = np.empty(len(parent), dtype=np.int32)
+    count = kernels.name_sets(parent, names)
+    cells, thick = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
+    kernels.count_cells(field.where, bits, blocks, starts, field.shape, names, cells)
+    np.add.at(cells, names[alone[single]], _cells_within(np.argwhere(single), field.shape))
+    kernels.mark_thick(field.slots, field.where, bits, blocks, starts, alone, names, thick)
+    thick[names[alone[single]]] = True
+    if not void:  # run 0 stands for what lies beyond the grid, which is no solid
+        cells, thick, names = cells[1:], thick[1:], names - 1
+    return Bodies(cells=cells, thick=thick, bits=bits, blocks=blocks, starts=starts, alone=alone, names=names)
+
+
+def _cells_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
+    """Return how many cells of whole blocks lie on the grid."""
+    low = np.maximum(places * BLOCK, 1)
+    high = np.minimum((places + 1) * BLOCK, np.array(shape) + 1)
+    inside: NDArray[np.int64] = np.prod(np.maximum(high - low, 0), axis=1)
+    return inside
+
+
+def fate(before: Bodies, after: Bodies) -> Fate:
+    """Compare two sets of bodies on the same blocks."""
+    found = kernels.overlaps(
+        before.bits, before.blocks, before.starts, before.names, after.bits, after.blocks, after.starts, after.names
+    )
+    single = before.alone >= 0
+    own, theirs = before.names[before.alone[single]], after.names[after.alone[single]]
+    alone = np.stack([own, theirs, np.full(len(own), CELLS)], axis=1).astype(np.int64)
+    every = np.concatenate([found, alone])
+    key, index = np.unique(every[:, 0] * max(after.count, 1) + every[:, 1], return_inverse=True)
+    shared = np.bincount(index, weights=every[:, 2], minlength=len(key))
+    one, other = np.divmod(key, max(after.count, 1))
+    parts = np.bincount(one[shared >= SMALLEST_PART], minlength=before.count)
+    held = (shared >= SMALLEST_PART) & before.thick[one]
+    pieces = np.bincount(other[held], minlength=after.count)
+    return Fate(
+        vanished=np.flatnonzero(np.bincount(one, minlength=before.count) == 0),
+        broken=np.flatnonzero(parts > 1),
+        joined=np.flatnonzero(pieces > 1),
+        appeared=np.flatnonzero(np.bincount(other, minlength=after.count) == 0),
+    )
+
+
+def shells(surface: Surface, rate: NDArray[np.float32]) -> Shells:
+    """Return the connected parts of a closed surface."""
+    parent = np.arange(len(surface.vertices))
+    kernels.join_faces(surface.faces, parent)
+    names = np.empty(len(parent), dtype=np.int32)
+    count = kernels.name_sets(parent, names)
+    volume, slope = np.zeros(count), np.zeros(count)
+    corners, sides = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=np.int64)
+    middle = surface.vertices.mean(axis=0)
+    kernels.measure_shells(surface.vertices, rate, surface.faces, names, middle, volume, slope, corners, sides)
+    return Shells(names=names, volume=volume / 6, slope=slope / 6, euler=corners - sides // 2)

@@ -1,0 +1,347 @@
+"""What `infill.bodies` does to rows of bits and to triangles, compiled."""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201
+# No tool sees compiled lines run.
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from infill.sparse_kernels import B0, B1, B2, CELLS
+from infill.sparse_surface_kernels import FULL, ROWS, ones, sixfold, within
+
+
+@njit(inline="always", cache=True)
+def root(parent, n):  # pragma: no cover
+    """Return the first of the set that `n` is in."""
+    while parent[n] != n:
+        parent[n] = parent[parent[n]]
+        n = parent[n]
+    return n
+
+
+@njit(inline="always", cache=True)
+def join(parent, a, b):  # pragma: no cover
+    """Make one set of two; the first of it stays the first."""
+    a, b = root(parent, a), root(parent, b)
+    if a < b:
+        parent[b] = a
+    elif b < a:
+        parent[a] = b
+
+
+@njit(inline="always", cache=True)
+def beginnings(bits):  # pragma: no cover
+    """Return the bits at which runs begin."""
+    return np.uint16(bits & ~(bits << np.uint16(1)))
+
+
+@njit(inline="always", cache=True)
+def lowest(bits):  # pragma: no cover
+    """Return the place of the lowest bit that is set."""
+    return ones((bits & -bits) - 1)
+
+
+@njit(inline="always", cache=True)
+def run_length(bits, k):  # pragma: no cover
+    """Return how many bits are set from bit `k` on without a gap."""
+    gaps = ~(np.int64(bits) >> k)
+    return ones(((gaps & -gaps) - 1) & FULL)
+
+
+@njit(cache=True)
+def number_runs(bits, blocks, starts):  # pragma: no cover
+    """Set where the runs of every block and every row of it begin to count; return how many there are."""
+    count = np.int64(1)  # run 0 is what lies beyond the grid
+    for s in range(len(bits)):
+        blocks[s] = count
+        inner = 0
+        for row in range(ROWS):
+            starts[s, row] = inner
+            inner += ones(beginnings(bits[s, row]))
+        count += inner
+    return count
+
+
+@njit(inline="always", cache=True)
+def run_at(bits, blocks, starts, s, row, k):  # pragma: no cover
+    """Return the number of the run that cell `k` of a row lies in."""
+    upto = np.uint16((2 << k) - 1)
+    return blocks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
+
+
+@njit(inline="always", cache=True)
+def node_at(alone, slots, p, q, r, row, k, bits, blocks, starts):  # pragma: no cover
+    """Return the node of a cell of any block of the lattice, -1 if the cell is not of the kind that is labelled."""
+    slot = slots[p, q, r]
+    if slot < 0:
+        return np.int64(alone[p, q, r])
+    if not (bits[slot, row] >> np.uint16(k)) & np.uint16(1):
+        return np.int64(-1)
+    return np.int64(run_at(bits, blocks, starts, slot, row, k))
+
+
+@njit(cache=True)
+def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # pragma: no cover
+    """Join what touches by a face, or if `diagonal` by an edge, in all blocks that are kept."""
+    m0, m1, m2 = slots.shape
+    for s in range(len(where)):
+        p, q, r = where[s]
+        for row in range(ROWS):
+            i, j = row // B1, row % B1
+            own = bits[s, row]
+            if own == 0:
+                continue
+            # Along k runs end at the block.
+            for step in range(-1, 2, 2):
+                c = r + step
+                edge = B2 - 1 if step > 0 else 0
+                if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
+                    other = node_at(alone, slots, p, q, c, row, B2 - 1 - edge, bits, blocks, starts)
+                    if other >= 0:
+                        join(parent, run_at(bits, blocks, starts, s, row, edge), other)
+            for di in range(-1, 2):
+                for dj in range(-1, 2):
+                    if (di == 0 and dj == 0) or (di != 0 and dj != 0 and not diagonal):
+                        continue
+                    ahead = di > 0 or (di == 0 and dj > 0)
+                    x, y, a, b = i + di, j + dj, p, q
+                    if x < 0 or x == B0:
+                        a, x = a + di, x - di * B0
+                    if y < 0 or y == B1:
+                        b, y = b + dj, y - dj * B1
+                    if a < 0 or b < 0 or a >= m0 or b >= m1:
+                        continue
+                    slot = slots[a, b, r]
+                    if slot < 0:
+                        if alone[a, b, r] >= 0:
+                            left = np.int64(beginnings(own))
+                            while left:
+                                k = lowest(left)
+                                left &= left - 1
+                                join(parent, run_at(bits, blocks, starts, s, row, k), np.int64(alone[a, b, r]))
+                    elif ahead:  # the other one looks back at none
+                        theirs = bits[slot, x * B1 + y]
+                        left = np.int64(beginnings(own & theirs))
+                        while left:
+                            k = lowest(left)
+                            left &= left - 1
+                            join(
+                                parent,
+                                run_at(bits, blocks, starts, s, row, k),
+                                run_at(bits, blocks, starts, slot, x * B1 + y, k),
+                            )
+                        if diagonal and (di == 0 or dj == 0):
+                            for shift in range(-1, 2, 2):  # by an edge, and by no face
+                                if shift > 0:
+                                    own_next, theirs_next = own >> np.uint16(1), theirs >> np.uint16(1)
+                                else:
+                                    own_next, theirs_next = own << np.uint16(1), theirs << np.uint16(1)
+                                left = np.int64(own & theirs_next & ~theirs & ~own_next) & FULL
+                                while left:
+                                    k = lowest(left)
+                                    left &= left - 1
+                                    join(
+                                        parent,
+                                        run_at(bits, blocks, starts, s, row, k),
+                                        run_at(bits, blocks, starts, slot, x * B1 + y, k + shift),
+                                    )
+                    if diagonal and (di == 0 or dj == 0):  # by an edge into the block before or behind along k
+                        for step in range(-1, 2, 2):
+                            c = r + step
+                            edge = B2 - 1 if step > 0 else 0
+                            if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
+                                other = node_at(alone, slots, a, b, c, x * B1 + y, B2 - 1 - edge, bits, blocks, starts)
+                                if other >= 0:
+                                    join(parent, run_at(bits, blocks, starts, s, row, edge), other)
+
+
+@njit(cache=True)
+def join_alone(alone, parent):  # pragma: no cover
+    """Join blocks of one value that lie side by side."""
+    m0, m1, m2 = alone.shape
+    for p in range(m0):
+        for q in range(m1):
+            for r in range(m2):
+                own = alone[p, q, r]
+                if own < 0:
+                    continue
+                if p + 1 < m0 and alone[p + 1, q, r] >= 0:
+                    join(parent, np.int64(own), np.int64(alone[p + 1, q, r]))
+                if q + 1 < m1 and alone[p, q + 1, r] >= 0:
+                    join(parent, np.int64(own), np.int64(alone[p, q + 1, r]))
+                if r + 1 < m2 and alone[p, q, r + 1] >= 0:
+                    join(parent, np.int64(own), np.int64(alone[p, q, r + 1]))
+
+
+@njit(cache=True)
+def join_beyond(where, bits, blocks, starts, shape, parent):  # pragma: no cover
+    """Join every run of void that reaches beyond the grid with what lies there."""
+    for s in range(len(where)):
+        for row in range(ROWS):
+            inside = within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            left = np.int64(bits[s, row] & ~inside)
+            while left:
+                k = lowest(left)
+                left &= left - 1
+                join(parent, np.int64(0), np.int64(run_at(bits, blocks, starts, s, row, k)))
+
+
+@njit(cache=True)
+def name_sets(parent, names):  # pragma: no cover
+    """Give the sets the names 0, 1, 2 … in the order of their first members; return how many there are."""
+    count = 0
+    for n in range(len(parent)):
+        first = root(parent, n)
+        if first == n:
+            names[n] = count
+            count += 1
+        else:
+            names[n] = names[first]
+    return count
+
+
+@njit(cache=True)
+def count_cells(where, bits, blocks, starts, shape, names, cells):  # pragma: no cover
+    """Add the cells of every run within the grid to its body."""
+    for s in range(len(where)):
+        for row in range(ROWS):
+            own = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            left = np.int64(beginnings(own))
+            while left:
+                k = lowest(left)
+                left &= left - 1
+                cells[names[run_at(bits, blocks, starts, s, row, k)]] += run_length(own, k)
+
+
+@njit(cache=True)
+def mark_thick(slots, where, bits, blocks, starts, alone, names, thick):  # pragma: no cover
+    """Mark the bodies that hold two by two by two cells."""
+    m0, m1, m2 = slots.shape
+    for s in range(len(where)):
+        p, q, r = where[s]
+        for row in range(ROWS):
+            i, j = row // B1, row % B1
+            own = bits[s, row]
+            if own == 0:
+                continue
+            every = np.uint32(FULL | 1 << B2)
+            for di in range(2):
+                for dj in range(2):
+                    x, y, a, b = i + di, j + dj, p, q
+                    if x == B0:
+                        a, x = p + 1, 0
+                    if y == B1:
+                        b, y = q + 1, 0
+                    if a == m0 or b == m1:
+                        every = np.uint32(0)
+                        continue
+                    slot = slots[a, b, r]
+                    line = np.uint32(0)
+                    if slot >= 0:
+                        line = np.uint32(bits[slot, x * B1 + y])
+                    elif alone[a, b, r] >= 0:
+                        line = np.uint32(FULL)
+                    if r + 1 < m2 and node_at(alone, slots, a, b, r + 1, x * B1 + y, 0, bits, blocks, starts) >= 0:
+                        line |= np.uint32(1 << B2)
+                    every &= line
+            left = np.int64(every & (every >> np.uint32(1)))
+            while left:
+                k = lowest(left)
+                left &= left - 1
+                thick[names[run_at(bits, blocks, starts, s, row, k)]] = True
+
+
+@njit(cache=True)
+def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts, other_names):  # pragma: no cover
+    """Return (body, other body, cells) for every stretch of a row that lies in both."""
+    room = 1024
+    found = np.empty((room, 3), dtype=np.int64)
+    many = 0
+    for s in range(len(bits)):
+        for row in range(ROWS):
+            both = bits[s, row] & other_bits[s, row]
+            left = np.int64(beginnings(both))
+            while left:
+                k = lowest(left)
+                left &= left - 1
+                if many == room:
+                    wider = np.empty((2 * room, 3), dtype=np.int64)
+                    wider[:room] = found
+                    found, room = wider, 2 * room
+                found[many, 0] = names[run_at(bits, blocks, starts, s, row, k)]
+                found[many, 1] = other_names[run_at(other_bits, other_blocks, other_starts, s, row, k)]
+                found[many, 2] = run_length(both, k)
+                many += 1
+    return found[:many].copy()
+
+
+@njit(cache=True)
+def label_cells(places, slots, bits, blocks, starts, alone, names, labels):  # pragma: no cover
+    """Set the body of cells at places (N, 3) on the lattice of cells, -1 where there is none."""
+    for n in range(len(places)):
+        x, y, z = places[n]
+        p, q, r = x // B0, y // B1, z // B2
+        node = node_at(alone, slots, p, q, r, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts)
+        labels[n] = names[node] if node >= 0 else -1
+
+
+@njit(cache=True)
+def join_faces(faces, parent):  # pragma: no cover
+    """Join the corners of every triangle."""
+    for f in range(len(faces)):
+        join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 1]))
+        join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 2]))
+
+
+@njit(cache=True)
+def measure_shells(vertices, rate, faces, names, middle, volume, slope, corners, sides):  # pragma: no cover
+    """Add up for every shell six times its volume and that volume's slope over the level, its vertices and faces."""
+    for v in range(len(vertices)):
+        corners[names[v]] += 1
+    for f in range(len(faces)):
+        shell = names[faces[f, 0]]
+        sides[shell] += 1
+        own, change = sixfold(vertices, rate, faces[f], middle)
+        volume[shell] += own
+        slope[shell] += change
+
+
+@njit(nogil=True, cache=True)
+def lower_to_levels(
+    values, where, slots, bits, blocks, starts, alone, names, levels, common, reach, out, thread, threads
+):  # pragma: no cover
+    """Take from every cell the level of the nearest body, looked for along the axes; `common` where there is none."""
+    m0, m1, m2 = slots.shape
+    for s in range(thread, len(where), threads):
+        p, q, r = where[s]
+        for t in range(CELLS):
+            value = values[s, t]
+            if value == 1 or value == -1:
+                out[s, t] = value
+                continue
+            i, j, k = t // (B1 * B2), t // B2 % B1, t % B2
+            node = node_at(alone, slots, p, q, r, i * B1 + j, k, bits, blocks, starts)
+            body = names[node] if node >= 0 else -1
+            distance = 0
+            while body < 0 and distance < reach:
+                distance += 1
+                for side in range(6):
+                    way = distance if side % 2 else -distance
+                    x, y, z = p * B0 + i, q * B1 + j, r * B2 + k
+                    if side < 2:
+                        x += way
+                    elif side < 4:
+                        y += way
+                    else:
+                        z += way
+                    if x < 0 or y < 0 or z < 0 or x >= m0 * B0 or y >= m1 * B1 or z >= m2 * B2:
+                        continue
+                    node = node_at(
+                        alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts
+                    )
+                    if node >= 0:
+                        body = names[node]
+                        break
+            out[s, t] = value - (levels[body] if body >= 0 else common)

@@ -1,0 +1,213 @@
+"""A mesh that is closed as a sum: neighbours agree, every hole gets a cap, every body its place among the others."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.scanlines import Crossings
+
+SAMPLES = 9  # crossings of a body that are looked at to learn what it lies in
+FLAT = 1e-9  # a body of less than this share of its longest side cubed has no volume
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.integer]
+
+
+def open_edges(faces: Integers) -> Integers:
+    """Return the edges (E, 2) that faces run along more often in this direction than back, as often as that."""
+    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    differs = start != end
+    start, end = start[differs].astype(np.int64), end[differs].astype(np.int64)
+    count = int(faces.max()) + 1
+    key, index = np.unique(np.minimum(start, end) * count + np.maximum(start, end), return_inverse=True)
+    surplus = np.bincount(index, weights=np.where(start < end, 1, -1)).astype(np.int64)
+    low, high = key // count, key % count
+    one, other = np.where(surplus > 0, low, high), np.where(surplus > 0, high, low)
+    return np.repeat(np.column_stack([one, other]), np.abs(surplus), axis=0)
+
+
+def agreeing(faces: Integers) -> Integers:
+    """Return the faces, some of them turned over, so that neighbours across an edge of two faces agree on a side.
+
+    Parameters
+    ----------
+    faces : (F, 3) int
+
+    Notes
+    -----
+    Every face stands for two, as it is and turned over; edges of two faces tie those together that agree.
+    A patch then is two components, of which the one with more faces as they are is kept. A patch with one
+    side only (a Möbius strip) is one component, and is left as it is.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
+    key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    first = np.flatnonzero(np.diff(key[order], prepend=-1))
+    pairs = first[np.diff(first, append=len(key)) == 2]
+    one, other = order[pairs], order[pairs + 1]
+    against = (start[one] < end[one]) == (start[other] < end[other])
+    one, other, count = one // 3, other // 3, len(faces)
+    from_, to = np.concatenate([one, one + count]), np.concatenate([other, other + count])
+    to = np.where(np.tile(against, 2), (to + count) % (2 * count), to)
+    graph = coo_array((np.ones(len(to), dtype=np.int8), (from_, to)), shape=(2 * count,) * 2)
+    _, label = connected_components(graph, directed=False)
+    here, there = label[:count], label[count:]
+    kept = np.bincount(here, minlength=int(label.max()) + 1)
+    over = (kept[here] < kept[there]) | ((kept[here] == kept[there]) & (here > there))
+    return np.where(over[:, None], faces[:, ::-1], faces)
+
+
+def loops(edges: Integers) -> list[list[int]]:
+    """Return directed edges as loops that visit no vertex twice; every vertex must have as many in as out.
+
+    >>> loops(np.array([[0, 1], [1, 2], [2, 0]]))
+    [[0, 1, 2]]
+    """
+    ahead: dict[int, list[int]] = defaultdict(list)
+    for start, end in edges.tolist():
+        ahead[start].append(end)
+    found = []
+    for start in list(ahead):
+        path, position = [start], {start: 0}
+        while ahead[path[-1]]:
+            to = ahead[path[-1]].pop()
+            if to in position:
+                loop = path[position[to] :]
+                found.append(loop)
+                del path[position[to] + 1 :]
+                for vertex in loop[1:]:
+                    del position[vertex]
+            else:
+                position[to] = len(path)
+                path.append(to)
+    return found
+
+
+def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
+    """Return vertices and faces with a cap on every hole, and the number of holes.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+    faces : (F, 3) int
+
+    Returns
+    -------
+    vertices : (V + n, 3) float64
+    faces : (F + m, 3) int
+        The caps come last. Every edge is run along as often in one direction as in the other.
+    holes : int
+
+    Notes
+    -----
+    Faces that disagree with their neighbours about the side are turned over first: see `agreeing`. A cap
+    is a fan from the middle of the hole's edge. Where a triangle stands twice, its three edges are a
+    "hole" whose cap undoes it.
+    """
+    if len(open_edges(faces)) == 0:
+        return vertices, faces, 0
+    faces = agreeing(faces)
+    found = loops(open_edges(faces))
+    apexes: list[Floats] = []
+    caps = []
+    for loop in found:
+        if len(loop) == 3:
+            caps.append([loop[::-1]])
+            continue
+        ring = np.array(loop)
+        points = vertices[ring]
+        lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
+        middle = np.average((np.roll(points, -1, axis=0) + points) / 2, axis=0, weights=lengths)
+        # No sum is rounded out of a plane of the axes.
+        apexes.append(np.clip(middle, points.min(axis=0), points.max(axis=0)))
+        apex = np.full(len(ring), len(vertices) + len(apexes) - 1)
+        caps.append(np.column_stack([np.roll(ring, -1), ring, apex]).tolist())
+    if not found:
+        return vertices, faces, 0
+    added = np.concatenate([np.array(each, dtype=np.int64) for each in caps])
+    return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, added]), len(found)
+
+
+def bodies(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
+    """Return for every face the body it belongs to, by shared vertices, and the signed volume of each body.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+    faces : (F, 3) int
+        Closed as a sum: see `capped`.
+
+    Returns
+    -------
+    body : (F,) int
+    volumes : (B,) float64
+        0 for a body that encloses nothing but rounding errors.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
+    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(len(vertices),) * 2)
+    _, label = connected_components(graph, directed=False)
+    body = np.unique(label[faces[:, 0]], return_inverse=True)[1]
+    count = int(body.max()) + 1
+    # Seen from a corner of its own, so that a small body far out loses no digits.
+    first = np.unique(body, return_index=True)[1]
+    a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][body] for i in range(3))
+    sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
+    reach = np.zeros(count)
+    np.maximum.at(reach, body, np.abs([a, b, c]).max(axis=(0, 2)))
+    volumes = np.bincount(body, weights=sixfold, minlength=count) / 6
+    volumes[np.abs(volumes) <= FLAT * reach**3] = 0.0
+    return body, volumes
+
+
+def inside_out(found: Crossings, body: Integers, volumes: Floats) -> NDArray[np.bool_]:
+    """Return which bodies are to be turned: those that face inwards and lie in no other, with all that lies in them.
+
+    Parameters
+    ----------
+    found : Crossings
+    body : (F,) int
+        Body of every face.
+    volumes : (B,) float64
+        Signed volume of each.
+
+    Returns
+    -------
+    (B,) bool
+
+    Notes
+    -----
+    A body lies in another if the rows go around it there at every one of some crossings looked at. What
+    faces against the body it lies in is its cavity, and turns with it.
+    """
+    turned = np.zeros(len(volumes), dtype=bool)
+    if (volumes >= 0).all() or (volumes <= 0).all():
+        return turned
+    owner = body[found.face]
+    order = np.argsort(owner, kind="stable")
+    bounds = np.searchsorted(owner, np.arange(len(volumes) + 1), sorter=order)
+    for number in np.flatnonzero(volumes):
+        own = order[bounds[number] : bounds[number + 1]]
+        if len(own) == 0:
+            continue
+        around: set[int] | None = None
+        for i in own[np.linspace(0, len(own) - 1, SAMPLES).astype(np.int64)]:
+            begin, end = np.searchsorted(found.row, [found.row[i], found.row[i] + 1])
+            owners, signs, places = owner[begin:end], found.sign[begin:end], found.place[begin:end]
+            holding: set[int] = set()
+            for before in (places < found.place[i], places <= found.place[i]):
+                winding = np.bincount(owners[before], weights=signs[before])
+                holding.update(np.flatnonzero(winding).tolist())
+            around = holding if around is None else around & holding
+        larger = [each for each in around or () if abs(volumes[each]) > abs(volumes[number])]
+        outermost = max(larger, key=lambda each: abs(volumes[each]), default=number)
+        turned[number] = volumes[outermost] < 0
+    return turned

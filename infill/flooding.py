@@ -1,0 +1,71 @@
+"""What the outside of a grid can reach, by runs of cells rather than cell by cell."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.ragged import spread
+from infill.scanlines import SLAB, Crossings, filled
+
+LINKS = 2**20  # pairs of runs worked on at a time
+
+
+def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the void cells that no path of void cells, face to face, joins to the corner of the grid.
+
+    Parameters
+    ----------
+    solid : (nx, ny, nz) bool
+        Void along its border.
+
+    Notes
+    -----
+    The void of a row is a few runs of cells. Runs that touch in neighbouring rows are one body of void,
+    so that the memory goes with the surface and not with the cells.
+
+    >>> shell = np.zeros((5, 5, 5), dtype=bool)
+    >>> shell[1:4, 1:4, 1:4] = True
+    >>> shell[2, 2, 2] = False
+    >>> np.argwhere(enclosed(shell)).tolist()
+    [[2, 2, 2]]
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    _, ny, nz = solid.shape
+    width = nz + 1  # one place more than cells keeps the runs of different rows apart
+    start, end = _void_runs(solid)
+    ones, others = [], []
+    for shift in (width, ny * width):
+        low = np.searchsorted(end, start + shift, side="right")
+        high = np.searchsorted(start, end + shift, side="left")
+        for run, place in spread(np.maximum(high - low, 0), LINKS):
+            ones.append(run.astype(np.int32))
+            others.append((low[run] + place).astype(np.int32))
+    one, other = np.concatenate(ones), np.concatenate(others)
+    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(len(start),) * 2)
+    _, body = connected_components(graph, directed=False)
+    inner = body != body[0]
+    index = np.concatenate([start[inner], end[inner]])
+    sign = np.repeat(np.array([1, -1], dtype=np.int8), int(inner.sum()))
+    order = np.argsort(index, kind="stable")
+    row, place = np.divmod(index[order], width)
+    ends = Crossings(
+        row=row.astype(np.int32), place=place.astype(np.int32), face=np.zeros_like(row, np.int32), sign=sign[order]
+    )
+    return filled(ends, solid.shape)
+
+
+def _void_runs(solid: NDArray[np.bool_]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return where the runs of void begin and end, as row * (nz + 1) + place."""
+    nx, ny, nz = solid.shape
+    thick = max(1, SLAB // (ny * nz))
+    starts, ends = [], []
+    for low in range(0, nx, thick):
+        void = np.zeros((min(thick, nx - low), ny, nz + 2), dtype=np.int8)
+        void[:, :, 1:-1] = ~solid[low : low + thick]
+        change = np.diff(void, axis=2).ravel()
+        starts.append(np.flatnonzero(change == 1) + low * ny * (nz + 1))
+        ends.append(np.flatnonzero(change == -1) + low * ny * (nz + 1))
+    return np.concatenate(starts), np.concatenate(ends)

@@ -1,0 +1,230 @@
+"""Points from a file: text in columns, .npy, and the vertices of a .ply."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import itertools
+import os
+import re
+import tokenize
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.lib import format as npy_format
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+
+AXES = 3
+# What NumPy raises for files that hold something else than they should.
+BROKEN = (ValueError, LookupError, TypeError, EOFError, ArithmeticError, SyntaxError, MemoryError, tokenize.TokenError)
+PLY_TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
+    "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
+    "float32": "f4", "float64": "f8",
+}  # fmt: skip
+PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+PLY_HEAD = 2**16  # bytes in which a header ends
+NAMES = ({"x", "points:0", "x coordinate"}, {"y", "points:1", "y coordinate"}, {"z", "points:2", "z coordinate"})
+
+
+def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
+    """Return the points of a file.
+
+    Parameters
+    ----------
+    path : str or Path
+        .xyz, .txt, .pts or .csv: a point per line, in columns parted by blanks, commas or semicolons; after #
+        comes a comment. A line of names may come first, and says which columns are x, y and z; else they
+        are the first three. A first line with one number says how many points follow. .npy: an array
+        (N, 3) or wider. .ply: the vertices, text or binary.
+
+    Returns
+    -------
+    (N, 3) float64
+        x, y, z as they stand: no such file says its unit.
+
+    Raises
+    ------
+    FormatError
+        If there is no such file, its suffix is unknown, or it holds no points or broken ones.
+    """
+    source = Path(path)
+    suffix = source.suffix.lower()
+    if suffix not in READERS:
+        raise FormatError(f"cannot tell a format of points from {source.name!r}; use one of {', '.join(READERS)}")
+    if not source.is_file():
+        raise FormatError(f"there is no file {source}; check the name")
+    try:
+        points = READERS[suffix](source)
+    except OSError as error:
+        raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
+    if points.ndim != 2 or points.shape[1] < AXES:
+        raise FormatError(f"{source} has the shape {points.shape}; save points as (N, 3)")
+    if len(points) == 0:
+        raise FormatError(f"{source} holds no points; export them again")
+    # Off a mapped file, and free of its other columns.
+    coordinates: NDArray[np.float64] = np.array(points[:, :AXES], dtype=np.float64)
+    broken = np.flatnonzero(~np.isfinite(coordinates).all(axis=1))
+    if broken.size:
+        raise FormatError(
+            f"{source} holds {broken.size} point(s) with NaN or infinite coordinates, the first is number "
+            f"{broken[0] + 1}; leave them out"
+        )
+    return coordinates
+
+
+@contextlib.contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Turn what NumPy says of a broken file into an error of ours."""
+    try:
+        yield
+    except FormatError:
+        raise
+    except BROKEN as error:
+        said = " ".join(str(error).split())[:200] or type(error).__name__
+        raise FormatError(f"{path} is broken or holds no points ({said}); export them again") from error
+
+
+# --- text ------------------------------------------------------------------------------------------------
+
+
+def _read_text(path: Path) -> NDArray[np.floating]:
+    # Only comments and names can hold what is not ASCII; their encoding does not matter.
+    with _told(path), path.open(encoding="utf-8-sig", errors="replace") as file:
+        lines = (line for line in file if line.partition("#")[0].strip(" \t\r\n,;"))
+        first = next(lines, "")
+        parted = _parted_by(first)
+        columns, count = tuple(range(AXES)), None
+        if len(_fields(first, parted)) == 1 and _is_number(_fields(first, parted)[0]):
+            count = float(first.partition("#")[0])
+            first = next(lines, "")
+            parted = _parted_by(first)
+        elif not all(_is_number(each) for each in _fields(first, parted)[:AXES]):
+            columns = _columns(_fields(first, parted))
+            first = next(lines, "")
+            parted = _parted_by(first)
+        if not first:
+            raise FormatError(f"{path} holds no points; export them again")
+        points = np.loadtxt(
+            itertools.chain([first], lines), usecols=columns, ndmin=2, comments="#", delimiter=parted, quotechar='"'
+        )
+    if count is not None and count != len(points):
+        raise FormatError(f"{path} announces {count:g} points and holds {len(points)}; export them again")
+    return points
+
+
+def _parted_by(line: str) -> str | None:
+    return next((mark for mark in ";," if mark in line.partition("#")[0]), None)
+
+
+def _fields(line: str, parted: str | None) -> list[str]:
+    text = line.partition("#")[0].strip()
+    return [each.strip() for each in next(csv.reader([text], delimiter=parted), [])] if parted else text.split()
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text.strip('"'))
+    except ValueError:
+        return False
+    return True
+
+
+def _columns(names: list[str]) -> tuple[int, ...]:
+    """Return where x, y and z stand: by their whole name, by its first word ("x_mm", "X [mm]"), or in front."""
+    plain = [name.strip("\"' ").lower() for name in names]
+    words = [re.split(r"[\s_(\[/]", name)[0] for name in plain]
+    for each in (plain, words):
+        found = [next((i for i, name in enumerate(each) if name in known), None) for known in NAMES]
+        columns = tuple(i for i in found if i is not None)
+        if len(columns) == AXES:
+            return columns
+    return tuple(range(AXES))
+
+
+# --- arrays and meshes -----------------------------------------------------------------------------------
+
+
+def _read_npy(path: Path) -> NDArray[np.floating]:
+    with _told(path):
+        points = npy_format.open_memmap(path, mode="r")
+    if points.dtype.kind not in "iuf":
+        raise FormatError(f"{path} holds values of type {points.dtype}; save points as numbers")
+    return points
+
+
+def _read_ply(path: Path) -> NDArray[np.floating]:
+    with _told(path), path.open("rb") as file:
+        header, order = _ply_header(path, file)
+        for element, count, properties in header:
+            if element == "vertex":
+                return _ply_vertices(path, file, order, count, properties)
+            if any(kind is None for _, kind in properties):
+                raise FormatError(f"{path} has {element} lists in front of its vertices; export it with vertices first")
+            _ply_rows(file, order, count, properties)
+    raise FormatError(f"{path} holds no vertices; export them again")
+
+
+Properties = list[tuple[str, str | None]]  # name and NumPy type; None for a list
+
+
+def _ply_header(path: Path, file: BinaryIO) -> tuple[list[tuple[str, int, Properties]], str]:
+    elements: list[tuple[str, int, Properties]] = []
+    order = None
+    if file.readline(PLY_HEAD).strip() != b"ply":
+        raise FormatError(f"{path} is no PLY; export the points again")
+    while file.tell() < PLY_HEAD:
+        words = file.readline(PLY_HEAD).decode("ascii", errors="replace").split()
+        match words:
+            case ["end_header"] if order is not None:
+                return elements, order
+            case ["format", kind, *_]:
+                order = PLY_ORDERS[kind]
+            case ["element", name, count]:
+                elements.append((name, int(count), []))
+            case ["property", "list", _, _, name]:
+                elements[-1][2].append((name, None))
+            case ["property", kind, name]:
+                elements[-1][2].append((name, PLY_TYPES[kind]))
+            case ["comment" | "obj_info", *_]:
+                pass
+            case _:
+                break
+    raise FormatError(f"{path} has a PLY header that is broken or cut off; export the points again")
+
+
+def _ply_vertices(path: Path, file: BinaryIO, order: str, count: int, properties: Properties) -> NDArray[np.floating]:
+    names = [name for name, _ in properties]
+    if not {"x", "y", "z"} <= set(names) or any(kind is None for _, kind in properties):
+        raise FormatError(f"{path} has vertices without x, y and z, or with lists; export plain points")
+    rows = _ply_rows(file, order, count, properties)
+    if len(rows) < count:
+        raise FormatError(f"{path} is cut off: it holds {len(rows)} vertices of {count}; export it again")
+    return np.stack([rows[:, names.index(axis)] if not order else rows[axis] for axis in "xyz"], axis=1)
+
+
+def _ply_rows(file: BinaryIO, order: str, count: int, properties: Properties) -> NDArray[Any]:
+    """Return the rows of an element: a structured array of binary ones, columns of text ones."""
+    if count < 0:
+        raise ValueError(f"{count} rows")
+    if order:
+        row = np.dtype([(name, order + kind) for name, kind in properties if kind])
+        left = os.fstat(file.fileno()).st_size - file.tell()
+        data = file.read(min(row.itemsize * count, left))
+        return np.frombuffer(data[: len(data) // row.itemsize * row.itemsize], dtype=row)
+    lines = list(itertools.islice((line for line in file if line.strip()), count))
+    return np.loadtxt(lines, ndmin=2, comments=None) if lines else np.empty((0, len(properties)))
+
+
+READERS: dict[str, Callable[[Path], NDArray[np.floating]]] = {
+    ".xyz": _read_text,
+    ".txt": _read_text,
+    ".pts": _read_text,
+    ".csv": _read_text,
+    ".npy": _read_npy,
+    ".ply": _read_ply,
+}

@@ -1,0 +1,268 @@
+"""From points on a surface to cells: a shell around them, or the solid that they enclose."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from infill.checks import length, whole
+from infill.errors import GeometryError, ParameterError
+from infill.flooding import enclosed
+from infill.machine import require_memory, usable_cores
+from infill.ragged import spread
+from infill.volume import Volume
+
+if TYPE_CHECKING:
+    from scipy.spatial import KDTree
+
+FEWEST = 4  # points that can enclose a volume
+FLAT = 1e-6  # of the largest extent: points that leave their plane by less lie in it
+AT_ONCE = 2**18  # spans of cells laid out at a time
+NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000  # the spacing is this quantile of the distances to this neighbour
+WIDENING = (0.5, 0.7, 1.0, 1.4, 2.0, 2.8)  # half widths of the shell that are tried, in spacings
+RIDGE = 0.2  # cells: about eight times what balls apart leave between them
+REACH = 0.5  # cells: over gaps that the balls leave between them, for they are one cell or more apart
+BACKED, ENOUGH = 0.5, 0.9  # share of points with an inside behind them: fewer, and the shell leaks
+SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 7, 400  # per cell and per point, measured peaks
+
+Floats = NDArray[np.float64]
+Cells = NDArray[np.bool_]
+
+
+def voxelise_points(
+    points: ArrayLike, *, voxel: float, shell: float | None = None, margin: int = 2, max_memory: int | None = None
+) -> Volume:
+    """Return the cells near points of a surface, or inside it.
+
+    Parameters
+    ----------
+    points : (N, 3) array, mm
+    voxel : float
+        Cell size, mm.
+    shell : float, optional
+        Full width of the shell, mm: cells are True whose centre is within half of it of a point. If left
+        out, the solid is filled.
+    margin : int
+        Empty cells beyond the points, or beyond their shell, on every side.
+    max_memory : int, optional
+        Bytes; what is at hand if left out.
+
+    Returns
+    -------
+    Volume
+        Booleans.
+
+    Raises
+    ------
+    ParameterError
+        For numbers out of range, fewer than 4 points, or points that are not three finite numbers.
+    GeometryError
+        If the points lie in a plane, or the shell around them has gaps, so that they enclose nothing.
+    MemoryLimitError
+        If the grid does not fit into memory.
+
+    Notes
+    -----
+    The shell is that of the points: the narrow volume around them. To fill it, a shell is laid around the
+    points whose half width R is, with h the cell size and d the distance from a point to its sixth
+    neighbour (its 95 % quantile), sqrt(d² / 4 + h²), or wider, up to sqrt(8 d² + h²), where the outside gets in.
+    What the outside does not reach is filled, and the outer half of the shell is taken off with balls of radius R
+    that roll over the points from outside. Where balls that roll over them from inside come as close, the
+    nearer centre decides, so that the surface runs through the points and does not sag between them.
+
+    Grooves narrower than the shell and walls thinner than it are filled or lost: more points, or more evenly
+    spread ones, make it thinner.
+
+    >>> voxelise_points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], voxel=1, shell=3).values.shape
+    (11, 11, 11)
+    """
+    positions, size = _checked(points), length("voxel", voxel)
+    margin = whole("margin", margin, 0)
+    if shell is not None:
+        return _shell(positions, size, length("shell", shell), margin, max_memory)
+    return _solid(positions, size, margin, max_memory)
+
+
+def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
+    """Return the cells whose centre lies in a ball around one of the points.
+
+    Parameters
+    ----------
+    centres : (N, 3) float64
+        In cells: the centre of the first cell is 0, of the next 1.
+    radius : float
+        In cells.
+    shape : (nx, ny, nz)
+
+    Notes
+    -----
+    A ball cuts a row of cells in one span, so that the work is N times the rows across a ball.
+
+    >>> balls(np.array([[1.0, 1, 1]]), 1.2, (3, 3, 3)).sum()
+    np.int64(7)
+    """
+    nx, ny, nz = shape
+    inside = np.zeros(shape, dtype=bool)
+    ordered = centres[np.argsort(centres[:, 0], kind="stable")]
+    x, y, z = np.ascontiguousarray(ordered.T)
+    for i in range(nx):
+        begin, end = np.searchsorted(x, [i - radius, i + radius])
+        if begin == end:
+            continue
+        ends = np.zeros((ny, nz + 1), dtype=np.int32)
+        left = np.maximum(radius**2 - (x[begin:end] - i) ** 2, 0)
+        reach = np.sqrt(left)
+        first = np.clip(np.ceil(y[begin:end] - reach), 0, ny).astype(np.int64)
+        last = np.clip(np.floor(y[begin:end] + reach), -1, ny - 1).astype(np.int64)
+        for some, step in spread(np.maximum(last - first + 1, 0), AT_ONCE):
+            row = first[some] + step
+            half = np.sqrt(np.maximum(left[some] - (y[begin:end][some] - row) ** 2, 0))
+            middle = z[begin:end][some]
+            start = np.clip(np.ceil(middle - half), 0, nz).astype(np.int64)
+            stop = np.clip(np.floor(middle + half) + 1, 0, nz).astype(np.int64)
+            seen = start < stop
+            row, start, stop = row[seen] * (nz + 1), start[seen], stop[seen]
+            ends += np.bincount(row + start, minlength=ends.size).reshape(ends.shape).astype(np.int32)
+            ends -= np.bincount(row + stop, minlength=ends.size).reshape(ends.shape).astype(np.int32)
+        np.greater(np.cumsum(ends, axis=1)[:, :-1], 0, out=inside[i])
+    return inside
+
+
+def _checked(points: ArrayLike) -> Floats:
+    positions = np.asarray(points, dtype=np.float64)
+    if positions.ndim != 2 or positions.shape[1] != 3:
+        raise ParameterError(f"the points have the shape {positions.shape}; give N x 3, in mm")
+    broken = len(positions) - int(np.isfinite(positions).all(axis=1).sum())
+    if broken:
+        raise ParameterError(f"{broken} of {len(positions)} points are not three finite numbers; leave them out")
+    if len(positions) < FEWEST:
+        raise ParameterError(f"{len(positions)} point(s) are given; give at least {FEWEST}")
+    return positions
+
+
+def _grid(positions: Floats, size: float, pad: int) -> tuple[tuple[int, ...], Floats, Floats]:
+    """Return shape and origin of a grid with `pad` cells around the points' box, and the points in cells of it."""
+    lower, upper = positions.min(axis=0), positions.max(axis=0)
+    shape = tuple(max(1, math.ceil(side / size - 1e-6)) + 2 * pad for side in (upper - lower).tolist())
+    origin = (lower + upper) / 2 - np.array(shape) * size / 2
+    return shape, origin, (positions - origin) / size - 0.5
+
+
+def _require(shape: tuple[int, ...], points: int, per_cell: int, limit: int | None) -> None:
+    advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels"
+    require_memory(math.prod(shape) * per_cell + points * POINT_BYTES, limit, advice)
+
+
+def _shell(positions: Floats, size: float, shell: float, margin: int, limit: int | None) -> Volume:
+    if shell < size:
+        raise ParameterError(
+            f"shell is {shell:g} mm and voxel {size:g} mm: the shell would have gaps; give a shell of at least "
+            "one voxel, better three"
+        )
+    radius = shell / 2 / size
+    shape, origin, placed = _grid(positions, size, margin + math.ceil(radius))
+    _require(shape, len(placed), SHELL_BYTES, limit)
+    return Volume(values=balls(placed, radius, shape), spacing=size, origin=tuple(origin.tolist()))
+
+
+def _solid(positions: Floats, size: float, margin: int, limit: int | None) -> Volume:
+    from scipy.spatial import KDTree
+
+    middle = positions.mean(axis=0)
+    extents = np.ptp(positions, axis=0)
+    thickness = np.ptp((positions - middle) @ np.linalg.eigh(np.cov((positions - middle).T))[1][:, 0])
+    if not thickness > FLAT * extents.max():
+        raise GeometryError(
+            f"the {len(positions)} points lie in a plane, so they enclose nothing; give points all around the part, "
+            "or a shell"
+        )
+    if thickness < 2 * size:
+        raise ParameterError(
+            f"voxel is {size:g} mm and the points are {thickness:.4g} mm thick; give a voxel of at most half of that"
+        )
+    _require(_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
+    distinct = np.unique(positions, axis=0)
+    if len(distinct) < FEWEST:
+        raise ParameterError(f"only {len(distinct)} of the points are different; give at least {FEWEST}")
+    tree = KDTree(distinct)
+    sample = distinct[:: max(1, len(distinct) // SAMPLED)]
+    spacing = tree.query(sample, k=[min(NEIGHBOUR + 1, len(distinct))])[0]
+    spread_out = float(np.quantile(spacing, QUANTILE))
+    radii = [math.hypot(spread_out * factor, size) for factor in WIDENING]
+    best, leaking, found = BACKED, 0.0, None
+    for radius in radii:
+        pad = margin + math.ceil(radius / size) + 2
+        shape, origin, placed = _grid(distinct, size, pad)
+        _require(shape, len(positions), SOLID_BYTES, limit)
+        values, share = _filled(placed, radius / size, shape, best)
+        leaking = max(leaking, share)
+        if values is not None:
+            cut = slice(pad - margin, margin - pad)
+            corner = tuple((origin + (pad - margin) * size).tolist())
+            best = share
+            found = Volume(values=np.ascontiguousarray(values[cut, cut, cut]), spacing=size, origin=corner)
+        if found is not None and (best >= ENOUGH or share < best):
+            return found
+    if found is not None:
+        return found
+    raise GeometryError(
+        f"the points do not enclose a solid: no more than {leaking:.0%} of them have an inside behind them in "
+        f"a shell of {2 * radii[0]:.3g} to {2 * radii[-1]:.3g} mm; give more or more even points, or a shell"
+    )
+
+
+def _filled(points: Floats, radius: float, shape: tuple[int, ...], least: float) -> tuple[Cells | None, float]:
+    """Return the solid inside a shell, or None, and how many points have an inside, per point with an outside.
+
+    None if that share is under `least`.
+    """
+    from scipy.spatial import KDTree
+
+    shell = balls(points, radius, shape)
+    core = enclosed(shell)
+    if not core.any():
+        return None, 0.0
+    tree = KDTree(points)
+    inner, seen_inside = _rolled(tree, _beside(core, shell), radius)
+    outer, seen_outside = _rolled(tree, _beside(~(shell | core), shell), radius)
+    share = seen_inside / seen_outside
+    if share < least:
+        return None, share
+    undecided = balls(inner, radius + REACH, shape)
+    undecided &= balls(outer, radius + REACH, shape)
+    undecided &= shell
+    solid = shell
+    solid |= core
+    solid &= ~balls(outer, radius, shape)
+    lens = np.argwhere(undecided)
+    if len(lens):
+        cores = usable_cores()
+        nearer = KDTree(inner).query(lens, workers=cores)[0] < KDTree(outer).query(lens, workers=cores)[0]
+        solid[tuple(lens.T)] = nearer
+    return solid, share
+
+
+def _beside(cells: Cells, others: Cells) -> NDArray[np.int64]:
+    """Return the indices (N, 3) of the cells that share a face with one of the others; none on the border."""
+    near = np.zeros_like(cells)
+    for axis in range(3):
+        for ahead, behind in ((slice(1, None), slice(None, -1)), (slice(None, -1), slice(1, None))):
+            to, source = [slice(None)] * 3, [slice(None)] * 3
+            to[axis], source[axis] = ahead, behind
+            near[tuple(to)] |= others[tuple(source)]
+    near &= cells
+    return np.argwhere(near)
+
+
+def _rolled(tree: KDTree, cells: NDArray[np.int64], radius: float) -> tuple[Floats, int]:
+    """Return centres of balls that touch the points from the side of the cells, and how many points they touch."""
+    distance, nearest = tree.query(cells, workers=usable_cores())
+    # On the ball around the nearest point, not at the cell: no part of a cell is lost.
+    centres = tree.data[nearest] + (cells - tree.data[nearest]) * (radius / distance)[:, None]
+    # Between balls s apart a ridge of s² / 8 R is left: large balls need not stand in every cell.
+    apart = max(1.0, math.sqrt(RIDGE * radius))
+    _, kept = np.unique(np.floor(centres / apart).astype(np.int64), axis=0, return_index=True)
+    return centres[kept], len(np.unique(nearest))

@@ -1,0 +1,413 @@
+"""What `infill.sparse` does to blocks, compiled. Loops run over whole blocks, so that they become vector code.
+
+A block is (8, 8, 16) cells, flat. Beside the cells a copy of the six faces is kept, before and after the step, so
+that a block can be stepped in place while its neighbours still read what it was.
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201
+# No tool sees compiled lines run.
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from infill.compiled import advanced
+
+BLOCK = (8, 8, 16)  # cells; the last axis is contiguous
+B0, B1, B2 = BLOCK
+CELLS = B0 * B1 * B2
+PLANE = B1 * B2
+FACE_I, FACE_J, FACE_K = B1 * B2, B0 * B2, B0 * B1
+# Where the faces begin in their copy: low and high along i, j, k.
+SECOND, THIRD = 2 * FACE_I, 2 * (FACE_I + FACE_J)
+FACES = THIRD + 2 * FACE_K
+
+# What stands on the lattice for a block that is not kept.
+VOID_BLOCK, SOLID_BLOCK, OUTSIDE = -1, -2, -3
+MIXED, OUTER = 0, -3  # states of a block: of both phases, and without a cell of the grid
+
+
+@njit(nogil=True, cache=True)
+def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
+    """Set the state of every block of int8 data, solid above 0, and whether a row of blocks holds a zero."""
+    m0, m1, m2 = state.shape
+    n0, n1, n2 = data.shape
+    for row in range(thread, m0 * m1, threads):
+        p, q = row // m1, row % m1
+        low, high = np.full(n2, 127, dtype=np.int8), np.full(n2, -128, dtype=np.int8)
+        zero = np.zeros(n2, dtype=np.int8)
+        some = False
+        for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
+            for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
+                some = True
+                line = data[i, j]
+                for k in range(n2):
+                    v = line[k]
+                    low[k] = min(low[k], v)
+                    high[k] = max(high[k], v)
+                    zero[k] |= v == 0
+        zeros[p, q] = zero.any()
+        for r in range(m2):
+            first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+            if not some or first >= last:
+                state[p, q, r] = OUTER
+            elif low[first:last].min() > 0:
+                state[p, q, r] = 1
+            else:
+                state[p, q, r] = -1 if high[first:last].max() <= 0 else MIXED
+
+
+@njit(nogil=True, cache=True)
+def fill_grey_states(data, state, thread, threads):  # pragma: no cover
+    """Set the state of every block of float data: uniform only if all cells are +1 or all are -1."""
+    m0, m1, m2 = state.shape
+    n0, n1, n2 = data.shape
+    for row in range(thread, m0 * m1, threads):
+        p, q = row // m1, row % m1
+        low, high = np.full(n2, np.inf, dtype=np.float32), np.full(n2, -np.inf, dtype=np.float32)
+        some = False
+        for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
+            for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
+                some = True
+                line = data[i, j]
+                for k in range(n2):
+                    low[k] = min(low[k], line[k])
+                    high[k] = max(high[k], line[k])
+        for r in range(m2):
+            first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+            if not some or first >= last:
+                state[p, q, r] = OUTER
+            elif low[first:last].min() == 1:
+                state[p, q, r] = 1
+            else:
+                state[p, q, r] = -1 if high[first:last].max() == -1 else MIXED
+
+
+@njit(nogil=True, cache=True)
+def gather_grey(whole, where, blocks, count, thread, threads):  # pragma: no cover
+    """Copy the cells of blocks; cells beyond the grid repeat the edge."""
+    n0, n1, n2 = whole.shape
+    for s in range(thread, count, threads):
+        i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
+        block = blocks[s]
+        for i in range(B0):
+            x = min(max(i0 + i, 0), n0 - 1)
+            for j in range(B1):
+                line = whole[x, min(max(j0 + j, 0), n1 - 1)]
+                at = (i * B1 + j) * B2
+                for k in range(B2):
+                    block[at + k] = line[min(max(k0 + k, 0), n2 - 1)]
+
+
+@njit(nogil=True, cache=True)
+def gather_binary(whole, where, blocks, count, thread, threads):  # pragma: no cover
+    """Copy the cells of blocks, +1 where above 0 and -1 else; cells beyond the grid repeat the edge."""
+    n0, n1, n2 = whole.shape
+    for s in range(thread, count, threads):
+        i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
+        block = blocks[s]
+        for i in range(B0):
+            x = min(max(i0 + i, 0), n0 - 1)
+            for j in range(B1):
+                line = whole[x, min(max(j0 + j, 0), n1 - 1)]
+                at = (i * B1 + j) * B2
+                for k in range(B2):
+                    block[at + k] = 1 if line[min(max(k0 + k, 0), n2 - 1)] > 0 else -1
+
+
+@njit(inline="always", cache=True)
+def uniform_value(face, bits, at, size):  # pragma: no cover
+    """Return +1 or -1 if all values of a face are that, else 0; `bits` are the values seen as whole numbers."""
+    first = bits[at]
+    others = np.int32(0)
+    for t in range(size):
+        others |= bits[at + t] ^ first
+    if others != 0 or abs(face[at]) != 1:
+        return 0
+    return 1 if face[at] > 0 else -1
+
+
+@njit(cache=True)
+def emit(block, faces, flat):  # pragma: no cover
+    """Copy the six faces of a block, and note which of them are +1 or -1 throughout."""
+    bits = faces.view(np.int32)
+    for up in range(2):
+        at, to = (CELLS - PLANE) * up, FACE_I * up
+        for t in range(FACE_I):
+            faces[to + t] = block[at + t]
+        flat[up] = uniform_value(faces, bits, to, FACE_I)
+        at, to = (PLANE - B2) * up, SECOND + FACE_J * up
+        for i in range(B0):
+            for k in range(B2):
+                faces[to + i * B2 + k] = block[at + i * PLANE + k]
+        flat[2 + up] = uniform_value(faces, bits, to, FACE_J)
+        at, to = (B2 - 1) * up, THIRD + FACE_K * up
+        for t in range(FACE_K):
+            faces[to + t] = block[at + t * B2]
+        flat[4 + up] = uniform_value(faces, bits, to, FACE_K)
+
+
+@njit(nogil=True, cache=True)
+def emit_all(blocks, faces, flat, count, thread, threads):  # pragma: no cover
+    """Copy the faces of all blocks."""
+    for s in range(thread, count, threads):
+        emit(blocks[s], faces[s], flat[s])
+
+
+@njit(cache=True)
+def find_neighbours(slots, where, beside, first, count):  # pragma: no cover
+    """Set what lies beside the blocks from `first` on, and that they lie beside those."""
+    for s in range(first, count):
+        for side in range(6):
+            a, b, c = where[s, 0], where[s, 1], where[s, 2]
+            way = 1 if side % 2 else -1
+            if side < 2:
+                a += way
+            elif side < 4:
+                b += way
+            else:
+                c += way
+            inside = 0 <= a < slots.shape[0] and 0 <= b < slots.shape[1] and 0 <= c < slots.shape[2]
+            other = slots[a, b, c] if inside else OUTSIDE
+            beside[s, side] = other
+            if other >= 0:
+                beside[other, side ^ 1] = s
+
+
+@njit(cache=True)
+def wanted(slots, where, beside, flat, count):  # pragma: no cover
+    """Return the places beside faces whose value differs from theirs, (w, 3), each once."""
+    found = np.empty((max(1, 6 * count), 3), dtype=np.int32)
+    many = 0
+    for s in range(count):
+        for side in range(6):
+            other = beside[s, side]
+            if other != VOID_BLOCK and other != SOLID_BLOCK:
+                continue
+            if flat[s, side] == (1 if other == SOLID_BLOCK else -1):
+                continue
+            a, b, c = where[s, 0], where[s, 1], where[s, 2]
+            way = 1 if side % 2 else -1
+            if side < 2:
+                a += way
+            elif side < 4:
+                b += way
+            else:
+                c += way
+            if slots[a, b, c] == other:
+                slots[a, b, c] = other - 10  # seen
+                found[many, 0], found[many, 1], found[many, 2] = a, b, c
+                many += 1
+    for n in range(many):
+        slots[found[n, 0], found[n, 1], found[n, 2]] += 10
+    return found[:many].copy()
+
+
+@njit(nogil=True, cache=True)
+def fill(phi, held, faces, next_faces, flat, next_flat, uniform, first, count, thread, threads):  # pragma: no cover
+    """Give the blocks from `first` on the value they are uniform in."""
+    for s in range(first + thread, count, threads):
+        value = uniform[s]
+        for t in range(CELLS):
+            phi[s, t] = value
+            held[s, t] = value
+        for t in range(FACES):
+            faces[s, t] = value
+            next_faces[s, t] = value
+        for side in range(6):
+            flat[s, side] = value
+            next_flat[s, side] = value
+
+
+@njit(inline="always", cache=True)
+def unmoved(value, beside, flat):  # pragma: no cover
+    """Return whether a block of one value has only neighbours of that value."""
+    for side in range(6):
+        other = beside[side]
+        if other >= 0:
+            if flat[other, side ^ 1] != value:
+                return False
+        elif other != OUTSIDE and value != (1 if other == SOLID_BLOCK else -1):
+            return False
+    return True
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def step(
+    phi,
+    held,
+    faces,
+    next_faces,
+    flat,
+    next_flat,
+    uniform,
+    beside,
+    where,
+    domain,
+    count,
+    numbers,
+    shape,
+    thread,
+    threads,
+):  # pragma: no cover
+    """Do one step of all blocks in place; read neighbours' faces from `faces`, leave the new ones in `next_faces`."""
+    masked = domain.size > 0
+    tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
+    left, right, before, after = (
+        np.empty(CELLS, dtype=np.float32),
+        np.empty(CELLS, dtype=np.float32),
+        np.empty(CELLS, dtype=np.float32),
+        np.empty(CELLS, dtype=np.float32),
+    )
+    for s in range(thread, count, threads):
+        if uniform[s] != 0:
+            if unmoved(uniform[s], beside[s], flat):
+                continue
+            uniform[s] = 0
+        own, data = phi[s], held[s]
+        surround(own, faces, flat, beside[s], tall, left, right, before, after)
+        if masked:
+            step_masked(own, data, tall, left, right, before, after, domain, where[s], numbers)
+        else:
+            for t in range(CELLS):
+                own[t] = advanced(
+                    tall[t + PLANE],
+                    tall[t],
+                    tall[t + 2 * PLANE],
+                    left[t],
+                    right[t],
+                    before[t],
+                    after[t],
+                    np.float32(data[t]),
+                    numbers,
+                )
+        repeat_edges(own, where[s], shape)
+        emit(own, next_faces[s], next_flat[s])
+
+
+@njit(cache=True)
+def surround(own, faces, flat, beside, tall, left, right, before, after):  # pragma: no cover
+    """Set for every cell its six neighbours: the block between two planes, and four shifted copies."""
+    for t in range(CELLS):
+        tall[t + PLANE] = own[t]
+    for t in range(CELLS - B2):
+        left[t + B2] = own[t]
+    for t in range(CELLS - B2):
+        right[t] = own[t + B2]
+    for t in range(CELLS - 1):
+        before[t + 1] = own[t]
+    for t in range(CELLS - 1):
+        after[t] = own[t + 1]
+    for up in range(2):
+        other = seen(beside[up], flat, up)
+        at, to, edge = FACE_I * (1 - up), (CELLS + PLANE) * up, (CELLS - PLANE) * up
+        if other >= 0:
+            face = faces[other]
+            for t in range(PLANE):
+                tall[to + t] = face[at + t]
+        else:
+            for t in range(PLANE):
+                tall[to + t] = beyond(other, own[edge + t])
+        other = seen(beside[2 + up], flat, 2 + up)
+        at, to = SECOND + FACE_J * (1 - up), (PLANE - B2) * up
+        shifted = right if up else left
+        for i in range(B0):
+            if other >= 0:
+                face = faces[other]
+                for k in range(B2):
+                    shifted[to + i * PLANE + k] = face[at + i * B2 + k]
+            else:
+                for k in range(B2):
+                    shifted[to + i * PLANE + k] = beyond(other, own[to + i * PLANE + k])
+        other = seen(beside[4 + up], flat, 4 + up)
+        at, to = THIRD + FACE_K * (1 - up), (B2 - 1) * up
+        shifted = after if up else before
+        if other >= 0:
+            face = faces[other]
+            for t in range(FACE_K):
+                shifted[to + t * B2] = face[at + t]
+        else:
+            for t in range(FACE_K):
+                shifted[to + t * B2] = beyond(other, own[to + t * B2])
+
+
+@njit(inline="always", cache=True)
+def seen(other, flat, side):  # pragma: no cover
+    """Return the block beside a face, or what stands for it if its own face there has one value."""
+    if other < 0 or flat[other, side ^ 1] == 0:
+        return other
+    return SOLID_BLOCK if flat[other, side ^ 1] == 1 else VOID_BLOCK
+
+
+@njit(inline="always", cache=True)
+def beyond(other, own):  # pragma: no cover
+    """Return the value beside a face where no block is kept: beyond the grid it is the face's own."""
+    if other == OUTSIDE:
+        return own
+    return np.float32(1) if other == SOLID_BLOCK else np.float32(-1)
+
+
+@njit(cache=True, error_model="numpy")
+def step_masked(own, data, tall, left, right, before, after, domain, where, numbers):  # pragma: no cover
+    """Do one step of the cells in the domain; a neighbour outside of it has the cell's own value."""
+    n0, n1, n2 = domain.shape
+    for t in range(CELLS):
+        x = where[0] * B0 - 1 + t // PLANE
+        y = where[1] * B1 - 1 + t // B2 % B1
+        z = where[2] * B2 - 1 + t % B2
+        if x < 0 or y < 0 or z < 0 or x >= n0 or y >= n1 or z >= n2 or not domain[x, y, z]:
+            continue
+        c = tall[t + PLANE]
+        own[t] = advanced(
+            c,
+            tall[t] if domain[max(x - 1, 0), y, z] else c,
+            tall[t + 2 * PLANE] if domain[min(x + 1, n0 - 1), y, z] else c,
+            left[t] if domain[x, max(y - 1, 0), z] else c,
+            right[t] if domain[x, min(y + 1, n1 - 1), z] else c,
+            before[t] if domain[x, y, max(z - 1, 0)] else c,
+            after[t] if domain[x, y, min(z + 1, n2 - 1)] else c,
+            np.float32(data[t]),
+            numbers,
+        )
+
+
+@njit(cache=True)
+def repeat_edges(block, where, shape):  # pragma: no cover
+    """Give the cells beyond the grid the values of those at its edge."""
+    i0, i1 = max(0, 1 - where[0] * B0), min(B0, shape[0] + 1 - where[0] * B0)
+    j0, j1 = max(0, 1 - where[1] * B1), min(B1, shape[1] + 1 - where[1] * B1)
+    k0, k1 = max(0, 1 - where[2] * B2), min(B2, shape[2] + 1 - where[2] * B2)
+    if i0 == 0 and j0 == 0 and k0 == 0 and i1 == B0 and j1 == B1 and k1 == B2:
+        return
+    for i in range(B0):
+        x = min(max(i, i0), i1 - 1)
+        for j in range(B1):
+            y = min(max(j, j0), j1 - 1)
+            for k in range(B2):
+                block[(i * B1 + j) * B2 + k] = block[(x * B1 + y) * B2 + min(max(k, k0), k1 - 1)]
+
+
+@njit(nogil=True, cache=True)
+def spread(slots, blocks, whole, thread, threads):  # pragma: no cover
+    """Write all blocks, kept or not, into the whole field."""
+    m0, m1, m2 = slots.shape
+    n0, n1, n2 = whole.shape
+    for row in range(thread, m0 * m1, threads):
+        p, q = row // m1, row % m1
+        for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
+            for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
+                at = ((i + 1 - p * B0) * B1 + (j + 1 - q * B1)) * B2
+                line = whole[i, j]
+                for r in range(m2):
+                    first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+                    slot = slots[p, q, r]
+                    if slot >= 0:
+                        block = blocks[slot]
+                        shift = at + 1 - r * B2
+                        for k in range(first, last):
+                            line[k] = block[shift + k]
+                    else:
+                        value = np.float32(1) if slot == SOLID_BLOCK else np.float32(-1)
+                        for k in range(first, last):
+                            line[k] = value

@@ -1,0 +1,213 @@
+"""The closed surface of a field in blocks: marching cubes where the surface runs, and nowhere else.
+
+The same surface as `infill.surface.extract` finds on the whole field: the same vertices to rounding and the same
+Euler number. Signs are looked at sixteen cells at a time, as bits of one number; only cubes that the surface
+crosses are looked at one by one. A cube whose signs alone decide its triangles takes them from a table that is
+derived here; the few others are left to scikit-image, so that there is one way to decide saddles (Lewiner 2003).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill import sparse_surface_kernels as kernels
+from infill.errors import GeometryError
+from infill.sparse import SparseField
+from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK
+from infill.surface import CLEARANCE, TIE, Surface
+from infill.threads import in_threads, thread_count
+
+# Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
+EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]
+CORNERS = 8
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cubes:
+    """What signs say of a cube, by the number whose bits are its solid corners.
+
+    Parameters
+    ----------
+    triangles : (256, 5, 3) int8
+        Edges at the corners of each triangle, as `EDGES` numbers them.
+    counts : (256,) int8
+        How many triangles; -1 where the signs do not decide.
+    """
+
+    triangles: NDArray[np.int8]
+    counts: NDArray[np.int8]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A surface and how it answers to its level.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    rate : (V, 3) float32
+        How far each vertex moves when the level rises by one, mm.
+    """
+
+    surface: Surface
+    rate: NDArray[np.float32]
+
+
+def extract_blocks(
+    field: SparseField,
+    *,
+    spacing: tuple[float, ...],
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    level: float = 0.0,
+    threads: int | None = None,
+) -> Surface:
+    """Return the surface of {phi > level}, closed and facing outwards, mm: see `infill.isosurface`.
+
+    Raises
+    ------
+    GeometryError
+        If nothing is above the level.
+    """
+    return extract_level(field, spacing=spacing, origin=origin, level=level, threads=threads).surface
+
+
+def extract_level(
+    field: SparseField,
+    *,
+    spacing: tuple[float, ...],
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    level: float = 0.0,
+    threads: int | None = None,
+) -> Level:
+    """Return what `extract_blocks` returns, and how its vertices move with the level."""
+    threads = thread_count(threads)
+    cubes = cube_table()
+    values = field.values.reshape(-1, CELLS)
+    numbers = (np.float32(level), np.float32(CLEARANCE), np.float32(TIE))
+    bits = np.empty((len(values), BLOCK[0] * BLOCK[1]), dtype=np.uint16)
+    in_threads(kernels.bits_above, values, field.where, np.float32(level), field.shape, bits, threads=threads)
+    places = _crossed(field.slots, field.shape)
+    index = np.full(field.slots.shape, -1, dtype=np.int32)
+    index[tuple(places.T)] = np.arange(len(places))
+    masks = np.empty((len(places), BLOCK[0] * BLOCK[1], 3), dtype=np.uint16)
+    starts = np.empty((len(places), BLOCK[0] * BLOCK[1]), dtype=np.int16)
+    counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
+    in_threads(
+        kernels.count, field.slots, places, bits, field.shape, cubes.counts, masks, starts, counts[1:], threads=threads
+    )
+    offsets = np.cumsum(counts, axis=0)
+    if offsets[-1, 0] == 0:
+        raise GeometryError(f"nothing is left above the level {level:g}: no surface; smooth less, or use finer voxels")
+    vertices = np.empty((offsets[-1, 0], 3))
+    rate = np.zeros((offsets[-1, 0], 3), dtype=np.float32)
+    faces = np.empty((offsets[-1, 1], 3), dtype=np.int32)
+    corners = np.empty((offsets[-1, 2], CORNERS), dtype=np.float32)
+    edges = np.empty((offsets[-1, 2], len(EDGES)), dtype=np.int32)
+    lowest = np.empty((offsets[-1, 2], 3), dtype=np.int32)
+    in_threads(
+        kernels.write, field.slots, places, index, values, bits, field.shape, numbers, cubes.counts, cubes.triangles,
+        masks, starts, offsets, np.array(EDGES, dtype=np.int8), vertices, rate, faces, corners, edges, lowest,
+        threads=threads,
+    )  # fmt: skip
+    if len(corners):
+        extra, more = _undecided(corners, edges, lowest, len(vertices))
+        vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, more])
+        rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
+    in_threads(kernels.place, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
+    return Level(surface=Surface(vertices=vertices, faces=faces), rate=rate)
+
+
+def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
+    """Return the blocks in which, or between which and the next ones, the surface may run: (n, 3)."""
+    kind = (slots == SOLID_BLOCK).astype(np.int8)
+    kind[slots >= 0] = 2
+    for axis, (count, size) in enumerate(zip(shape, BLOCK, strict=True)):
+        # Solid blocks that reach beyond the grid have void in them.
+        ends = [0] if (count + 1) % size == 0 else [0, (count + 1) // size]
+        edge = tuple(ends if a == axis else slice(None) for a in range(3))
+        kind[edge] = np.where(kind[edge] == 1, 2, kind[edge])
+    low, high = kind, kind
+    for axis in range(3):
+        after = np.zeros([1 if a == axis else m for a, m in enumerate(kind.shape)], dtype=np.int8)
+        inner = tuple(slice(1, None) if a == axis else slice(None) for a in range(3))
+        low = np.minimum(low, np.concatenate([low[inner], after], axis=axis))
+        high = np.maximum(high, np.concatenate([high[inner], after], axis=axis))
+    return np.argwhere((low != high) | (high == 2)).astype(np.int32)
+
+
+@cache
+def cube_table() -> Cubes:
+    """Return the triangles of every cube whose signs decide them, derived by going round its faces."""
+    triangles, counts = np.zeros((256, 5, 3), dtype=np.int8), np.zeros(256, dtype=np.int8)
+    number = {edge: n for n, edge in enumerate(EDGES)}
+    for signs in range(256):
+        follows: dict[int, int] = {}
+        decided = signs not in _OPPOSITE
+        for axis in range(3):
+            for up in range(2):
+                a, b = (axis + 1) % 3, (axis + 2) % 3
+                ring = [up << axis, up << axis | 1 << a, up << axis | 1 << a | 1 << b, up << axis | 1 << b]
+                if up:  # always the same way round, seen from outside
+                    ring.reverse()
+                leaving, entering = [], []
+                for here, there in zip(ring, ring[1:] + ring[:1], strict=True):
+                    along = (here ^ there).bit_length() - 1
+                    if signs >> here & 1 and not signs >> there & 1:
+                        leaving.append(number[along, min(here, there)])
+                    elif signs >> there & 1 and not signs >> here & 1:
+                        entering.append(number[along, min(here, there)])
+                if len(leaving) > 1:
+                    decided = False
+                elif leaving:
+                    follows[leaving[0]] = entering[0]
+        if not decided:
+            counts[signs] = -1
+            continue
+        found: list[tuple[int, int, int]] = []
+        while follows:
+            first = next(iter(follows))
+            loop = [first]
+            while (after := follows.pop(loop[-1])) != first:
+                loop.append(after)
+            found += [(loop[0], loop[n], loop[n + 1]) for n in range(1, len(loop) - 1)]
+        counts[signs] = len(found)
+        triangles[signs, : len(found)] = found or 0
+    return Cubes(triangles=triangles, counts=counts)
+
+
+# Two corners across the whole cube, solid in void or void in solid: joined by a tube or not.
+_OPPOSITE = {1 << c | 1 << 7 - c for c in range(4)} | {255 ^ (1 << c | 1 << 7 - c) for c in range(4)}
+
+
+def _undecided(
+    corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return vertices inside cubes and the triangles of cubes that signs do not decide, by scikit-image.
+
+    The cubes stand in a row, each apart, their axes turned as `infill.surface.extract` turns them.
+    """
+    from skimage.measure import marching_cubes
+
+    many = len(corners)
+    row = corners.reshape(many, 2, 2, 2)  # cube, k, j, i
+    field = np.ascontiguousarray(row.transpose(1, 3, 0, 2).reshape(2, 2, 2 * many))  # k, i, cube and j
+    mask = np.zeros(field.shape, dtype=bool)
+    mask[:, :, 1::2] = True
+    points, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent", mask=mask)  # type: ignore[no-untyped-call]
+    points = points[:, [1, 2, 0]].astype(np.float64)  # i, cube and j, k
+    cube = (points[:, 1] // 2).astype(np.int64)
+    points[:, 1] -= 2 * cube
+    between = (points > 0) & (points < 1)
+    inside = between.sum(axis=1) > 1
+    axis = between.argmax(axis=1)
+    lower = (np.where(between, 0, points).round().astype(np.int64) << np.arange(3)).sum(axis=1)
+    lookup = np.full((3, CORNERS), -1)
+    for n, (along, corner) in enumerate(EDGES):
+        lookup[along, corner] = n
+    number = np.where(inside, 0, edges[cube, lookup[axis, np.where(inside, 0, lower)]])
+    number[inside] = count + np.arange(inside.sum())
+    return (points + lowest[cube])[inside], number[faces].astype(np.int32)

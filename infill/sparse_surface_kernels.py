@@ -1,0 +1,331 @@
+"""What `infill.sparse_surface` does to blocks, compiled."""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201
+# No tool sees compiled lines run.
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from infill.sparse_kernels import B0, B1, B2, SOLID_BLOCK
+
+ROWS = B0 * B1
+FULL = (1 << B2) - 1
+
+
+@njit(inline="always", cache=True)
+def shifted(value, numbers):  # pragma: no cover
+    """Return a value against the level, kept clear of it, solid a little weaker: see `infill.surface`."""
+    level, clearance, tie = numbers
+    v = value - level
+    if v > 0:
+        return max(v, clearance) * tie
+    return min(v, -clearance)
+
+
+@njit(nogil=True, cache=True)
+def bits_above(values, where, level, shape, bits, thread, threads):  # pragma: no cover
+    """Set for every row of every kept block which cells are above the level; beyond the grid none is."""
+    for s in range(thread, len(values), threads):
+        block = values[s]
+        for row in range(ROWS):
+            found = 0
+            for k in range(B2):
+                found |= (block[row * B2 + k] > level) << k
+            bits[s, row] = np.uint16(found) & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+
+
+@njit(inline="always", cache=True)
+def within(p, q, r, row, shape):  # pragma: no cover
+    """Return which cells of a row of a block lie on the grid."""
+    i, j = p * B0 + row // B1, q * B1 + row % B1
+    if i < 1 or j < 1 or i > shape[0] or j > shape[1]:
+        return np.uint16(0)
+    found = FULL
+    if r == 0:
+        found &= ~1
+    over = (r + 1) * B2 - (shape[2] + 1)  # cells behind the last one
+    if over > 0:
+        found = found & (FULL >> over) if over < B2 else 0
+    return np.uint16(found)
+
+
+@njit(inline="always", cache=True)
+def row_of(slots, p, q, r, row, bits, shape):  # pragma: no cover
+    """Return which cells of a row of any block are solid."""
+    if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
+        return np.uint32(0)
+    slot = slots[p, q, r]
+    if slot >= 0:
+        return np.uint32(bits[slot, row])
+    return np.uint32(within(p, q, r, row, shape)) if slot == SOLID_BLOCK else np.uint32(0)
+
+
+@njit(cache=True)
+def rows_around(slots, p, q, r, bits, shape, rows):  # pragma: no cover
+    """Set the rows of a block and the first ones behind it, 17 cells each: (9, 9)."""
+    for i in range(B0 + 1):
+        a, x = (p, i) if i < B0 else (p + 1, 0)
+        for j in range(B1 + 1):
+            b, y = (q, j) if j < B1 else (q + 1, 0)
+            own = row_of(slots, a, b, r, x * B1 + y, bits, shape)
+            after = row_of(slots, a, b, r + 1, x * B1 + y, bits, shape)
+            rows[i, j] = own | ((after & np.uint32(1)) << np.uint32(B2))
+
+
+@njit(inline="always", cache=True)
+def ones(bits):  # pragma: no cover
+    """Count the bits of a 16-bit number."""
+    v = np.uint32(bits)
+    v = v - ((v >> np.uint32(1)) & np.uint32(0x5555))
+    v = (v & np.uint32(0x3333)) + ((v >> np.uint32(2)) & np.uint32(0x3333))
+    v = (v + (v >> np.uint32(4))) & np.uint32(0x0F0F)
+    return np.int64((v + (v >> np.uint32(8))) & np.uint32(0x1F))
+
+
+@njit(inline="always", cache=True)
+def crossed(a, b, c, d):  # pragma: no cover
+    """Return which of 16 cubes have corners of both signs, from their four rows of 17 cells."""
+    some, every = a | b | c | d, a & b & c & d
+    one = np.uint32(1)
+    return (some | (some >> one)) & ~(every & (every >> one)) & np.uint32(FULL)
+
+
+@njit(inline="always", cache=True)
+def signs_of(a, b, c, d, k):  # pragma: no cover
+    """Return the solid corners of cube `k` of a row of cubes, corner i + 2 j + 4 k."""
+    shift = np.uint32(k)
+    one = np.uint32(1)
+    two = np.uint32(3)
+    a, b, c, d = (a >> shift) & two, (b >> shift) & two, (c >> shift) & two, (d >> shift) & two
+    low = (a & one) | (b & one) << one | (c & one) << np.uint32(2) | (d & one) << np.uint32(3)
+    a, b, c, d = a >> one, b >> one, c >> one, d >> one
+    return np.int64(low | (a | b << one | c << np.uint32(2) | d << np.uint32(3)) << np.uint32(4))
+
+
+@njit(nogil=True, cache=True)
+def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):  # pragma: no cover
+    """Set the crossed edges of every row along i, j, k, where its vertices begin, and what a block will hold."""
+    rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
+    for n in range(thread, len(places), threads):
+        rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
+        vertices, faces, undecided = 0, 0, 0
+        for i in range(B0):
+            for j in range(B1):
+                row = i * B1 + j
+                a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
+                masks[n, row, 0] = np.uint16(a ^ b)
+                masks[n, row, 1] = np.uint16(a ^ c)
+                masks[n, row, 2] = np.uint16(a ^ (a >> np.uint32(1)))
+                starts[n, row] = vertices
+                vertices += ones(masks[n, row, 0]) + ones(masks[n, row, 1]) + ones(masks[n, row, 2])
+                cubes = crossed(a, b, c, d)
+                if cubes == 0:
+                    continue
+                for k in range(B2):
+                    if (cubes >> np.uint32(k)) & np.uint32(1):
+                        many = triangles[signs_of(a, b, c, d, k)]
+                        if many < 0:
+                            undecided += 1
+                        else:
+                            faces += many
+        counts[n, 0], counts[n, 1], counts[n, 2] = vertices, faces, undecided
+
+
+@njit(inline="always", cache=True)
+def value_at(slots, p, q, r, i, j, k, values, shape, numbers):  # pragma: no cover
+    """Return the value against the level of a cell of a block or of the first ones behind it."""
+    if i == B0:
+        p, i = p + 1, 0
+    if j == B1:
+        q, j = q + 1, 0
+    if k == B2:
+        r, k = r + 1, 0
+    x, y, z = p * B0 + i, q * B1 + j, r * B2 + k
+    value = np.float32(-1)
+    if 1 <= x <= shape[0] and 1 <= y <= shape[1] and 1 <= z <= shape[2]:
+        slot = slots[p, q, r]
+        if slot >= 0:
+            value = values[slot, (i * B1 + j) * B2 + k]
+        elif slot == SOLID_BLOCK:
+            value = np.float32(1)
+    return shifted(value, numbers)
+
+
+@njit(inline="always", cache=True)
+def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):  # pragma: no cover
+    """Return the number of the vertex on an edge that begins in a block or in the first cells behind it."""
+    if i == B0:
+        p, i = p + 1, 0
+    if j == B1:
+        q, j = q + 1, 0
+    if k == B2:
+        r, k = r + 1, 0
+    n, row = index[p, q, r], i * B1 + j
+    number = offsets[n, 0] + starts[n, row]
+    for before in range(axis):
+        number += ones(masks[n, row, before])
+    return number + ones(masks[n, row, axis] & np.uint16((1 << k) - 1))
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def write(
+    slots,
+    places,
+    index,
+    values,
+    bits,
+    shape,
+    numbers,
+    many,
+    triangles,
+    masks,
+    starts,
+    offsets,
+    edges,
+    vertices,
+    rate,
+    faces,
+    corners,
+    corner_edges,
+    lowest,
+    thread,
+    threads,
+):  # pragma: no cover
+    """Write vertices in cells from the first cell's centre, triangles, and what there is to know of undecided cubes."""
+    rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
+    for n in range(thread, len(places), threads):
+        if (offsets[n + 1] == offsets[n]).all():
+            continue
+        p, q, r = places[n, 0], places[n, 1], places[n, 2]
+        rows_around(slots, p, q, r, bits, shape, rows)
+        v, f, u = offsets[n, 0], offsets[n, 1], offsets[n, 2]
+        for i in range(B0):
+            for j in range(B1):
+                row = i * B1 + j
+                for axis in range(3):
+                    mask = masks[n, row, axis]
+                    for k in range(B2):
+                        if not (mask >> np.uint16(k)) & np.uint16(1):
+                            continue
+                        here = np.float64(value_at(slots, p, q, r, i, j, k, values, shape, numbers))
+                        there = np.float64(
+                            value_at(
+                                slots,
+                                p,
+                                q,
+                                r,
+                                i + (axis == 0),
+                                j + (axis == 1),
+                                k + (axis == 2),
+                                values,
+                                shape,
+                                numbers,
+                            )
+                        )
+                        vertices[v, 0] = p * B0 + i - 1
+                        vertices[v, 1] = q * B1 + j - 1
+                        vertices[v, 2] = r * B2 + k - 1
+                        vertices[v, axis] += here / (here - there)
+                        rate[v, axis] = 1 / (there - here)
+                        v += 1
+                a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
+                cubes = crossed(a, b, c, d)
+                if cubes == 0:
+                    continue
+                for k in range(B2):
+                    if not (cubes >> np.uint32(k)) & np.uint32(1):
+                        continue
+                    signs = signs_of(a, b, c, d, k)
+                    if many[signs] >= 0:
+                        for t in range(many[signs]):
+                            for corner in range(3):
+                                axis, at = edges[triangles[signs, t, corner]]
+                                faces[f, corner] = vertex_number(
+                                    index,
+                                    p,
+                                    q,
+                                    r,
+                                    i + (at & 1),
+                                    j + (at >> 1 & 1),
+                                    k + (at >> 2),
+                                    axis,
+                                    masks,
+                                    starts,
+                                    offsets,
+                                )
+                            f += 1
+                        continue
+                    lowest[u, 0], lowest[u, 1], lowest[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
+                    for corner in range(8):
+                        corners[u, corner] = value_at(
+                            slots,
+                            p,
+                            q,
+                            r,
+                            i + (corner & 1),
+                            j + (corner >> 1 & 1),
+                            k + (corner >> 2),
+                            values,
+                            shape,
+                            numbers,
+                        )
+                    for e in range(len(edges)):
+                        axis, at = edges[e]
+                        other = at | 1 << axis
+                        corner_edges[u, e] = -1
+                        if (signs >> at & 1) != (signs >> other & 1):
+                            corner_edges[u, e] = vertex_number(
+                                index,
+                                p,
+                                q,
+                                r,
+                                i + (at & 1),
+                                j + (at >> 1 & 1),
+                                k + (at >> 2),
+                                axis,
+                                masks,
+                                starts,
+                                offsets,
+                            )
+                    u += 1
+
+
+@njit(nogil=True, cache=True)
+def place(vertices, rate, spacing, origin, thread, threads):  # pragma: no cover
+    """Turn cells from the first cell's centre into mm."""
+    size = (len(vertices) + threads - 1) // threads  # each thread its own stretch of memory
+    for v in range(thread * size, min(len(vertices), (thread + 1) * size)):
+        for axis in range(3):
+            vertices[v, axis] = (vertices[v, axis] + 0.5) * spacing[axis] + origin[axis]
+            rate[v, axis] *= spacing[axis]
+
+
+@njit(nogil=True, cache=True)
+def volume_and_slope(vertices, rate, faces, middle, thread, threads):  # pragma: no cover
+    """Return six times the volume that a part of the faces encloses, and its change when the level rises by one."""
+    size = (len(faces) + threads - 1) // threads
+    volume, slope = 0.0, 0.0
+    for f in range(thread * size, min(len(faces), (thread + 1) * size)):
+        own, change = sixfold(vertices, rate, faces[f], middle)
+        volume += own
+        slope += change
+    return volume, slope
+
+
+@njit(inline="always", cache=True)
+def sixfold(vertices, rate, face, middle):  # pragma: no cover
+    """Return six times the volume between a face and the middle, and its change when the level rises by one."""
+    i, j, k = face
+    ax, ay, az = vertices[i, 0] - middle[0], vertices[i, 1] - middle[1], vertices[i, 2] - middle[2]
+    bx, by, bz = vertices[j, 0] - middle[0], vertices[j, 1] - middle[1], vertices[j, 2] - middle[2]
+    cx, cy, cz = vertices[k, 0] - middle[0], vertices[k, 1] - middle[1], vertices[k, 2] - middle[2]
+    nx, ny, nz = by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx
+    volume = ax * nx + ay * ny + az * nz
+    slope = rate[i, 0] * nx + rate[i, 1] * ny + rate[i, 2] * nz
+    nx, ny, nz = cy * az - cz * ay, cz * ax - cx * az, cx * ay - cy * ax
+    slope += rate[j, 0] * nx + rate[j, 1] * ny + rate[j, 2] * nz
+    nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+    slope += rate[k, 0] * nx + rate[k, 1] * ny + rate[k, 2] * nz
+    return volume, slope

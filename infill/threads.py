@@ -1,0 +1,43 @@
+"""Compiled work shared among threads: a kernel is called once a thread, and takes every so-manieth piece."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from typing import Any
+
+from infill.checks import whole
+from infill.machine import usable_cores
+
+VARIABLE = "NUMBA_NUM_THREADS"
+
+
+def thread_count(asked: int | None = None) -> int:
+    """Return how many threads to work with: as asked, else what NUMBA_NUM_THREADS says, else one a core.
+
+    >>> thread_count(3)
+    3
+    """
+    if asked is not None:
+        return whole("the number of threads", asked, 1)
+    said = os.environ.get(VARIABLE, "")
+    return int(said) if said.isdigit() and int(said) > 0 else usable_cores()
+
+
+def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> list[Any]:  # noqa: ANN401 - hands on
+    """Call `kernel(*arguments, thread, threads)` for each thread and return what they return.
+
+    The kernel has to let go of the interpreter, and no two threads may write to the same place.
+    """
+    if threads == 1:
+        return [kernel(*arguments, 0, 1)]
+    started = [_pool(threads).submit(kernel, *arguments, thread, threads) for thread in range(1, threads)]
+    first = kernel(*arguments, 0, threads)
+    return [first, *(each.result() for each in started)]
+
+
+@cache
+def _pool(threads: int) -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(threads - 1, thread_name_prefix="infill")

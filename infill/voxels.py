@@ -1,0 +1,163 @@
+"""From a mesh to cells: which cell centres lie inside, whatever state the mesh is in."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from infill.capping import bodies, capped, inside_out
+from infill.checks import length, whole
+from infill.errors import GeometryError, ParameterError
+from infill.machine import require_memory
+from infill.reading import closed_or_merged
+from infill.scanlines import SLAB, crossings, filled
+from infill.surface import Surface
+from infill.volume import Volume
+
+RESOLUTION = 200  # cells along the longest side if nothing is said
+ROUNDING = 1e-6  # of a cell: what a side may be longer than whole cells without a cell more
+CROSSING_BYTES, FACE_BYTES = 60, 400  # measured peaks, sorting included
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repairs:
+    """What `voxelise` had to assume about a mesh.
+
+    Parameters
+    ----------
+    bodies : int
+        Parts of the mesh that share no vertex.
+    turned : int
+        Bodies that faced inwards beside others that faced outwards.
+    holes : int
+        Loops of open edges that got a cap. A triangle that stands twice or faces the wrong way is one too.
+    hole_share : float
+        Area of the caps over the area of mesh and caps. The inside is a guess where this is large.
+    """
+
+    bodies: int
+    turned: int
+    holes: int
+    hole_share: float
+
+
+def voxelise(
+    surface: Surface,
+    *,
+    voxel: float | None = None,
+    resolution: int | None = None,
+    margin: int = 2,
+    max_memory: int | None = None,
+) -> Volume:
+    """Return the cells whose centre lies inside a mesh.
+
+    Parameters
+    ----------
+    surface : Surface
+        It may be open, inside out, pass through itself, or have several bodies.
+    voxel : float, optional
+        Cell size, mm.
+    resolution : int, optional
+        Cells along the longest side of the mesh's box instead; 200 if neither is given.
+    margin : int
+        Empty cells beyond the box on every side.
+    max_memory : int, optional
+        Bytes; what is at hand if left out.
+
+    Returns
+    -------
+    Volume
+        Booleans, True inside; the mesh's box lies in the middle of the grid.
+
+    Raises
+    ------
+    ParameterError
+        For numbers out of range, both `voxel` and `resolution`, or cells too large for the part.
+    GeometryError
+        If the mesh encloses nothing.
+    MemoryLimitError
+        If the grid does not fit into memory.
+
+    Notes
+    -----
+    A cell is inside if the mesh goes around its centre at least once, counted with sign: the winding
+    number w = sum of the signed crossings of a ray is not 0. Bodies that overlap so are united, an
+    inverted mesh is what it would be the right way out, and a body that faces inwards within another is
+    a cavity. Bodies that face inwards on their own are turned first, and what lies in them with them.
+
+    Holes are closed by fans from the middle of their edge before anything is counted, so that w is a whole
+    number everywhere. For flat holes in a mesh that faces one way the result is that of the generalised
+    winding number (Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
+    numbers", doi:10.1145/2461912.2461916) cut at 1/2, at the cost of one ray per row of cells.
+
+    A wall thinner than a cell is found where a cell centre happens to lie in it.
+
+    >>> corners = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])
+    >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> voxelise(Surface(vertices=corners, faces=faces), voxel=1.0).values.shape
+    (8, 8, 8)
+    """
+    return voxelise_reported(surface, voxel=voxel, resolution=resolution, margin=margin, max_memory=max_memory)[0]
+
+
+def voxelise_reported(
+    surface: Surface,
+    *,
+    voxel: float | None = None,
+    resolution: int | None = None,
+    margin: int = 2,
+    max_memory: int | None = None,
+) -> tuple[Volume, Repairs]:
+    """Return the cells inside a mesh, and what had to be assumed: see `voxelise`."""
+    if voxel is not None and resolution is not None:
+        raise ParameterError("both voxel and resolution are given; give one of them")
+    margin = whole("margin", margin, 0)
+    if len(surface.faces) == 0:
+        raise GeometryError("the mesh has no triangles, so nothing is inside; give a closed mesh")
+    if not np.isfinite(surface.vertices[np.unique(surface.faces)]).all():
+        raise GeometryError("the mesh holds coordinates that are not finite; export it again")
+    mesh = closed_or_merged(surface.vertices, surface.faces)
+    lower, upper = mesh.bounds
+    extents = upper - lower
+    if not extents.max() > 0:
+        raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
+    if voxel is None:
+        size = float(extents.max()) / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
+    else:
+        size = length("voxel", voxel)
+    shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
+    advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels or a lower resolution"
+    require_memory(math.prod(shape), max_memory, advice)  # before anything is laid out
+    origin = (lower + upper) / 2 - np.array(shape) * size / 2
+
+    vertices, faces, holes = capped((mesh.vertices - origin) / size - 0.5, mesh.faces)
+    doubled = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
+    expected = float(np.abs(doubled[:, 2]).sum()) / 2
+    needed = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
+    require_memory(int(needed), max_memory, advice)
+    areas = np.linalg.norm(doubled, axis=1)
+    body, volumes = bodies(vertices, faces)
+    if not volumes.any():
+        raise GeometryError(
+            f"the mesh of {len(mesh.faces)} triangles encloses nothing (loose triangles or a flat sheet); "
+            "give a closed mesh"
+        )
+    found = crossings(vertices, faces, shape)
+    turned = inside_out(found, body, volumes)
+    if turned.any():
+        found = replace(found, sign=np.where(turned[body[found.face]], -found.sign, found.sign))
+    inside = filled(found, shape)
+    if not inside.any():
+        raise ParameterError(
+            f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
+            "cell lies inside; give a voxel of at most half the thinnest wall"
+        )
+    repairs = Repairs(
+        bodies=len(volumes),
+        turned=int(turned.sum()),
+        holes=holes,
+        hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),
+    )
+    return Volume(values=inside, spacing=size, origin=tuple(origin.tolist())), repairs
