@@ -1,7 +1,7 @@
 """How near smoothed voxels come to the true surface: ``python -m benchmarks.smooth_quality --cases sphere,rbox``.
 
 Shapes with a known surface are turned into voxels of -1 and +1, smoothed by us and by other software at the
-settings it recommends, and compared. All lengths are in cells. About half a minute a case.
+settings it recommends, and compared. All lengths are in cells. Half a minute to two minutes a case.
 """
 
 from __future__ import annotations
@@ -60,16 +60,13 @@ class Shape:
         for i, across in enumerate(x):
             points = np.stack(np.broadcast_arrays(across, *np.meshgrid(y, z, indexing="ij")), axis=-1)
             value[i] = self.value(points.reshape(-1, 3)).reshape(points.shape[:2])
-        solid = value < 0
-        if noise:
-            solid |= (np.random.default_rng(0).random(self.size) <= noise) & (np.abs(value) <= 2)
+        band = np.abs(value) <= 2
+        solid = (value < 0) | (band & (np.random.default_rng(0).random(self.size) <= noise))
         return np.where(solid, np.float32(1), np.float32(-1))
 
     def gradient(self, points: Points) -> Points:
         """Return the unit gradient of the value."""
-        step = 1e-4
-        shifts = step * np.eye(3)
-        slope = np.stack([self.value(points + d) - self.value(points - d) for d in shifts], axis=1) / (2 * step)
+        slope = np.stack([self.value(points + d) - self.value(points - d) for d in 1e-4 * np.eye(3)], axis=1)
         return slope / np.linalg.norm(slope, axis=1, keepdims=True)
 
     def foot(self, points: Points) -> tuple[NDArray[np.float64], Points]:
@@ -83,9 +80,8 @@ class Shape:
         at = points.copy()
         for _ in range(12):
             normal = self.gradient(at)
-            value, step = self.value(at), 1e-3
-            slope = (self.value(at + step * normal) - self.value(at - step * normal)) / (2 * step)
-            at = at - np.clip(value / slope, -2, 2)[:, None] * normal
+            slope = (self.value(at + 1e-3 * normal) - self.value(at - 1e-3 * normal)) / 2e-3
+            at = at - np.clip(self.value(at) / slope, -2, 2)[:, None] * normal
             aside = points - at
             at = at + 0.8 * (aside - (aside * normal).sum(axis=1, keepdims=True) * normal)
         normal = self.gradient(at)
@@ -116,8 +112,7 @@ def torus() -> Shape:
 
 def rbox() -> Shape:
     """Return a box of half sizes 60, 42 and 30 with edges of radius 8, turned."""
-    radius = 8.0
-    core = np.array([60.0, 42, 30]) - radius
+    radius, core = 8.0, np.array([52.0, 34, 22])
 
     def value(points: Points) -> NDArray[np.float64]:
         q = np.abs(points @ TURN) - core
@@ -150,14 +145,12 @@ def honeycomb() -> Shape:
 
     i, j = np.mgrid[-3:4, -3:4].reshape(2, -1)
     i, j = (part[np.abs(i + j) <= 3][:, None] for part in (i, j))
-    directions = np.radians([7, 67])
-    first, second = (24 * np.array([math.cos(t), math.sin(t)]) for t in directions)
-    centres = i * first + j * second
+    angle = np.radians([7, 67])
+    centres = 24 * (i * [math.cos(angle[0]), math.sin(angle[0])] + j * [math.cos(angle[1]), math.sin(angle[1])])
     plate = shapely.union_all([hexagon(c, 13.5) for c in centres])
     plate = plate.difference(shapely.union_all([hexagon(c, 10.5) for c in centres]))
-    shapely.prepare(plate)
     edge = plate.boundary
-    shapely.prepare(edge)
+    shapely.prepare([plate, edge])
 
     def value(points: Points) -> NDArray[np.float64]:
         flat, which = np.unique(points[:, :2], axis=0, return_inverse=True)
@@ -169,15 +162,8 @@ def honeycomb() -> Shape:
     return Shape(size=(210, 210, 40), value=value, volume=plate.area * 20, euler=-72)
 
 
-CASES: dict[str, tuple[Callable[[], Shape], float]] = {
-    "sphere": (sphere, 0.0),
-    "ellipsoid": (ellipsoid, 0.0),
-    "torus": (torus, 0.0),
-    "rbox": (rbox, 0.0),
-    "gyroid": (gyroid, 0.0),
-    "honeycomb": (honeycomb, 0.0),
-    **{f"sphere_noise{p}": (sphere, p / 100) for p in (10, 20, 30, 40)},
-}
+CASES = {build.__name__: (build, 0.0) for build in (sphere, ellipsoid, torus, rbox, gyroid, honeycomb)}
+CASES |= {f"sphere_noise{percent}": (sphere, percent / 100) for percent in (10, 20, 30, 40)}
 
 
 def surface_of(field: Field, level: float = 0.0) -> Surface:
@@ -198,19 +184,13 @@ def ours(f: Field, steps: int, level: str) -> Surface:
     return surface_of(field) if level == "0" else at_volume_level(field, float((f > 0).sum()))
 
 
-def gaussian(f: Field, sigma: float) -> Surface:
-    return surface_of(gaussian_filter(f, sigma, mode="nearest"))
-
-
 def majority_sinc(f: Field, passes: int, band: float) -> Surface:
     """Return the windowed sinc after a majority vote of 3 x 3 x 3, as one does with noisy labels."""
-    return windowed_sinc(
-        np.where(uniform_filter(f, 3, mode="nearest") > 0, np.float32(1), np.float32(-1)), passes, band
-    )
+    return windowed_sinc(uniform_filter(f, 3, mode="nearest"), passes, band)
 
 
-def vtk_triangles(f: Field, mesher: Any, *then: Any) -> Surface:
-    """Run VTK's mesher on the labels, then filters, and return the triangles, turned outwards."""
+def vtk_triangles(f: Field, mesher: Any, after: Any = None) -> Surface:
+    """Run VTK's mesher on the labels, then a filter, and return the triangles, turned outwards."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkImageData
 
@@ -219,12 +199,10 @@ def vtk_triangles(f: Field, mesher: Any, *then: Any) -> Surface:
     image.GetPointData().SetScalars(numpy_to_vtk(labels.ravel(order="F"), deep=True))
     mesher.SetInputData(image)
     mesher.SetValue(0, 1)
-    last = mesher
-    for following in then:
-        following.SetInputConnection(last.GetOutputPort())
-        last = following
-    last.Update()
-    data = last.GetOutput()
+    if after:
+        after.SetInputConnection(mesher.GetOutputPort())
+    (after or mesher).Update()
+    data = (after or mesher).GetOutput()
     vertices = vtk_to_numpy(data.GetPoints().GetData()).astype(np.float64)
     faces = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     surface = Surface(vertices=vertices, faces=faces)
@@ -248,17 +226,16 @@ def surface_nets(f: Field) -> Surface:
     return vtk_triangles(f, nets)
 
 
-def anti_alias(f: Field) -> Surface:
+def level_set(f: Field, which: str) -> Surface:
+    """Return the zero surface of a smooth distance-like function, squeezed into [-1, 1] for our mesher."""
+    if which == "mcubes":
+        import mcubes
+
+        return surface_of(np.tanh(mcubes.smooth(f > 0)))
     import SimpleITK
 
     image = SimpleITK.GetImageFromArray((f > 0).astype(np.uint8))
     return surface_of(np.tanh(SimpleITK.GetArrayFromImage(SimpleITK.AntiAliasBinary(image))))
-
-
-def cubes(f: Field) -> Surface:
-    import mcubes
-
-    return surface_of(np.tanh(mcubes.smooth(f > 0)))
 
 
 def relaxed(f: Field, which: str, **settings: float) -> Surface:
@@ -270,25 +247,24 @@ def relaxed(f: Field, which: str, **settings: float) -> Surface:
     return Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
 
 
+def gaussian(f: Field, sigma: float) -> Surface:
+    return surface_of(gaussian_filter(f, sigma, mode="nearest"))
+
+
+SINC = ((15, 0.001), (50, 0.02), (100, 0.003))
 METHODS: dict[str, Callable[[Field], Surface]] = {
     **{f"ours, {n} steps, level {c}": partial(ours, steps=n, level=c) for n in (10, 20) for c in ("0", "volume")},
-    **{
-        f"VTK windowed sinc {n}/{band:g}": partial(windowed_sinc, passes=n, band=band)
-        for n, band in ((15, 0.001), (50, 0.02), (100, 0.003))
-    },
+    **{f"VTK windowed sinc {n}/{b:g}": partial(windowed_sinc, passes=n, band=b) for n, b in SINC},
     "VTK surface nets 16": surface_nets,
-    "SimpleITK AntiAliasBinary": anti_alias,
-    "PyMCubes smooth": cubes,
-    "SciPy Gaussian 1": partial(gaussian, sigma=1),
-    "SciPy Gaussian 1.5": partial(gaussian, sigma=1.5),
-    "SciPy Gaussian 2.5": partial(gaussian, sigma=2.5),
+    "SimpleITK AntiAliasBinary": partial(level_set, which="itk"),
+    "PyMCubes smooth": partial(level_set, which="mcubes"),
+    **{f"SciPy Gaussian {sigma:g}": partial(gaussian, sigma=sigma) for sigma in (1, 1.5, 2.5)},
     "majority + windowed sinc": partial(majority_sinc, passes=100, band=0.003),
     "trimesh Taubin": partial(relaxed, which="taubin"),
     "trimesh Humphrey": partial(relaxed, which="humphrey"),
     "trimesh Humphrey 30, alpha 0": partial(relaxed, which="humphrey", alpha=0.0, beta=0.5, iterations=30),
 }
-SLOW = {"PyMCubes smooth"}
-NOISY = {"SciPy Gaussian 2.5", "majority + windowed sinc"}
+SLOW, NOISY = {"PyMCubes smooth"}, {"SciPy Gaussian 2.5", "majority + windowed sinc"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -319,22 +295,14 @@ def measured(surface: Surface, shape: Shape, volume: float, seconds: float) -> Q
     edges = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)) @ [len(vertices), 1]).size
     angle = np.degrees(np.arccos(np.clip(cosine, -1, 1))) @ doubled / doubled.sum()
     return Quality(
-        rms=float(np.sqrt((distance**2).mean())),
-        largest=float(np.abs(distance).max()),
-        normal=float(angle),
+        rms=np.sqrt((distance**2).mean()),
+        largest=np.abs(distance).max(),
+        normal=angle,
         volume=100 * (surface.volume / volume - 1),
         euler=len(vertices) - edges + len(faces),
-        parts=int(connected_components(links, directed=False)[0]),
+        parts=connected_components(links, directed=False)[0],
         seconds=seconds,
     )
-
-
-def prepared(case: str) -> tuple[Shape, NDArray[np.float32], float]:
-    """Return the shape of a case, its voxels and its volume."""
-    build, noise = CASES[case]
-    shape = build()
-    f = shape.voxels(noise)
-    return shape, f, shape.volume or float((f > 0).sum())
 
 
 def main() -> None:
@@ -347,8 +315,11 @@ def main() -> None:
     if unknown := [case for case in cases if case not in CASES]:
         parser.error(f"no case {', '.join(unknown)}; there are {', '.join(CASES)}")
     for case in cases:
-        shape, f, volume = prepared(case)
-        names = [n for n in METHODS if (n not in SLOW or options.slow) and (n not in NOISY or CASES[case][1])]
+        build, noise = CASES[case]
+        shape = build()
+        f = shape.voxels(noise)
+        volume = shape.volume or float((f > 0).sum())
+        names = [n for n in METHODS if (n not in SLOW or options.slow) and (n not in NOISY or noise)]
         print(f"\n{case}\n{'':32s}     rms    max  normal   volume   Euler  parts    CPU")
         found: dict[str, Quality] = {}
         for name in names:
@@ -367,13 +338,11 @@ def main() -> None:
 def verdict(found: dict[str, Quality]) -> None:
     """Print who of those with the right topology wins in distance and in normals, and by how much."""
     for what in ("rms", "normal"):
-        mine, theirs = (
-            min(((getattr(q, what), n) for n, q in found.items() if n.startswith("ours") is own), default=None)
-            for own in (True, False)
-        )
+        ranked = sorted((getattr(q, what), name) for name, q in found.items())
+        mine, theirs = ([r for r in ranked if r[1].startswith("ours") is own][:1] for own in (True, False))
         if mine and theirs:
-            word = "wins" if mine[0] < theirs[0] else "loses"
-            print(f"  {what}: ours {word}, {mine[0] / theirs[0]:.2f} x: {mine[1]} against {theirs[1]}")
+            (us, our), (them, their) = mine[0], theirs[0]
+            print(f"  {what}: ours {'wins' if us < them else 'loses'}, {us / them:.2f} x: {our} against {their}")
 
 
 if __name__ == "__main__":

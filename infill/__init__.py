@@ -28,11 +28,15 @@ if TYPE_CHECKING:
     from infill.grid import Grid
     from infill.inspection import check
     from infill.pipeline import Result, make
+    from infill.point_files import read_points
     from infill.reading import read_mesh
+    from infill.scans import read_volume
+    from infill.smoother import smooth_mesh, smooth_points, smooth_volume
     from infill.smoothing import smooth
     from infill.stacking import extrude, stack
     from infill.stamping import stamp, stamp_lines
     from infill.surface import Surface, isosurface
+    from infill.volume import Volume
     from infill.width import wall_width
 
 _HOMES = {
@@ -42,11 +46,15 @@ _HOMES = {
     "grid": ("Grid",),
     "inspection": ("check",),
     "pipeline": ("Result", "make"),
+    "point_files": ("read_points",),
     "reading": ("read_mesh",),
+    "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "smoothing": ("smooth",),
     "stacking": ("extrude", "stack"),
     "stamping": ("stamp", "stamp_lines"),
+    "scans": ("read_volume",),
     "surface": ("Surface", "isosurface"),
+    "volume": ("Volume",),
     "width": ("wall_width",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -62,14 +70,20 @@ __all__ = [
     "Result",
     "Smoothing",
     "Surface",
+    "Volume",
     "check",
     "extrude",
     "isosurface",
     "make",
     "read_mesh",
+    "read_points",
+    "read_volume",
     "rescale",
     "save",
     "smooth",
+    "smooth_mesh",
+    "smooth_points",
+    "smooth_volume",
     "stack",
     "stamp",
     "stamp_lines",

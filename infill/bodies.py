@@ -127,6 +127,24 @@ def _bits(field: SparseField, values: NDArray[Any], threads: int | None) -> NDAr
     return bits
 
 
+def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return the cells that are the lower corner of 2 x 2 x 2 solid ones: what is more than one cell thick."""
+    return _meet_or_spread(field, bits, 1, threads)
+
+
+def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return the cells of those 2 x 2 x 2 cells."""
+    return _meet_or_spread(field, core, -1, threads)
+
+
+def _meet_or_spread(field: SparseField, bits: NDArray[np.uint16], way: int, threads: int | None) -> NDArray[np.uint16]:
+    out = np.empty_like(bits)
+    in_threads(
+        kernels.meet_or_spread, field.slots, field.where, bits, SOLID_BLOCK, way, out, threads=thread_count(threads)
+    )
+    return out
+
+
 def bodies(field: SparseField, bits: NDArray[np.uint16], *, void: bool = False) -> Bodies:
     """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first."""
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
@@ -202,3 +220,11 @@ def shells(surface: Surface, rate: NDArray[np.float32]) -> Shells:
     middle = surface.vertices.mean(axis=0)
     kernels.measure_shells(surface.vertices, rate, surface.faces, names, middle, volume, slope, corners, sides)
     return Shells(names=names, volume=volume / 6, slope=slope / 6, euler=corners - sides // 2)
+
+
+def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDArray[np.bool_]) -> NDArray[Any]:
+    """Return data (nx, ny, nz) with the bodies marked in `small` (b,) made void; all of them are in kept blocks."""
+    out = values.copy()
+    void = False if values.dtype == bool else -1
+    kernels.erase(out, field.where, every.bits, every.blocks, every.starts, every.names, small, void)
+    return out

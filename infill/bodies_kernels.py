@@ -345,3 +345,51 @@ def lower_to_levels(
                         body = names[node]
                         break
             out[s, t] = value - (levels[body] if body >= 0 else common)
+
+
+@njit(inline="always", cache=True)
+def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
+    """Return a row of any block of the lattice; a block of one value is full if it is of `kind`."""
+    if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
+        return np.int64(0)
+    slot = slots[p, q, r]
+    if slot >= 0:
+        return np.int64(bits[slot, row])
+    return np.int64(FULL) if slot == kind else np.int64(0)
+
+
+@njit(nogil=True, cache=True)
+def meet_or_spread(slots, where, bits, kind, way, out, thread, threads):  # pragma: no cover
+    """Set cells with all of the 2 x 2 x 2 from them on (`way` 1), or with any of those up to them (`way` -1)."""
+    for s in range(thread, len(where), threads):
+        p, q, r = where[s]
+        for row in range(ROWS):
+            found = np.int64(FULL) if way > 0 else np.int64(0)
+            for di in range(2):
+                for dj in range(2):
+                    i, j, a, b = row // B1 + way * di, row % B1 + way * dj, p, q
+                    if i < 0 or i == B0:
+                        a, i = a + way, i - way * B0
+                    if j < 0 or j == B1:
+                        b, j = b + way, j - way * B1
+                    own = any_row(slots, a, b, r, i * B1 + j, bits, kind)
+                    other = any_row(slots, a, b, r + way, i * B1 + j, bits, kind)
+                    if way > 0:
+                        found &= own & (own >> 1 | (other & 1) << (B2 - 1))
+                    else:
+                        found |= own | own << 1 | other >> (B2 - 1)
+            out[s, row] = np.uint16(found & FULL)
+
+
+@njit(cache=True)
+def erase(values, where, bits, blocks, starts, names, marked, void):  # pragma: no cover
+    """Make the cells of marked bodies void."""
+    for s in range(len(where)):
+        for row in range(ROWS):
+            left = np.int64(bits[s, row])
+            while left:
+                k = lowest(left)
+                left &= left - 1
+                if marked[names[run_at(bits, blocks, starts, s, row, k)]]:
+                    x, y = where[s, 0] * B0 + row // B1 - 1, where[s, 1] * B1 + row % B1 - 1
+                    values[x, y, where[s, 2] * B2 + k - 1] = void

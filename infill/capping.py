@@ -12,6 +12,8 @@ from infill.scanlines import Crossings
 SAMPLES = 9  # crossings of a body that are looked at to learn what it lies in
 FLAT = 1e-9  # a body of less than this share of its longest side cubed has no volume
 
+WELD = 0.01  # of a cell: corners of open edges that are nearer to one another are one
+
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
@@ -63,6 +65,21 @@ def agreeing(faces: Integers) -> Integers:
     return np.where(over[:, None], faces[:, ::-1], faces)
 
 
+def welded(vertices: Floats, faces: Integers) -> Integers:
+    """Return the faces with corners that lie on open edges, nearer than `WELD`, made one: cracks are closed."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import KDTree
+
+    border = np.unique(open_edges(faces))
+    pairs = KDTree(vertices[border]).query_pairs(WELD, output_type="ndarray")
+    graph = coo_array((np.ones(len(pairs), dtype=np.int8), tuple(pairs.T)), shape=(len(border),) * 2)
+    _, label = connected_components(graph, directed=False)
+    number = np.arange(len(vertices))
+    number[border] = border[np.unique(label, return_index=True)[1]][label]
+    return number[faces]
+
+
 def loops(edges: Integers) -> list[list[int]]:
     """Return directed edges as loops that visit no vertex twice; every vertex must have as many in as out.
 
@@ -95,6 +112,7 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     Parameters
     ----------
     vertices : (V, 3) float64
+        In cells.
     faces : (F, 3) int
 
     Returns
@@ -106,13 +124,13 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
 
     Notes
     -----
-    Faces that disagree with their neighbours about the side are turned over first: see `agreeing`. A cap
-    is a fan from the middle of the hole's edge. Where a triangle stands twice, its three edges are a
-    "hole" whose cap undoes it.
+    Cracks are closed and faces that disagree with their neighbours about the side turned over first: see
+    `welded` and `agreeing`. A cap is a fan from the middle of the hole's edge. Where a triangle stands
+    twice, its three edges are a "hole" whose cap undoes it.
     """
     if len(open_edges(faces)) == 0:
         return vertices, faces, 0
-    faces = agreeing(faces)
+    faces = agreeing(welded(vertices, faces))
     found = loops(open_edges(faces))
     apexes: list[Floats] = []
     caps = []

@@ -97,12 +97,12 @@ def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
     return mesh if isinstance(mesh, Surface) else Surface(vertices=vertices, faces=faces)
 
 
-def writer(path: Path, *, ascii: bool = False) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002
-    """Return the function that writes the format of `path`, or raise FormatError."""
+def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002
+    """Return the function that writes the format of `path`, or raise FormatError, which names `more` suffixes too."""
     suffix = path.suffix.lower()
     if suffix not in WRITERS:
         given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
-        raise FormatError(f"cannot tell a mesh format from {given}; use one of {', '.join(WRITERS)}")
+        raise FormatError(f"cannot tell a mesh format from {given}; use one of {', '.join((*WRITERS, *more))}")
     if ascii and suffix != ".stl":
         raise FormatError(f"only .stl can be written as text by choice, not {suffix}; leave ascii out")
     return write_stl_ascii if ascii else WRITERS[suffix]
@@ -110,7 +110,8 @@ def writer(path: Path, *, ascii: bool = False) -> Callable[[Surface, BinaryIO], 
 
 def write_stl(surface: Surface, file: BinaryIO) -> None:
     """Write binary STL: 50 bytes a triangle, 32-bit coordinates."""
-    file.write(f"phasefill {__version__} UNITS=mm".encode().ljust(80))
+    space = f" SPACE={surface.space}" if surface.space else ""  # as 3D Slicer writes and reads it
+    file.write(f"phasefill {__version__} UNITS=mm{space}".encode().ljust(80))
     file.write(np.uint32(len(surface.faces)).astype("<u4").tobytes())
     for corners in _corners(surface):
         record = np.zeros(len(corners), dtype=STL_RECORD)

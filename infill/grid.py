@@ -21,7 +21,9 @@ def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[flo
     >>> spacing_of(0.5, 2)
     (0.5, 0.5)
     """
-    sizes = tuple(spacing) if np.ndim(spacing) else (spacing,) * dimensions  # type: ignore[arg-type]
+    sizes = tuple(spacing) if np.ndim(spacing) else (spacing,)  # type: ignore[arg-type]
+    if len(sizes) == 1:
+        sizes = sizes * dimensions  # type: ignore[assignment]
     if len(sizes) != dimensions:
         raise ParameterError(f"spacing has {len(sizes)} numbers for {dimensions} axes; give one, or one per axis")
     return tuple(positive("spacing", size, "mm") for size in sizes)  # type: ignore[arg-type]

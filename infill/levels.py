@@ -63,6 +63,14 @@ def volume_of(found: Level, threads: int) -> tuple[float, float]:
     return sum(part[0] for part in parts) / 6, sum(part[1] for part in parts) / 6
 
 
+def volumes_of(
+    field: SparseField, data: Bodies, *, spacing: tuple[float, ...], threads: int | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the volume of each body of the data at level 0, mm³, and its slope over the level."""
+    found = extract_level(field, spacing=spacing, threads=threads)
+    return _per_body(shells(found.surface, found.rate), found.surface, field, data, spacing)
+
+
 def at_level(
     field: SparseField, data: Bodies, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> Levelled:
@@ -144,10 +152,7 @@ def _each_body(
         shifted = _lowered(field, data, levels, common, threads)
         found = extract_level(shifted, spacing=spacing, threads=threads)
         parts = shells(found.surface, found.rate)
-        body = _body_of(parts, found.surface, shifted, data, spacing)
-        known = body >= 0
-        volume = np.bincount(body[known], weights=parts.volume[known], minlength=data.count)
-        slope = np.bincount(body[known], weights=parts.slope[known], minlength=data.count)
+        volume, slope = _per_body(parts, found.surface, shifted, data, spacing)
         best = Levelled(field=shifted, surface=found.surface, shells=parts, common=common, levels=levels)
         off = own & (np.abs(volume - targets) > BODY_TOLERANCE * targets)
         if not off.any():
@@ -179,6 +184,19 @@ def _lowered(field: SparseField, data: Bodies, levels: NDArray[np.float64], comm
         out.reshape(-1, CELLS), threads=threads,
     )  # fmt: skip
     return replace(field, values=out)
+
+
+def _per_body(
+    parts: Shells, surface: Surface, field: SparseField, data: Bodies, spacing: tuple[float, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return volume and slope of each body, its cavities taken off."""
+    body = _body_of(parts, surface, field, data, spacing)
+    known = body >= 0
+    volume, slope = (
+        np.bincount(body[known], weights=each[known], minlength=data.count).astype(np.float64)
+        for each in (parts.volume, parts.slope)
+    )
+    return volume, slope
 
 
 def _body_of(

@@ -25,7 +25,7 @@ NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000  # the spacing is this quantile o
 WIDENING = (0.5, 0.7, 1.0, 1.4, 2.0, 2.8)  # half widths of the shell that are tried, in spacings
 RIDGE = 0.2  # cells: about eight times what balls apart leave between them
 REACH = 0.5  # cells: over gaps that the balls leave between them, for they are one cell or more apart
-BACKED, ENOUGH = 0.5, 0.9  # share of points with an inside behind them: fewer, and the shell leaks
+BACKED, ENOUGH = 0.3, 0.9  # share of points with an inside behind them: fewer, and the shell leaks
 SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 7, 400  # per cell and per point, measured peaks
 
 Floats = NDArray[np.float64]
@@ -77,7 +77,7 @@ def voxelise_points(
     spread ones, make it thinner.
 
     >>> voxelise_points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], voxel=1, shell=3).values.shape
-    (11, 11, 11)
+    (12, 12, 12)
     """
     positions, size = _checked(points), length("voxel", voxel)
     margin = whole("margin", margin, 0)
@@ -185,8 +185,6 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None) -> Vo
         )
     _require(_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
     distinct = np.unique(positions, axis=0)
-    if len(distinct) < FEWEST:
-        raise ParameterError(f"only {len(distinct)} of the points are different; give at least {FEWEST}")
     tree = KDTree(distinct)
     sample = distinct[:: max(1, len(distinct) // SAMPLED)]
     spacing = tree.query(sample, k=[min(NEIGHBOUR + 1, len(distinct))])[0]

@@ -1,9 +1,11 @@
-"""The four stages of `make` side by side: points, stamps, smoothed field with its contour, mesh."""
+"""A picture of a result: the four stages of `make`, or what `smooth` was given and what it made, side by side."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +16,7 @@ from infill.grid import VOID, Grid
 from infill.output import whole_file
 from infill.pipeline import Result
 from infill.render import render
+from infill.surface import Surface
 
 PANEL = 420  # pixels
 MARGIN, CAPTION = 14, 34
@@ -39,33 +42,63 @@ def save_preview(result: Result, path: str | os.PathLike[str]) -> Path:
     """Write `preview` as a PNG file."""
     target = check_preview(path)
     with whole_file(target) as file:
-        preview(result).save(file, format="PNG")
+        write_preview(result, file)
     return target
 
 
+def write_preview(result: Result, file: BinaryIO) -> None:
+    """Write `preview` as PNG."""
+    preview(result).save(file, format="PNG")
+
+
 def preview(result: Result) -> Image.Image:
-    """Return the four stages of a `make` result as one picture."""
+    """Return the stages of a result as one picture: points, stamp, field and mesh, or voxels and mesh."""
+    return _before_and_after(result) if "field" in result.fields else _four_stages(result)
+
+
+def _before_and_after(result: Result) -> Image.Image:
+    """Return the voxels and the smoothed surface, at the same scale and from the same side."""
+    from infill.smoother import staircase
+
+    report = result.report
+    panels = {
+        f"data: {' x '.join(map(str, report['grid']))} voxels": _mesh(staircase(result)),
+        f"smoothed: {report['steps']} steps, {report['triangles']:,} triangles": _mesh(result.surface),
+    }
+    size = " x ".join(f"{length:.4g}" for length in report["extents"])
+    facts = f"{size} mm, volume {report['volume']:.6g} cubic mm ({report['volume_change']:+.4%})"
+    return _sheet(panels, facts)
+
+
+def _mesh(surface: Surface) -> Image.Image:
+    return Image.fromarray(render(surface, width=PANEL, height=PANEL, background=BACKGROUND))
+
+
+def _four_stages(result: Result) -> Image.Image:
     report, fields = result.report, result.fields
     width = report["wall_width"]
     panels = {
         f"points: {len(fields['points']):,}": _points(fields["points"], fields["grid"]),
         f"stamp: {' x '.join(map(str, report['grid']))} cells": _field(fields["stamp"]),
         f"smoothed: {report['steps']} steps": _contoured(fields["smoothed"]),
-        f"mesh: {report['triangles']:,} triangles": Image.fromarray(
-            render(result.surface, width=PANEL, height=PANEL, background=BACKGROUND)
-        ),
+        f"mesh: {report['triangles']:,} triangles": _mesh(result.surface),
     }
+    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
+    mean = "not measured" if width["mean"] is None else f"{width['mean']:.3f} ({width['p5']:.3f} to {width['p95']:.3f})"
+    facts = (
+        f"{report['pattern']}, {size} mm, density {report['density']:.1%}, walls {mean} of {report['line_width']:g} mm"
+    )
+    return _sheet(panels, facts)
+
+
+def _sheet(panels: Mapping[str, Image.Image], facts: str) -> Image.Image:
+    """Return panels side by side, each with its caption, and a line below."""
     sheet = Image.new("RGB", (len(panels) * (PANEL + MARGIN) + MARGIN, PANEL + 2 * CAPTION + MARGIN), BACKGROUND)
     draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(16)
     for i, (caption, panel) in enumerate(panels.items()):
         left = MARGIN + i * (PANEL + MARGIN)
         draw.text((left, 10), caption, fill=INK, font=font)
         sheet.paste(panel, (left + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
-    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
-    mean = "not measured" if width["mean"] is None else f"{width['mean']:.3f} ({width['p5']:.3f} to {width['p95']:.3f})"
-    facts = (
-        f"{report['pattern']}, {size} mm, density {report['density']:.1%}, walls {mean} of {report['line_width']:g} mm"
-    )
     draw.text((MARGIN, CAPTION + PANEL + 10), facts, fill=INK, font=font)
     return sheet
 

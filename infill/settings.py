@@ -235,3 +235,19 @@ def _toml(value: object) -> str:
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
     return repr(value)
+
+
+def parse_numbers(name: str, text: str, counts: tuple[int, ...]) -> tuple[float, ...]:
+    """Return the numbers in a text such as "0.9,0.9,1.5", or raise ParameterError if there are not as many.
+
+    >>> parse_numbers("range", "200, 900", (2,))
+    (200.0, 900.0)
+    """
+    try:
+        numbers = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        numbers = ()
+    if len(numbers) not in counts or not all(math.isfinite(number) for number in numbers):
+        wanted = " or ".join(map(str, counts))
+        raise ParameterError(f"{name} is {text!r}; give {wanted} number(s), with commas between")
+    return numbers

@@ -35,7 +35,7 @@ class Cubes:
     triangles : (256, 5, 3) int8
         Edges at the corners of each triangle, as `EDGES` numbers them.
     counts : (256,) int8
-        How many triangles; -1 where the signs do not decide.
+        How many triangles; `UNDECIDED` where the signs do not tell.
     """
 
     triangles: NDArray[np.int8]
@@ -165,7 +165,7 @@ def cube_table() -> Cubes:
                 elif leaving:
                     follows[leaving[0]] = entering[0]
         if not decided:
-            counts[signs] = -1
+            counts[signs] = kernels.UNDECIDED
             continue
         found: list[tuple[int, int, int]] = []
         while follows:
@@ -177,6 +177,33 @@ def cube_table() -> Cubes:
         counts[signs] = len(found)
         triangles[signs, : len(found)] = found or 0
     return Cubes(triangles=triangles, counts=counts)
+
+
+@cache
+def raw_counts() -> NDArray[np.int8]:
+    """Return for the signs of every cube of +-1 data its triangles, less two for each vertex inside of it."""
+    counts = cube_table().counts.copy()
+    unsure = np.flatnonzero(counts == kernels.UNDECIDED)
+    corners = np.where(unsure[:, None] >> np.arange(CORNERS) & 1, np.float32(TIE), np.float32(-1)).astype(np.float32)
+    edges = np.tile(np.arange(len(EDGES), dtype=np.int32), (len(unsure), 1))
+    for n in range(len(unsure)):
+        inner, faces = _undecided(corners[n : n + 1], edges[n : n + 1], np.zeros((1, 3), dtype=np.int32), 0)
+        counts[unsure[n]] = len(faces) - 2 * len(inner)
+    return counts
+
+
+def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
+    """Return the Euler number of the surface that the blocks would have if the cells `bits` were +1, all others -1."""
+    places = _crossed(field.slots, field.shape)
+    masks = np.empty((len(places), BLOCK[0] * BLOCK[1], 3), dtype=np.uint16)
+    starts = np.empty((len(places), BLOCK[0] * BLOCK[1]), dtype=np.int16)
+    counts = np.zeros((len(places), 3), dtype=np.int64)
+    in_threads(
+        kernels.count, field.slots, places, bits, field.shape, raw_counts(), masks, starts, counts,
+        threads=thread_count(threads),
+    )  # fmt: skip
+    vertices, faces, _ = counts.sum(axis=0)
+    return int(vertices - faces // 2)
 
 
 # Two corners across the whole cube, solid in void or void in solid: joined by a tube or not.

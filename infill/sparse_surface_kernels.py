@@ -11,6 +11,7 @@ from numba import njit
 from infill.sparse_kernels import B0, B1, B2, SOLID_BLOCK
 
 ROWS = B0 * B1
+UNDECIDED = -128  # in a table of triangles: the signs do not tell
 FULL = (1 << B2) - 1
 
 
@@ -126,7 +127,7 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
                 for k in range(B2):
                     if (cubes >> np.uint32(k)) & np.uint32(1):
                         many = triangles[signs_of(a, b, c, d, k)]
-                        if many < 0:
+                        if many == UNDECIDED:
                             undecided += 1
                         else:
                             faces += many
@@ -238,7 +239,7 @@ def write(
                     if not (cubes >> np.uint32(k)) & np.uint32(1):
                         continue
                     signs = signs_of(a, b, c, d, k)
-                    if many[signs] >= 0:
+                    if many[signs] != UNDECIDED:
                         for t in range(many[signs]):
                             for corner in range(3):
                                 axis, at = edges[triangles[signs, t, corner]]

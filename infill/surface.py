@@ -34,10 +34,13 @@ class Surface:
     ----------
     vertices : (V, 3) float, mm
     faces : (F, 3) int, counter-clockwise seen from outside
+    space : str
+        Name of the axes, if they have one: "LPS" for medical images.
     """
 
     vertices: NDArray[np.floating]
     faces: NDArray[np.integer]
+    space: str = ""
 
     @cached_property
     def closed(self) -> bool:

@@ -18,7 +18,7 @@ from infill.volume import Volume
 
 RESOLUTION = 200  # cells along the longest side if nothing is said
 ROUNDING = 1e-6  # of a cell: what a side may be longer than whole cells without a cell more
-CROSSING_BYTES, FACE_BYTES = 60, 400  # measured peaks, sorting included
+CROSSING_BYTES, FACE_BYTES = 60, 420  # measured peaks, sorting included
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,10 +87,11 @@ def voxelise(
     inverted mesh is what it would be the right way out, and a body that faces inwards within another is
     a cavity. Bodies that face inwards on their own are turned first, and what lies in them with them.
 
-    Holes are closed by fans from the middle of their edge before anything is counted, so that w is a whole
-    number everywhere. For flat holes in a mesh that faces one way the result is that of the generalised
-    winding number (Jacobson et al. 2013, "Robust inside-outside segmentation using generalized winding
-    numbers", doi:10.1145/2461912.2461916) cut at 1/2, at the cost of one ray per row of cells.
+    Corners of open edges less than a hundredth of a cell apart are one. Holes are closed by fans from the
+    middle of their edge before anything is counted, so that w is a whole number everywhere. For flat holes
+    in a mesh that faces one way the result is that of the generalised winding number (Jacobson et al. 2013,
+    "Robust inside-outside segmentation using generalized winding numbers", doi:10.1145/2461912.2461916) cut
+    at 1/2, at the cost of one ray per row of cells.
 
     A wall thinner than a cell is found where a cell centre happens to lie in it.
 

@@ -13,6 +13,7 @@ from infill import __version__
 from infill.cli.checking import check
 from infill.cli.listing import list_patterns
 from infill.cli.making import make_command
+from infill.cli.smoothing import smooth
 from patterns import PATTERNS
 
 
@@ -36,6 +37,9 @@ def build(*, plugins: bool = True) -> typer.Typer:
 
     app.command("make", no_args_is_help=True, epilog="Example: infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf")(
         make_command(list(PATTERNS.values()) if plugins else list(PATTERNS.built_in.values()))
+    )
+    app.command("smooth", no_args_is_help=True, epilog="Example: infill smooth scan.nrrd --threshold 226 -o bone.stl")(
+        smooth
     )
     app.command("list", epilog="Example: infill list --json")(list_patterns)
     app.command("check", no_args_is_help=True, epilog="Example: infill check part.stl --json")(check)

@@ -5,8 +5,9 @@ from __future__ import annotations
 import inspect
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, BinaryIO
 
 import typer
 
@@ -141,7 +142,7 @@ def make(
     for path in outputs:
         writer(path, ascii=ascii_stl)
     if preview is not None:
-        from infill.preview import check_preview
+        from infill.preview import check_preview, write_preview
 
         check_preview(preview)
     check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)
@@ -156,9 +157,14 @@ def make(
             settings.plan()  # what is saved shall be right
         if progress is not None:
             progress("write", 0.8)
-        written = deliver(
-            result, meshes=outputs, picture=preview, settings=settings, settings_file=save_config, ascii=ascii_stl
-        )
+        parts: dict[Path, Callable[[BinaryIO], object]] = {}
+        if result is not None:
+            parts |= {path: partial(writer(path, ascii=ascii_stl), result.surface) for path in outputs}
+            if preview is not None:
+                parts[preview] = partial(write_preview, result)
+        if save_config is not None:
+            parts[save_config] = lambda file: file.write(settings.to_toml().encode())
+        written = deliver(parts)
     files = [str(path) for path in written]
     if not quiet:
         say(f"wrote {', '.join(files)}" if result is None else _summary(result.report, files, verbose=verbose))

@@ -1,0 +1,233 @@
+"""``infill smooth``: a scan, a mesh or points in, a smooth closed mesh out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+
+import typer
+
+from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+
+if TYPE_CHECKING:
+    from infill.pipeline import Result
+
+GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
+
+
+@reports_errors
+def smooth(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            metavar="INPUT",
+            help="Mesh (.stl .3mf .obj .ply .off .glb), volume (.npy .npz .tif .nrrd .nii .mha, a folder of DICOM or "
+            "slices) or points (.xyz .csv .txt .npy .ply).",
+        ),
+    ],
+    output: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "-o",
+            "--output",
+            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; or the field: .npz .nrrd. May be given again.",
+            rich_help_panel=FILES,
+        ),
+    ] = None,
+    preview: Annotated[
+        Path | None, typer.Option(help="Picture of before and after to write: FILE.png.", rich_help_panel=FILES)
+    ] = None,
+    ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
+    kind: Annotated[
+        str | None,
+        typer.Option(
+            "--as", help="Take INPUT for: mesh, points or volume. (default: told by the file)", rich_help_panel=FILES
+        ),
+    ] = None,
+    units: Annotated[
+        str | None,
+        typer.Option(help="Unit of a mesh or of points: um, mm, cm, m, in. (default: mm)", rich_help_panel=FILES),
+    ] = None,
+    array: Annotated[
+        str | None, typer.Option(help="Name of the array, if a .npz holds several.", rich_help_panel=FILES)
+    ] = None,
+    series: Annotated[
+        str | None, typer.Option(help="UID of the series, if a DICOM folder holds several.", rich_help_panel=FILES)
+    ] = None,
+    resolution: Annotated[
+        int | None,
+        typer.Option(help="Voxels along the longest side of a mesh or of points. (default: 200)", rich_help_panel=GRID),
+    ] = None,
+    voxel: Annotated[float | None, typer.Option(help="Voxel size instead, mm.", rich_help_panel=GRID)] = None,
+    spacing: Annotated[
+        str | None,
+        typer.Option(
+            help="Voxel size of a volume, mm: 0.9,0.9,1.5, or 1. (default: as in the file)", rich_help_panel=GRID
+        ),
+    ] = None,
+    shell: Annotated[
+        float | None,
+        typer.Option(
+            help="Points: a wall of this width along them, mm, instead of the solid inside.", rich_help_panel=SOLID
+        ),
+    ] = None,
+    threshold: Annotated[
+        float | None, typer.Option(help="Solid is what has at least this value.", rich_help_panel=SOLID)
+    ] = None,
+    between: Annotated[
+        str | None, typer.Option("--range", help="Solid is what lies between: LOW,HIGH.", rich_help_panel=SOLID)
+    ] = None,
+    label: Annotated[
+        list[int] | None, typer.Option(help="Solid is what has this label. May be given again.", rich_help_panel=SOLID)
+    ] = None,
+    otsu: Annotated[
+        bool, typer.Option("--otsu", help="Find the threshold by Otsu's method.", rich_help_panel=SOLID)
+    ] = False,
+    grey: Annotated[
+        bool, typer.Option("--grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
+    ] = False,
+    despeckle: Annotated[
+        float, typer.Option(help="Take out bodies up to this volume first, mm³.", rich_help_panel=SOLID)
+    ] = 0.0,
+    steps: Annotated[
+        int, typer.Option(help="Smoothing steps: 20 for models, 30 for medical data.", rich_help_panel=SURFACE)
+    ] = 20,
+    fidelity: Annotated[
+        float, typer.Option(help="How strongly the data hold, 0 to 1 or more.", rich_help_panel=SURFACE)
+    ] = 0.01,
+    interface: Annotated[
+        float, typer.Option(help="Voxels from the surface to phi = 0.9.", rich_help_panel=SURFACE)
+    ] = 2.0,
+    level: Annotated[
+        str,
+        typer.Option(
+            help="volume: each body keeps its volume; 0: the paper's surface, which shrinks.", rich_help_panel=SURFACE
+        ),
+    ] = "volume",
+    tolerance: Annotated[
+        float | None,
+        typer.Option(help="Simplify the mesh: move it by at most about this, mm.", rich_help_panel=SURFACE),
+    ] = None,
+    max_triangles: Annotated[
+        int | None, typer.Option(help="Simplify the mesh to so many triangles at most.", rich_help_panel=SURFACE)
+    ] = None,
+    allow_broken: Annotated[
+        bool,
+        typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN),
+    ] = False,
+    threads: Annotated[
+        int | None, typer.Option(help="Threads to use. (default: one a core)", rich_help_panel=RUN)
+    ] = None,
+    max_memory: Annotated[
+        str | None,
+        typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
+    ] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but errors.", rich_help_panel=RUN)] = False,
+    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
+) -> None:
+    """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
+    from infill.delivery import deliver
+    from infill.export import WRITERS, writer
+    from infill.fields import FIELD_WRITERS, field_writer
+    from infill.output import check_targets
+    from infill.settings import parse_bytes, parse_numbers
+
+    outputs = output or []
+    if not (outputs or preview or as_json):
+        raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
+    for path in outputs:
+        if path.suffix.lower() not in FIELD_WRITERS:
+            writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
+    if preview is not None:
+        from infill.preview import check_preview
+
+        check_preview(preview)
+    check_targets(filter(None, (*outputs, preview)), overwrite=force)
+    with progress_bar(shown=not quiet) as progress:
+        from infill.allen_cahn import Smoothing
+        from infill.compiling import told_of_compiling
+        from infill.smoother import phase_volume, smooth_source
+        from infill.sources import read_source
+
+        if progress is not None:
+            progress("read", 0.0)
+        given = read_source(
+            source, kind=kind, units=units, array=array, series=series,
+            spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
+        )  # fmt: skip
+        waiting = "compiling, the first time on this machine only: about 15 s"
+        with told_of_compiling(lambda: None if quiet else say(waiting)):
+            result = smooth_source(
+                given,
+                resolution=resolution, voxel=voxel, shell=shell, threshold=threshold,
+                between=None if between is None else parse_numbers("range", between, (2,)),
+                label=tuple(label) if label else None, otsu=otsu, grey=grey,
+                smoothing=Smoothing(steps=steps, fidelity=fidelity, interface=interface),
+                level="volume" if level == "volume" else parse_numbers("level", level, (1,))[0],
+                despeckle=despeckle, allow_broken=allow_broken, tolerance=tolerance, max_triangles=max_triangles,
+                threads=threads, max_memory=None if max_memory is None else parse_bytes(max_memory), progress=progress,
+            )  # fmt: skip
+        if progress is not None:
+            progress("write", 0.9)
+        parts: dict[Path, Callable[[BinaryIO], object]] = {}
+        for path in outputs:
+            if path.suffix.lower() in WRITERS:
+                parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
+            else:
+                parts[path] = partial(field_writer(path), phase_volume(result))
+        if preview is not None:
+            from infill.preview import write_preview
+
+            parts[preview] = partial(write_preview, result)
+        written = [str(path) for path in deliver(parts)]
+    if not quiet:
+        say(_summary(result, written, str(source), verbose=verbose))
+    if as_json:
+        print_json({**result.report, "files": written})
+
+
+def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> str:
+    """Return the short table on stderr."""
+    report: dict[str, Any] = result.report
+    now, was, level, change = report["result"], report["data"], report["level"], report["changes"]
+    size = " x ".join(f"{length:.4g}" for length in report["extents"])
+    moved = report["distance"]
+    own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its bodies" if level["bodies"] > 1 else ""
+    rows = {
+        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
+        "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+.4%} of the data, "
+        f"at level {level['common']:.3f}{own}",
+        "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, "
+        f"{' x '.join(map(str, report['grid']))} voxels of {' x '.join(f'{h:.4g}' for h in report['spacing'])} mm",
+        "bodies": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
+        f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
+        "distance": f"{moved['result']['rms']:.3g} mm rms, {moved['result']['max']:.3g} mm at most, "
+        f"from the {moved['from']}",
+    }
+    gone = change["vanished_thin"]
+    if gone:
+        rows["gone"] = f"{gone} specks or flakes one voxel thick"
+    if report["despeckled"]:
+        rows["despeckled"] = f"{report['despeckled']} bodies taken out"
+    if "simplified" in report:
+        cost = report["simplified"]
+        rows["simplified"] = (
+            f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
+            f"volume {cost['volume_change']:+.4%}"
+        )
+    if report["problems"]:
+        rows["PROBLEMS"] = "; ".join(report["problems"])
+    if verbose:
+        thin = report["thinnest_wall"]
+        rows["thinnest wall"] = " -> ".join("none" if x is None else f"{x:.3g} mm" for x in thin.values())
+        rows["Euler number"] = f"{was['euler_number']} -> {now['euler_number']}"
+        rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
+    for path in files:
+        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return table(rows, title=name)

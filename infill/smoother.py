@@ -1,0 +1,508 @@
+"""`smooth_volume`, `smooth_mesh`, `smooth_points`: from a scan, a mesh or points to a smooth closed mesh.
+
+    data  ->  solid on a grid  ->  blocks, smoothed  ->  level of the right volume  ->  closed surface
+
+and a report of what smoothing did: to the volume, to bodies, cavities and tunnels, and to the thinnest walls.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, replace
+from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from infill import __version__
+from infill.allen_cahn import Smoothing
+from infill.checks import within
+from infill.distance import distances
+from infill.errors import GeometryError, ParameterError
+from infill.export import surface_of
+from infill.grid import spacing_of
+from infill.machine import require_memory
+from infill.pipeline import Clock, Progress, Result
+from infill.points import voxelise_points
+from infill.segmentation import grey as grey_levels
+from infill.segmentation import threshold as segment
+from infill.simplification import simplified
+from infill.surface import Surface
+from infill.thickness import thinnest_walls
+from infill.volume import Volume
+from infill.voxels import voxelise_reported
+
+if TYPE_CHECKING:
+    import trimesh
+
+    from infill.bodies import Bodies
+    from infill.levels import Levelled
+    from infill.sparse import SparseField
+
+LevelMethod = Literal["volume"] | float
+FITTING = {
+    "volume": ("threshold", "range", "label", "otsu", "grey"),
+    "mesh": ("resolution", "voxel"),
+    "points": ("resolution", "voxel", "shell"),
+}
+RESOLUTION = 200  # voxels along the longest side
+MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
+WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
+BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
+COMPARED = 20_000  # vertices of which the distance is measured
+ADVICE = "use finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
+
+
+class Options(TypedDict, total=False):
+    """What the three functions take alike; see `smooth_volume`."""
+
+    smoothing: Smoothing
+    level: LevelMethod
+    despeckle: float
+    allow_broken: bool
+    tolerance: float | None
+    max_triangles: int | None
+    threads: int | None
+    max_memory: int | None
+    progress: Progress | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Counts:
+    """How a solid hangs together.
+
+    Parameters
+    ----------
+    components, cavities, tunnels : int
+        Bodies of solid, bodies of void that it encloses, and holes that lead through.
+    euler_number : int
+        2 (components + cavities - tunnels).
+    """
+
+    components: int
+    cavities: int
+    tunnels: int
+    euler_number: int
+
+
+def smooth_volume(
+    volume: ArrayLike | Volume,
+    *,
+    spacing: float | tuple[float, ...] = 1.0,
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    threshold: float | tuple[float | None, float | None] | Literal["otsu"] | None = None,
+    label: int | tuple[int, ...] | None = None,
+    grey: bool = False,
+    **options: Unpack[Options],
+) -> Result:
+    """Return the smooth surface of what is solid in a volume.
+
+    Parameters
+    ----------
+    volume : (nx, ny, nz) array or Volume
+        Booleans, a mask, a phase field in [-1, 1], labels or grey values, [x, y, z].
+    spacing : float or (hx, hy, hz)
+        Cell size, mm; of an array.
+    origin : (x, y, z)
+        Lower corner of the first cell, mm; of an array.
+    threshold : float, (low, high) or "otsu", optional
+        Solid is what has at least this value, or one in this range, or lies above the threshold by Otsu's method.
+    label : int or tuple of int, optional
+        Solid is what has this label.
+    grey : bool
+        Keep the grey levels around the threshold (2): they tell where between two cells the surface lies.
+    smoothing : Smoothing
+        20 steps if left out, as the paper takes for complex models; 30 for medical data.
+    level : "volume" or float
+        "volume" puts the surface where every body has the volume it has in the data; 0 is the paper's surface.
+    despeckle : float
+        Bodies up to this volume are taken out first, mm³.
+    allow_broken : bool
+        Return a result in which walls broke or bodies vanished, and say so in the report, instead of raising.
+    tolerance, max_triangles : float (mm) and int, optional
+        Simplify the mesh.
+    threads, max_memory : int, optional
+        Threads to work with, and bytes to use; what there is if left out.
+    progress : callable, optional
+        Called with the name of a stage and the share of the work done.
+
+    Returns
+    -------
+    Result
+        In the place of the volume in space. The report has lengths in mm.
+
+    Raises
+    ------
+    ParameterError
+        If the values do not tell what is solid, or a number is out of its range.
+    GeometryError
+        If a body or a wall more than one cell thick breaks or vanishes.
+    MemoryLimitError
+        Before anything is computed.
+
+    Notes
+    -----
+    Source: Wang et al. 2020, sections 2.2 and 3.3. The level is this package's own: see `infill.levels`.
+
+    >>> ball = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 100
+    >>> result = smooth_volume(ball)
+    >>> abs(result.mesh.volume / ball.sum() - 1) < 1e-4
+    True
+    """
+    scan = volume if isinstance(volume, Volume) else Volume(
+        values=np.asarray(volume), spacing=spacing_of(spacing, 3), origin=origin
+    )  # fmt: skip
+    low, high = threshold if isinstance(threshold, tuple) else (threshold, None)
+    otsu = isinstance(low, str)
+    if otsu and low != "otsu":
+        raise ParameterError(f"there is no threshold {low!r}; give a number, two for a range, or otsu")
+    number = None if otsu or low is None else float(low)
+    solid, used = segment(scan, low=number, high=high, label=label, otsu=otsu)
+    data: Volume = solid
+    if grey:
+        level = used.get("low")
+        if level is None or high is not None:
+            raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
+        data = grey_levels(scan, level)
+    elif used["method"] == "phase":
+        data = scan
+    return _smoothed(data, {"source": "volume", "segmentation": used, "grey": grey}, None, **options)
+
+
+def smooth_mesh(
+    mesh: trimesh.Trimesh | Surface,
+    *,
+    resolution: int | None = None,
+    voxel: float | None = None,
+    **options: Unpack[Options],
+) -> Result:
+    """Return the smooth surface of a mesh, by way of voxels.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh or Surface, mm
+        It may be open, inside out, pass through itself, or have several bodies.
+    resolution : int, optional
+        Cells along the longest side; 200 if neither this nor `voxel` is given.
+    voxel : float, optional
+        Cell size, mm.
+    **options
+        See `smooth_volume`.
+
+    >>> from infill import make
+    >>> smooth_mesh(make("honeycomb", size=20, height=3).mesh, voxel=0.2).report["result"]["components"]
+    1
+    """
+    surface = surface_of(mesh)
+    solid, repairs = voxelise_reported(
+        surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=options.get("max_memory")
+    )
+    return _smoothed(solid, {"source": "mesh", "repairs": asdict(repairs)}, surface, **options)
+
+
+def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None, **options: Unpack[Options]) -> Result:
+    """Return the smooth surface of a cloud of points.
+
+    Parameters
+    ----------
+    points : (N, 3) float, mm
+        Points on a surface.
+    voxel : float
+        Cell size, mm.
+    shell : float, optional
+        Width of the narrow volume around the points, mm (section 3.5 of the paper); the solid that the points
+        enclose if left out.
+    **options
+        See `smooth_volume`.
+    """
+    cloud = np.asarray(points, dtype=np.float64)
+    solid = voxelise_points(cloud, voxel=voxel, shell=shell, margin=MARGIN, max_memory=options.get("max_memory"))
+    return _smoothed(solid, {"source": "points", "points": len(cloud), "shell": shell}, None, **options)
+
+
+def smooth_source(
+    source: Surface | Volume | NDArray[np.float64],
+    *,
+    resolution: int | None = None,
+    voxel: float | None = None,
+    shell: float | None = None,
+    threshold: float | None = None,
+    between: tuple[float, ...] | None = None,
+    label: tuple[int, ...] | None = None,
+    otsu: bool = False,
+    grey: bool = False,
+    **options: Unpack[Options],
+) -> Result:
+    """Smooth what `infill.sources.read_source` returned; raise ParameterError for what does not fit its kind."""
+    kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
+    given = {
+        "resolution": resolution is not None, "voxel": voxel is not None, "shell": shell is not None,
+        "threshold": threshold is not None, "range": between is not None, "label": label is not None,
+        "otsu": otsu, "grey": grey,
+    }  # fmt: skip
+    wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
+    if wrong:
+        raise ParameterError(f"{wrong[0]} does not go with {kind}; leave it out")
+    if isinstance(source, Volume):
+        ways = [name for name in ("threshold", "range", "otsu") if given[name]]
+        if len(ways) > 1:
+            raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
+        chosen: Any = "otsu" if otsu else between if between is not None else threshold
+        return smooth_volume(source, threshold=chosen, label=label, grey=grey, **options)
+    if isinstance(source, Surface):
+        return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
+    if voxel is None:
+        voxel = float(np.ptp(source, axis=0).max()) / (RESOLUTION if resolution is None else resolution)
+    elif resolution is not None:
+        raise ParameterError("both voxel and resolution are given; give one of them")
+    return smooth_points(source, voxel=voxel, shell=shell, **options)
+
+
+def _smoothed(
+    data: Volume,
+    source: dict[str, Any],
+    reference: Surface | None,
+    *,
+    smoothing: Smoothing = Smoothing(steps=20),  # noqa: B008 - frozen
+    level: LevelMethod = "volume",
+    despeckle: float = 0.0,
+    allow_broken: bool = False,
+    tolerance: float | None = None,
+    max_triangles: int | None = None,
+    threads: int | None = None,
+    max_memory: int | None = None,
+    progress: Progress | None = None,
+) -> Result:
+    """Do what the three functions have in common."""
+    from infill.bodies import bodies, data_bits
+    from infill.levels import at_level, at_volume
+    from infill.sparse import smooth_blocks
+
+    if isinstance(level, str) and level != "volume":
+        raise ParameterError(f"there is no level {level!r}; give volume, or a number between -1 and 1")
+    clock = Clock(progress)
+    size: tuple[float, ...] = tuple(float(x) for x in data.cell_size)
+    values, specks = data.values, 0
+    with clock.stage("smooth", 0.05):
+        _require(data, max_memory)
+        if despeckle:
+            values, specks = _despeckled(data, within("despeckle", despeckle, 0, math.inf, "mm³"), threads)
+
+        def report_step(share: float) -> None:
+            if progress is not None:
+                progress("smooth", 0.05 + 0.3 * share)
+
+        field = smooth_blocks(values, smoothing, spacing=size, threads=threads, progress=report_step)
+    with clock.stage("surface", 0.4):
+        before = bodies(field, data_bits(field, threads=threads))
+        targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
+        if field.data.dtype != np.int8:
+            targets = _grey_volumes(field, before, size, threads)
+        if level == "volume":
+            found = at_volume(field, before, spacing=size, targets=targets, threads=threads)
+        else:
+            height = within("level", float(level), -0.999, 0.999)
+            found = at_level(field, before, spacing=size, level=height, threads=threads)
+        if not found.surface.closed:
+            raise GeometryError(f"the surface is not closed; {ADVICE}")
+    with clock.stage("check", 0.6):
+        report = _checked(found, before, targets, level, size, threads)
+        if report["problems"] and not allow_broken:
+            raise GeometryError(f"{'; '.join(report['problems'])}; {ADVICE}")
+    with clock.stage("measure", 0.75):
+        surface = _placed(found.surface, data)
+        report["distance"] = _moved(surface, field, data, reference, threads)
+        full = surface
+        if tolerance is not None or max_triangles is not None:
+            surface = replace(simplified(full, tolerance=tolerance, triangles=max_triangles), space=data.space)
+            report["simplified"] = {
+                "triangles_before": len(full.faces),
+                "volume_change": surface.volume / full.volume - 1,
+                "distance": _summary(distances(_some(full.vertices), surface)),
+            }
+    bounds = surface.bounds
+    report = {
+        "version": __version__, **source, "grid": list(data.values.shape), "spacing": list(size),
+        "space": data.space, "steps": smoothing.steps, "fidelity": smoothing.fidelity,
+        "interface": smoothing.interface, "alpha": smoothing.alpha, "despeckled": specks,
+        "triangles": len(surface.faces), "closed": surface.closed, "volume": surface.volume, "area": surface.area,
+        "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,
+    }  # fmt: skip
+    report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
+    return Result(surface=surface, report=report, fields={"field": found.field, "data": replace(data, values=values)})
+
+
+def _require(data: Volume, limit: int | None) -> None:
+    """Raise MemoryLimitError if the surface of the data will not fit into memory: guessed from a few layers."""
+    values: NDArray[Any] = data.values
+    steps = max(1, values.shape[0] // 16)
+    layers = values[::steps] > 0
+    crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * 1.5
+    require_memory(
+        int(crossings * BYTES_PER_SURFACE_CELL), limit, "use larger voxels, a part of the volume, or despeckle it"
+    )
+
+
+def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
+    """Return the data without bodies up to a volume, mm³, and how many those were."""
+    from infill.bodies import bodies, data_bits, without
+    from infill.sparse import smooth_blocks
+
+    field = smooth_blocks(data.values, Smoothing(steps=0), threads=threads)
+    every = bodies(field, data_bits(field, threads=threads))
+    small = every.cells * data.cell_volume <= largest
+    if small.all():
+        raise ParameterError(
+            f"despeckle is {largest:g} mm³ and the largest body has {every.cells.max() * data.cell_volume:g} mm³; "
+            "give less"
+        )
+    return (without(data.values, field, every, small), int(small.sum())) if small.any() else (data.values, 0)
+
+
+def _grey_volumes(
+    field: SparseField, data: Bodies, size: tuple[float, ...], threads: int | None
+) -> NDArray[np.float64]:
+    """Return the volume of each body of grey data as its surface at level 0 encloses it, mm³."""
+    from infill.levels import volumes_of
+
+    volume, _ = volumes_of(replace(field, values=_as_float(field)), data, spacing=size, threads=threads)
+    return np.where(volume > 0, volume, data.cells * math.prod(size))
+
+
+def _checked(
+    found: Levelled,
+    before: Bodies,
+    targets: NDArray[np.float64],
+    level: LevelMethod,
+    size: tuple[float, ...],
+    threads: int | None,
+) -> dict[str, Any]:
+    """Return what smoothing did, with the problems in plain words."""
+    from infill.bodies import bodies, cores, data_bits, fate, opened, solid_bits
+    from infill.sparse_surface import euler_number_of_bits
+
+    field, total = found.field, float(targets.sum())
+    raw, now = data_bits(field, threads=threads), solid_bits(field, threads=threads)
+    core = cores(field, raw, threads=threads)
+    thick = opened(field, core, threads=threads)
+    after = bodies(field, now)
+    voids, voids_after = bodies(field, raw, void=True), bodies(field, now, void=True)
+    of_bodies, of_cores = fate(before, after), fate(bodies(field, core), after)
+    of_voids = fate(bodies(field, thick, void=True), voids_after)
+    shells = found.shells
+    euler = euler_number_of_bits(field, raw, threads=threads)
+    was = Counts(
+        components=before.count, cavities=voids.count - 1, euler_number=euler,
+        tunnels=before.count + voids.count - 1 - euler // 2,
+    )  # fmt: skip
+    held = Counts(
+        components=shells.components, cavities=shells.cavities, tunnels=shells.tunnels,
+        euler_number=int(shells.euler.sum()),
+    )  # fmt: skip
+    sturdy = bodies(field, thick)
+    tunnels_allowed = max(
+        was.tunnels,
+        sturdy.count + bodies(field, thick, void=True).count - 1
+        - euler_number_of_bits(field, thick, threads=threads) // 2,
+    )  # fmt: skip
+    changes = {
+        "vanished": int(before.thick[of_bodies.vanished].sum()),
+        "vanished_thin": int((~before.thick[of_bodies.vanished]).sum()),
+        "broken": int((bodies(field, core).cells[of_cores.broken] >= WALL).sum()),
+        "walls_lost": int((bodies(field, core).cells[of_cores.vanished] >= WALL).sum()),
+        "walls_pierced": max(0, held.tunnels - tunnels_allowed),
+        "voids_joined": len(of_voids.joined),
+        "fused": len(of_bodies.joined),
+        "appeared": len(of_bodies.appeared),
+    }
+    wall_before, wall_after = thinnest_walls(field, found.surface, size)
+    volume = float(shells.volume.sum())
+    return {
+        "level": {
+            "method": "volume" if level == "volume" else "fixed",
+            "common": found.common,
+            "lowest": float(found.levels.min()),
+            "highest": float(found.levels.max()),
+            "bodies": len(found.levels),
+        },
+        "data_volume": total,
+        "volume_change": volume / total - 1,
+        "data": asdict(was),
+        "result": asdict(held),
+        "changes": changes,
+        "thinnest_wall": {"data": wall_before, "result": wall_after},
+        "problems": list(_problems(changes)),
+    }
+
+
+def _problems(changes: dict[str, int]) -> Iterator[str]:
+    """Say, one phrase each, what was lost that was more than one cell thick."""
+    for name, what in (
+        ("vanished", "bodies vanished"),
+        ("broken", "bodies fell apart"),
+        ("walls_lost", "walls vanished"),
+        ("walls_pierced", "holes broke through walls"),
+        ("voids_joined", "walls between voids broke"),
+    ):
+        if changes[name]:
+            yield f"{changes[name]} {what} in smoothing"
+
+
+def _placed(surface: Surface, data: Volume) -> Surface:
+    """Return the surface where the volume lies in space."""
+    faces = surface.faces[:, ::-1] if data.mirrored else surface.faces
+    return Surface(vertices=data.place(surface.vertices), faces=faces, space=data.space)
+
+
+def staircase(result: Result) -> Surface:
+    """Return the surface of the data that a result was smoothed from, in the same place."""
+    return _raw(result.fields["field"], result.fields["data"], None)
+
+
+def phase_volume(result: Result) -> Volume:
+    """Return the smoothed field as a whole, less its level, so that the surface lies at 0: float32, [x, y, z]."""
+    data, field = result.fields["data"], result.fields["field"]
+    cells = math.prod(field.shape)
+    require_memory(4 * cells, None, "write a mesh instead of the field, or use larger voxels")
+    whole: Volume = replace(data, values=field.to_dense())
+    return whole
+
+
+def _raw(field: SparseField, data: Volume, threads: int | None) -> Surface:
+    from infill.sparse_surface import extract_blocks
+
+    raw = extract_blocks(replace(field, values=_as_float(field)), spacing=tuple(data.cell_size), threads=threads)
+    return _placed(raw, data)
+
+
+def _moved(
+    surface: Surface, field: SparseField, data: Volume, reference: Surface | None, threads: int | None
+) -> dict[str, Any]:
+    """Return how far the voxels and the result lie from the mesh they were made from, or from one another, mm."""
+    raw = _raw(field, data, threads)
+    if reference is None:
+        return {"from": "voxels", "result": _summary(distances(_some(surface.vertices), raw))}
+    return {
+        "from": "mesh",
+        "data": _summary(distances(_some(raw.vertices), reference)),
+        "result": _summary(distances(_some(surface.vertices), reference)),
+    }
+
+
+def _as_float(field: SparseField) -> NDArray[np.float32]:
+    values: NDArray[np.float32] = field.data.astype(np.float32)
+    return values
+
+
+def _some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
+    """Return so many of the vertices as are compared, spread evenly over them."""
+    return vertices[:: max(1, len(vertices) // COMPARED)]
+
+
+def _summary(distance: NDArray[np.float64]) -> dict[str, float]:
+    return {
+        "mean": float(distance.mean()),
+        "rms": float(np.sqrt((distance**2).mean())),
+        "max": float(distance.max()),
+    }

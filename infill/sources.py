@@ -1,0 +1,125 @@
+"""What `infill smooth` can be given: a mesh, points or a volume, told apart by the file."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError, ParameterError
+from infill.grid import spacing_of
+from infill.point_files import read_points
+from infill.reading import READERS, read_mesh
+from infill.scans import read_volume
+from infill.surface import Surface
+from infill.volume import Volume
+
+Kind = Literal["mesh", "points", "volume"]
+Source = Surface | Volume | NDArray[np.float64]
+
+UNITS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
+POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
+LIKE_METRES = 2.0  # what is smaller than this many units may well be meant in metres
+KINDS = ("mesh", "points", "volume")
+
+
+def read_source(
+    path: str | os.PathLike[str],
+    *,
+    kind: str | None = None,
+    units: str | None = None,
+    spacing: float | tuple[float, ...] | None = None,
+    array: str | None = None,
+    series: str | None = None,
+) -> Source:
+    """Return what a file or folder holds, in mm.
+
+    Parameters
+    ----------
+    path : str or Path
+    kind : {"mesh", "points", "volume"}, optional
+        What to take it for; told by the file if left out.
+    units : {"um", "mm", "cm", "m", "in"}, optional
+        Unit of the coordinates of a mesh or of points; mm if left out and the size is credible.
+    spacing : float or (hx, hy, hz), optional
+        Cell size of a volume, mm; what the file says if left out.
+    array, series : str, optional
+        See `infill.scans.read_volume`.
+
+    Raises
+    ------
+    FormatError
+        For a file that cannot be read, or whose kind cannot be told.
+    ParameterError
+        If no unit is given and the part would be smaller than 2 mm, as one in metres is; for a unit of a volume,
+        or a spacing of something else.
+    """
+    source = Path(path)
+    if kind is not None and kind not in KINDS:
+        raise ParameterError(f"there is no kind {kind!r}; choose from {', '.join(KINDS)}")
+    if units is not None and units not in UNITS:
+        raise ParameterError(f"there is no unit {units!r}; choose from {', '.join(UNITS)}")
+    found = kind or _kind_of(source)
+    if found == "volume":
+        if units is not None:
+            raise ParameterError("units are for meshes and points; give the spacing of a volume in mm")
+        volume = read_volume(source, array=array, series=series)
+        return volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
+    if spacing is not None or array is not None or series is not None:
+        raise ParameterError(f"spacing, array and series are for volumes, and {source} is taken for {found}")
+    if found == "points":
+        points = read_points(source)
+        return points * _scale(source, points, units)
+    mesh = read_mesh(source)
+    if source.suffix.lower() == ".3mf":  # which says its unit, and has been turned into mm
+        return replace(mesh, vertices=mesh.vertices * UNITS[units]) if units else mesh
+    return replace(mesh, vertices=mesh.vertices * _scale(source, mesh.vertices, units))
+
+
+def _kind_of(path: Path) -> Kind:
+    """Return what a file holds, by its suffix, and where that does not tell by its contents."""
+    suffix = path.suffix.lower()
+    if path.is_dir():
+        return "volume"
+    if suffix in POINT_SUFFIXES:
+        return "points"
+    if suffix == ".npy":
+        return "points" if _axes_of_npy(path) == 2 else "volume"
+    if suffix == ".ply":
+        return "mesh" if _ply_has_faces(path) else "points"
+    return "mesh" if suffix in READERS else "volume"
+
+
+def _axes_of_npy(path: Path) -> int | None:
+    """Return how many axes the array of a file has, or None if it is not one that can be read."""
+    try:
+        return np.load(path, mmap_mode="r", allow_pickle=False).ndim  # type: ignore[no-any-return]
+    except (OSError, ValueError, EOFError):
+        return None  # whoever reads it will say what is wrong
+
+
+def _ply_has_faces(path: Path) -> bool:
+    try:
+        with path.open("rb") as file:
+            head = file.read(65536).split(b"end_header")[0]
+    except OSError as error:
+        raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
+    lines = [line.split() for line in head.splitlines()]
+    return any(words[:2] == [b"element", b"face"] and words[-1] != b"0" for words in lines)
+
+
+def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float:
+    """Return mm per unit; without a unit, question what would be very small in mm."""
+    if units is not None:
+        return UNITS[units]
+    longest = float(np.ptp(points, axis=0).max())
+    if 0 < longest < LIKE_METRES:
+        raise ParameterError(
+            f"{path} is {longest:.3g} mm long if its numbers are millimetres; "
+            f"give --units m if they are metres ({longest * 1000:.3g} mm), or --units mm if it is so small"
+        )
+    return 1.0
