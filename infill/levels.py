@@ -7,12 +7,13 @@ true surface. Bodies differ, so each one gets a level of its own.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import bodies_kernels
+from infill import bodies_kernels, sparse_kernels
 from infill.bodies import Bodies, Shells, shells
 from infill.errors import GeometryError
 from infill.sparse import SparseField
@@ -22,6 +23,8 @@ from infill.sparse_surface_kernels import volume_and_slope
 from infill.surface import Surface
 from infill.threads import in_threads, thread_count
 
+STEEPEST = 0.9999  # of phi: beyond, distance is cut off
+SCALE = math.atanh(STEEPEST)
 LIMIT = 0.98  # levels lie between minus and plus this
 TOLERANCE = 1e-5  # of the volume
 BODY_TOLERANCE = 2e-4  # of the volume of one body among several
@@ -53,6 +56,25 @@ class Levelled:
     shells: Shells
     common: float
     levels: NDArray[np.float64]
+
+
+def straightened(field: SparseField, *, threads: int | None = None) -> SparseField:
+    """Return the field as a distance from the surface, scaled to [-1, 1].
+
+    Across the surface phi is tanh of the distance, and marching cubes would draw a straight line through two
+    points of it. Through artanh phi the line is straight, which halves the error of the normals.
+    """
+    out = np.empty_like(field.values)
+    in_threads(
+        sparse_kernels.straighten, field.values.reshape(-1, CELLS), np.float32(STEEPEST), np.float32(SCALE),
+        out.reshape(-1, CELLS), threads=thread_count(threads),
+    )  # fmt: skip
+    return replace(field, values=out)
+
+
+def phase_level(level: float) -> float:
+    """Return the level of phi that a level of the straightened field stands for."""
+    return math.tanh(level * SCALE)
 
 
 def volume_of(found: Level, threads: int) -> tuple[float, float]:

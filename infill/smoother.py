@@ -276,7 +276,7 @@ def _smoothed(
 ) -> Result:
     """Do what the three functions have in common."""
     from infill.bodies import bodies, data_bits
-    from infill.levels import at_level, at_volume
+    from infill.levels import at_level, at_volume, straightened
     from infill.sparse import smooth_blocks
 
     if isinstance(level, str) and level != "volume":
@@ -300,7 +300,9 @@ def _smoothed(
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
         if level == "volume":
-            found = at_volume(field, before, spacing=size, targets=targets, threads=threads)
+            found = at_volume(
+                straightened(field, threads=threads), before, spacing=size, targets=targets, threads=threads
+            )
         else:
             height = within("level", float(level), -0.999, 0.999)
             found = at_level(field, before, spacing=size, level=height, threads=threads)
@@ -330,7 +332,7 @@ def _smoothed(
         "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,
     }  # fmt: skip
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
-    return Result(surface=surface, report=report, fields={"field": found.field, "data": replace(data, values=values)})
+    return Result(surface=surface, report=report, fields={"field": field, "data": replace(data, values=values)})
 
 
 def _require(data: Volume, limit: int | None) -> None:
@@ -380,8 +382,10 @@ def _checked(
 ) -> dict[str, Any]:
     """Return what smoothing did, with the problems in plain words."""
     from infill.bodies import bodies, cores, data_bits, fate, opened, solid_bits
+    from infill.levels import phase_level
     from infill.sparse_surface import euler_number_of_bits
 
+    said = phase_level if level == "volume" else float
     field, total = found.field, float(targets.sum())
     raw, now = data_bits(field, threads=threads), solid_bits(field, threads=threads)
     core = cores(field, raw, threads=threads)
@@ -421,9 +425,9 @@ def _checked(
     return {
         "level": {
             "method": "volume" if level == "volume" else "fixed",
-            "common": found.common,
-            "lowest": float(found.levels.min()),
-            "highest": float(found.levels.max()),
+            "common": said(found.common),
+            "lowest": said(float(found.levels.min())),
+            "highest": said(float(found.levels.max())),
             "bodies": len(found.levels),
         },
         "data_volume": total,
@@ -461,7 +465,7 @@ def staircase(result: Result) -> Surface:
 
 
 def phase_volume(result: Result) -> Volume:
-    """Return the smoothed field as a whole, less its level, so that the surface lies at 0: float32, [x, y, z]."""
+    """Return the phase field of a result as a whole, float32, [x, y, z]."""
     data, field = result.fields["data"], result.fields["field"]
     cells = math.prod(field.shape)
     require_memory(4 * cells, None, "write a mesh instead of the field, or use larger voxels")

@@ -411,3 +411,17 @@ def spread(slots, blocks, whole, thread, threads):  # pragma: no cover
                         value = np.float32(1) if slot == SOLID_BLOCK else np.float32(-1)
                         for k in range(first, last):
                             line[k] = value
+
+
+@njit(nogil=True, cache=True)
+def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
+    """Set out to artanh of the values, cut off at +-most, over scale."""
+    for s in range(thread, len(blocks), threads):
+        for t in range(CELLS):
+            v = blocks[s, t]
+            if v >= most:
+                out[s, t] = 1
+            elif v <= -most:
+                out[s, t] = -1
+            else:
+                out[s, t] = np.float32(0.5) * np.log((1 + v) / (1 - v)) / scale
