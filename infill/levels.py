@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import bodies_kernels, sparse_kernels
+from infill import bodies_kernels, transfer_kernels
 from infill.bodies import Bodies, Shells, shells
 from infill.errors import GeometryError
 from infill.sparse import SparseField
@@ -66,7 +66,7 @@ def straightened(field: SparseField, *, threads: int | None = None) -> SparseFie
     """
     out = np.empty_like(field.values)
     in_threads(
-        sparse_kernels.straighten, field.values.reshape(-1, CELLS), np.float32(STEEPEST), np.float32(SCALE),
+        transfer_kernels.straighten, field.values.reshape(-1, CELLS), np.float32(STEEPEST), np.float32(SCALE),
         out.reshape(-1, CELLS), threads=thread_count(threads),
     )  # fmt: skip
     return replace(field, values=out)

@@ -8,8 +8,7 @@ and a report of what smoothing did: to the volume, to bodies, cavities and tunne
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 
 import numpy as np
@@ -29,7 +28,7 @@ from infill.segmentation import grey as grey_levels
 from infill.segmentation import threshold as segment
 from infill.simplification import simplified
 from infill.surface import Surface
-from infill.thickness import thinnest_walls
+from infill.verdict import verdict
 from infill.volume import Volume
 from infill.voxels import voxelise_reported
 
@@ -37,18 +36,10 @@ if TYPE_CHECKING:
     import trimesh
 
     from infill.bodies import Bodies
-    from infill.levels import Levelled
     from infill.sparse import SparseField
 
 LevelMethod = Literal["volume"] | float
-FITTING = {
-    "volume": ("threshold", "range", "label", "otsu", "grey"),
-    "mesh": ("resolution", "voxel"),
-    "points": ("resolution", "voxel", "shell"),
-}
-RESOLUTION = 200  # voxels along the longest side
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
-WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
 BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
 COMPARED = 20_000  # vertices of which the distance is measured
 ADVICE = "use finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
@@ -66,24 +57,6 @@ class Options(TypedDict, total=False):
     threads: int | None
     max_memory: int | None
     progress: Progress | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Counts:
-    """How a solid hangs together.
-
-    Parameters
-    ----------
-    components, cavities, tunnels : int
-        Bodies of solid, bodies of void that it encloses, and holes that lead through.
-    euler_number : int
-        2 (components + cavities - tunnels).
-    """
-
-    components: int
-    cavities: int
-    tunnels: int
-    euler_number: int
 
 
 def smooth_volume(
@@ -221,44 +194,6 @@ def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None
     return _smoothed(solid, {"source": "points", "points": len(cloud), "shell": shell}, None, **options)
 
 
-def smooth_source(
-    source: Surface | Volume | NDArray[np.float64],
-    *,
-    resolution: int | None = None,
-    voxel: float | None = None,
-    shell: float | None = None,
-    threshold: float | None = None,
-    between: tuple[float, ...] | None = None,
-    label: tuple[int, ...] | None = None,
-    otsu: bool = False,
-    grey: bool = False,
-    **options: Unpack[Options],
-) -> Result:
-    """Smooth what `infill.sources.read_source` returned; raise ParameterError for what does not fit its kind."""
-    kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
-    given = {
-        "resolution": resolution is not None, "voxel": voxel is not None, "shell": shell is not None,
-        "threshold": threshold is not None, "range": between is not None, "label": label is not None,
-        "otsu": otsu, "grey": grey,
-    }  # fmt: skip
-    wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
-    if wrong:
-        raise ParameterError(f"{wrong[0]} does not go with {kind}; leave it out")
-    if isinstance(source, Volume):
-        ways = [name for name in ("threshold", "range", "otsu") if given[name]]
-        if len(ways) > 1:
-            raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
-        chosen: Any = "otsu" if otsu else between if between is not None else threshold
-        return smooth_volume(source, threshold=chosen, label=label, grey=grey, **options)
-    if isinstance(source, Surface):
-        return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
-    if voxel is None:
-        voxel = float(np.ptp(source, axis=0).max()) / (RESOLUTION if resolution is None else resolution)
-    elif resolution is not None:
-        raise ParameterError("both voxel and resolution are given; give one of them")
-    return smooth_points(source, voxel=voxel, shell=shell, **options)
-
-
 def _smoothed(
     data: Volume,
     source: dict[str, Any],
@@ -309,7 +244,7 @@ def _smoothed(
         if not found.surface.closed:
             raise GeometryError(f"the surface is not closed; {ADVICE}")
     with clock.stage("check", 0.6):
-        report = _checked(found, before, targets, level, size, threads)
+        report = verdict(found, before, targets, level, size, threads)
         if report["problems"] and not allow_broken:
             raise GeometryError(f"{'; '.join(report['problems'])}; {ADVICE}")
     with clock.stage("measure", 0.75):
@@ -370,87 +305,6 @@ def _grey_volumes(
 
     volume, _ = volumes_of(replace(field, values=_as_float(field)), data, spacing=size, threads=threads)
     return np.where(volume > 0, volume, data.cells * math.prod(size))
-
-
-def _checked(
-    found: Levelled,
-    before: Bodies,
-    targets: NDArray[np.float64],
-    level: LevelMethod,
-    size: tuple[float, ...],
-    threads: int | None,
-) -> dict[str, Any]:
-    """Return what smoothing did, with the problems in plain words."""
-    from infill.bodies import bodies, cores, data_bits, fate, opened, solid_bits
-    from infill.levels import phase_level
-    from infill.sparse_surface import euler_number_of_bits
-
-    said = phase_level if level == "volume" else float
-    field, total = found.field, float(targets.sum())
-    raw, now = data_bits(field, threads=threads), solid_bits(field, threads=threads)
-    core = cores(field, raw, threads=threads)
-    thick = opened(field, core, threads=threads)
-    after = bodies(field, now)
-    voids, voids_after = bodies(field, raw, void=True), bodies(field, now, void=True)
-    of_bodies, of_cores = fate(before, after), fate(bodies(field, core), after)
-    of_voids = fate(bodies(field, thick, void=True), voids_after)
-    shells = found.shells
-    euler = euler_number_of_bits(field, raw, threads=threads)
-    was = Counts(
-        components=before.count, cavities=voids.count - 1, euler_number=euler,
-        tunnels=before.count + voids.count - 1 - euler // 2,
-    )  # fmt: skip
-    held = Counts(
-        components=shells.components, cavities=shells.cavities, tunnels=shells.tunnels,
-        euler_number=int(shells.euler.sum()),
-    )  # fmt: skip
-    sturdy = bodies(field, thick)
-    tunnels_allowed = max(
-        was.tunnels,
-        sturdy.count + bodies(field, thick, void=True).count - 1
-        - euler_number_of_bits(field, thick, threads=threads) // 2,
-    )  # fmt: skip
-    changes = {
-        "vanished": int(before.thick[of_bodies.vanished].sum()),
-        "vanished_thin": int((~before.thick[of_bodies.vanished]).sum()),
-        "broken": int((bodies(field, core).cells[of_cores.broken] >= WALL).sum()),
-        "walls_lost": int((bodies(field, core).cells[of_cores.vanished] >= WALL).sum()),
-        "walls_pierced": max(0, held.tunnels - tunnels_allowed),
-        "voids_joined": len(of_voids.joined),
-        "fused": len(of_bodies.joined),
-        "appeared": len(of_bodies.appeared),
-    }
-    wall_before, wall_after = thinnest_walls(field, found.surface, size)
-    volume = float(shells.volume.sum())
-    return {
-        "level": {
-            "method": "volume" if level == "volume" else "fixed",
-            "common": said(found.common),
-            "lowest": said(float(found.levels.min())),
-            "highest": said(float(found.levels.max())),
-            "bodies": len(found.levels),
-        },
-        "data_volume": total,
-        "volume_change": volume / total - 1,
-        "data": asdict(was),
-        "result": asdict(held),
-        "changes": changes,
-        "thinnest_wall": {"data": wall_before, "result": wall_after},
-        "problems": list(_problems(changes)),
-    }
-
-
-def _problems(changes: dict[str, int]) -> Iterator[str]:
-    """Say, one phrase each, what was lost that was more than one cell thick."""
-    for name, what in (
-        ("vanished", "bodies vanished"),
-        ("broken", "bodies fell apart"),
-        ("walls_lost", "walls vanished"),
-        ("walls_pierced", "holes broke through walls"),
-        ("voids_joined", "walls between voids broke"),
-    ):
-        if changes[name]:
-            yield f"{changes[name]} {what} in smoothing"
 
 
 def _placed(surface: Surface, data: Volume) -> Surface:

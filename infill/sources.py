@@ -1,20 +1,22 @@
-"""What `infill smooth` can be given: a mesh, points or a volume, told apart by the file."""
+"""What `infill smooth` can be given: a mesh, points or a volume, told apart by the file, and smoothed each its way."""
 
 from __future__ import annotations
 
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, ParameterError
 from infill.grid import spacing_of
+from infill.pipeline import Result
 from infill.point_files import read_points
 from infill.reading import READERS, read_mesh
 from infill.scans import read_volume
+from infill.smoother import Options, smooth_mesh, smooth_points, smooth_volume
 from infill.surface import Surface
 from infill.volume import Volume
 
@@ -23,6 +25,12 @@ Source = Surface | Volume | NDArray[np.float64]
 
 UNITS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
+FITTING = {
+    "volume": ("threshold", "range", "label", "otsu", "grey"),
+    "mesh": ("resolution", "voxel"),
+    "points": ("resolution", "voxel", "shell"),
+}
+RESOLUTION = 200  # voxels along the longest side
 LIKE_METRES = 2.0  # what is smaller than this many units may well be meant in metres
 KINDS = ("mesh", "points", "volume")
 
@@ -78,6 +86,44 @@ def read_source(
     if source.suffix.lower() == ".3mf":  # which says its unit, and has been turned into mm
         return replace(mesh, vertices=mesh.vertices * UNITS[units]) if units else mesh
     return replace(mesh, vertices=mesh.vertices * _scale(source, mesh.vertices, units))
+
+
+def smooth_source(
+    source: Source,
+    *,
+    resolution: int | None = None,
+    voxel: float | None = None,
+    shell: float | None = None,
+    threshold: float | None = None,
+    between: tuple[float, ...] | None = None,
+    label: tuple[int, ...] | None = None,
+    otsu: bool = False,
+    grey: bool = False,
+    **options: Unpack[Options],
+) -> Result:
+    """Smooth what `read_source` returned; raise ParameterError for what does not fit its kind."""
+    kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
+    given = {
+        "resolution": resolution is not None, "voxel": voxel is not None, "shell": shell is not None,
+        "threshold": threshold is not None, "range": between is not None, "label": label is not None,
+        "otsu": otsu, "grey": grey,
+    }  # fmt: skip
+    wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
+    if wrong:
+        raise ParameterError(f"{wrong[0]} does not go with {kind}; leave it out")
+    if isinstance(source, Volume):
+        ways = [name for name in ("threshold", "range", "otsu") if given[name]]
+        if len(ways) > 1:
+            raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
+        chosen: Any = "otsu" if otsu else between if between is not None else threshold
+        return smooth_volume(source, threshold=chosen, label=label, grey=grey, **options)
+    if isinstance(source, Surface):
+        return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
+    if voxel is None:
+        voxel = float(np.ptp(source, axis=0).max()) / (RESOLUTION if resolution is None else resolution)
+    elif resolution is not None:
+        raise ParameterError("both voxel and resolution are given; give one of them")
+    return smooth_points(source, voxel=voxel, shell=shell, **options)
 
 
 def _kind_of(path: Path) -> Kind:

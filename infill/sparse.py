@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill import sparse_kernels as kernels
+from infill import transfer_kernels
 from infill.allen_cahn import Smoothing
 from infill.compiled import Data, Field, Numbers, numbers_of, on_three_axes
 from infill.sparse_kernels import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
@@ -54,7 +55,7 @@ class SparseField:
     def to_dense(self) -> Field:
         """Return the whole field, (n0, n1, n2) float32."""
         whole = np.empty(self.shape, dtype=np.float32)
-        in_threads(kernels.spread, self.slots, self.values.reshape(-1, CELLS), whole, threads=thread_count())
+        in_threads(transfer_kernels.spread, self.slots, self.values.reshape(-1, CELLS), whole, threads=thread_count())
         return whole
 
 
@@ -130,11 +131,11 @@ def _states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[
     state = np.empty(lattice, dtype=np.int8)
     zeros = np.zeros(lattice[:2], dtype=bool)
     if data.dtype == np.int8:
-        in_threads(kernels.fill_states, data, state, zeros, threads=threads)
+        in_threads(transfer_kernels.fill_states, data, state, zeros, threads=threads)
         if zeros.any() and field.dtype != bool:  # a whole number between void and solid: that is grey
             return _states_of(data.astype(np.float32), threads)
     else:
-        in_threads(kernels.fill_grey_states, data, state, threads=threads)
+        in_threads(transfer_kernels.fill_grey_states, data, state, threads=threads)
     return data, state
 
 
@@ -177,7 +178,7 @@ class _Blocks:
     def gather(self, start: Data, data: Data) -> None:
         """Take over start and data, which may be the same array."""
         for whole, blocks in ((data, self.held), (start, self.phi)):
-            take = kernels.gather_binary if whole.dtype == np.int8 else kernels.gather_grey
+            take = transfer_kernels.gather_binary if whole.dtype == np.int8 else transfer_kernels.gather_grey
             in_threads(take, whole, self.where, blocks, self.count, threads=self.threads)
         in_threads(kernels.emit_all, self.phi, self.faces, self.flat, self.count, threads=self.threads)
 

@@ -28,7 +28,7 @@ def limited(words: list[str], size: int) -> subprocess.CompletedProcess[str]:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
     return subprocess.run(
-        [*RUN, *words], capture_output=True, text=True, preexec_fn=limit, check=False,
+        [*RUN, *words], capture_output=True, encoding="utf-8", preexec_fn=limit, check=False,
         env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
     )  # fmt: skip
 
@@ -74,7 +74,7 @@ def test_a_disk_that_is_full_at_the_last_byte_leaves_no_other_file(tmp_path: Pat
 @pytest.mark.parametrize("delay", [0.05, 0.2, 0.4, 0.8, 1.4])
 def test_ctrl_c_at_any_moment_leaves_no_file(delay: float, tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "-o", str(tmp_path / "a.stl")]
-    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
     time.sleep(delay)
     assert process.poll() is None, "ended before it was interrupted"
     process.send_signal(signal.SIGINT)
@@ -88,7 +88,7 @@ def test_ctrl_c_at_any_moment_leaves_no_file(delay: float, tmp_path: Path) -> No
 @pytest.mark.parametrize(("number", "code"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 143)])
 def test_a_signal_while_it_writes_leaves_no_file(number: str, code: int, tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "200", "-o", str(tmp_path / "a.obj")]
-    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
     while not list(tmp_path.iterdir()) and process.poll() is None:  # until it writes
         time.sleep(0.01)
     assert process.poll() is None
@@ -102,7 +102,9 @@ def test_a_signal_while_it_writes_leaves_no_file(number: str, code: int, tmp_pat
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
 def test_a_full_stdout_is_told() -> None:
     with open("/dev/full", "w") as full:
-        done = subprocess.run([*RUN, "list", "--json"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            [*RUN, "list", "--json"], stdout=full, stderr=subprocess.PIPE, encoding="utf-8", check=False
+        )
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
     assert "cannot write the report: No space left" in done.stderr

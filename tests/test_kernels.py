@@ -161,18 +161,18 @@ def test_the_parts_of_one_are_one(decay: float) -> None:
     assert one == pytest.approx(decay, abs=1e-7)
 
 
-def test_far_from_the_surface_nothing_is_touched() -> None:
-    """A half space of 200 cells: ten steps reach one block on either side of the surface."""
-    from infill.sparse import BLOCK, block_states, levels
+def test_far_from_the_surface_nothing_is_kept() -> None:
+    """A half space of 200 cells: ten steps reach two blocks of eight on either side of the surface at most."""
+    from infill.sparse import smooth_blocks
+    from infill.sparse_kernels import SOLID_BLOCK, VOID_BLOCK
 
-    f = -np.ones((200, 12, 16), dtype=np.float32)
+    f = -np.ones((200, 14, 30), dtype=np.int8)
     f[100:] = 1
-    state = block_states(f, f, BLOCK)
-    level = levels(state, steps=10, smallest=12)[:, 0, 0]
-    touched = np.flatnonzero(level >= 0)
-    assert 100 // 12 in touched
-    assert len(touched) <= 5
-    assert (state[level < 0] != 0).all()
+    slots = smooth_blocks(f, Smoothing(steps=10)).slots
+    assert slots.shape == (26, 2, 2)
+    assert (slots[:9] == VOID_BLOCK).all()
+    assert (slots[17:25] == SOLID_BLOCK).all()
+    assert (slots[12:13] >= 0).all()
 
 
 def test_threads_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch, rng: np.random.Generator) -> None:

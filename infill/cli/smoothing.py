@@ -152,8 +152,8 @@ def smooth(
     with progress_bar(shown=not quiet) as progress:
         from infill.allen_cahn import Smoothing
         from infill.compiling import told_of_compiling
-        from infill.smoother import phase_volume, smooth_source
-        from infill.sources import read_source
+        from infill.smoother import phase_volume
+        from infill.sources import read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)

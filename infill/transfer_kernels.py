@@ -1,0 +1,138 @@
+"""Between a whole field and its blocks, compiled: see `infill.sparse`."""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201
+# No tool sees compiled lines run.
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from infill.sparse_kernels import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BLOCK
+
+
+@njit(nogil=True, cache=True)
+def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
+    """Set the state of every block of int8 data, solid above 0, and whether a row of blocks holds a zero."""
+    m0, m1, m2 = state.shape
+    n0, n1, n2 = data.shape
+    for row in range(thread, m0 * m1, threads):
+        p, q = row // m1, row % m1
+        low, high = np.full(n2, 127, dtype=np.int8), np.full(n2, -128, dtype=np.int8)
+        zero = np.zeros(n2, dtype=np.int8)
+        some = False
+        for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
+            for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
+                some = True
+                line = data[i, j]
+                for k in range(n2):
+                    v = line[k]
+                    low[k] = min(low[k], v)
+                    high[k] = max(high[k], v)
+                    zero[k] |= v == 0
+        zeros[p, q] = zero.any()
+        for r in range(m2):
+            first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+            if not some or first >= last:
+                state[p, q, r] = OUTER
+            elif low[first:last].min() > 0:
+                state[p, q, r] = 1
+            else:
+                state[p, q, r] = -1 if high[first:last].max() <= 0 else MIXED
+
+
+@njit(nogil=True, cache=True)
+def fill_grey_states(data, state, thread, threads):  # pragma: no cover
+    """Set the state of every block of float data: uniform only if all cells are +1 or all are -1."""
+    m0, m1, m2 = state.shape
+    n0, n1, n2 = data.shape
+    for row in range(thread, m0 * m1, threads):
+        p, q = row // m1, row % m1
+        low, high = np.full(n2, np.inf, dtype=np.float32), np.full(n2, -np.inf, dtype=np.float32)
+        some = False
+        for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
+            for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
+                some = True
+                line = data[i, j]
+                for k in range(n2):
+                    low[k] = min(low[k], line[k])
+                    high[k] = max(high[k], line[k])
+        for r in range(m2):
+            first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+            if not some or first >= last:
+                state[p, q, r] = OUTER
+            elif low[first:last].min() == 1:
+                state[p, q, r] = 1
+            else:
+                state[p, q, r] = -1 if high[first:last].max() == -1 else MIXED
+
+
+@njit(nogil=True, cache=True)
+def gather_grey(whole, where, blocks, count, thread, threads):  # pragma: no cover
+    """Copy the cells of blocks; cells beyond the grid repeat the edge."""
+    n0, n1, n2 = whole.shape
+    for s in range(thread, count, threads):
+        i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
+        block = blocks[s]
+        for i in range(B0):
+            x = min(max(i0 + i, 0), n0 - 1)
+            for j in range(B1):
+                line = whole[x, min(max(j0 + j, 0), n1 - 1)]
+                at = (i * B1 + j) * B2
+                for k in range(B2):
+                    block[at + k] = line[min(max(k0 + k, 0), n2 - 1)]
+
+
+@njit(nogil=True, cache=True)
+def gather_binary(whole, where, blocks, count, thread, threads):  # pragma: no cover
+    """Copy the cells of blocks, +1 where above 0 and -1 else; cells beyond the grid repeat the edge."""
+    n0, n1, n2 = whole.shape
+    for s in range(thread, count, threads):
+        i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
+        block = blocks[s]
+        for i in range(B0):
+            x = min(max(i0 + i, 0), n0 - 1)
+            for j in range(B1):
+                line = whole[x, min(max(j0 + j, 0), n1 - 1)]
+                at = (i * B1 + j) * B2
+                for k in range(B2):
+                    block[at + k] = 1 if line[min(max(k0 + k, 0), n2 - 1)] > 0 else -1
+
+
+@njit(nogil=True, cache=True)
+def spread(slots, blocks, whole, thread, threads):  # pragma: no cover
+    """Write all blocks, kept or not, into the whole field."""
+    m0, m1, m2 = slots.shape
+    n0, n1, n2 = whole.shape
+    for row in range(thread, m0 * m1, threads):
+        p, q = row // m1, row % m1
+        for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
+            for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
+                at = ((i + 1 - p * B0) * B1 + (j + 1 - q * B1)) * B2
+                line = whole[i, j]
+                for r in range(m2):
+                    first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+                    slot = slots[p, q, r]
+                    if slot >= 0:
+                        block = blocks[slot]
+                        shift = at + 1 - r * B2
+                        for k in range(first, last):
+                            line[k] = block[shift + k]
+                    else:
+                        value = np.float32(1) if slot == SOLID_BLOCK else np.float32(-1)
+                        for k in range(first, last):
+                            line[k] = value
+
+
+@njit(nogil=True, cache=True)
+def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
+    """Set out to artanh of the values, cut off at +-most, over scale."""
+    for s in range(thread, len(blocks), threads):
+        for t in range(CELLS):
+            v = blocks[s, t]
+            if v >= most:
+                out[s, t] = 1
+            elif v <= -most:
+                out[s, t] = -1
+            else:
+                out[s, t] = np.float32(0.5) * np.log((1 + v) / (1 - v)) / scale

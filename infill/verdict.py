@@ -1,0 +1,112 @@
+"""What smoothing did to a solid: how it hangs together before and after, and what was lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.bodies import Bodies, bodies, cores, data_bits, fate, opened, solid_bits
+from infill.levels import Levelled, phase_level
+from infill.sparse_surface import euler_number_of_bits
+from infill.thickness import thinnest_walls
+
+WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
+
+
+@dataclass(frozen=True, kw_only=True)
+class Counts:
+    """How a solid hangs together.
+
+    Parameters
+    ----------
+    components, cavities, tunnels : int
+        Bodies of solid, bodies of void that it encloses, and holes that lead through.
+    euler_number : int
+        2 (components + cavities - tunnels).
+    """
+
+    components: int
+    cavities: int
+    tunnels: int
+    euler_number: int
+
+
+def verdict(
+    found: Levelled,
+    before: Bodies,
+    targets: NDArray[np.float64],
+    level: float | str,
+    size: tuple[float, ...],
+    threads: int | None,
+) -> dict[str, Any]:
+    """Return what smoothing did, with the problems in plain words."""
+    said = phase_level if level == "volume" else float
+    field, total = found.field, float(targets.sum())
+    raw, now = data_bits(field, threads=threads), solid_bits(field, threads=threads)
+    core = cores(field, raw, threads=threads)
+    thick = opened(field, core, threads=threads)
+    after, walls = bodies(field, now), bodies(field, core)
+    voids, thick_voids = bodies(field, raw, void=True), bodies(field, thick, void=True)
+    of_bodies, of_walls = fate(before, after), fate(walls, after)
+    of_voids = fate(thick_voids, bodies(field, now, void=True))
+    was = _counts(before, voids, euler_number_of_bits(field, raw, threads=threads))
+    sturdy = _counts(bodies(field, thick), thick_voids, euler_number_of_bits(field, thick, threads=threads))
+    shells = found.shells
+    held = Counts(
+        components=shells.components, cavities=shells.cavities, tunnels=shells.tunnels,
+        euler_number=int(shells.euler.sum()),
+    )  # fmt: skip
+    changes = {
+        "vanished": int(before.thick[of_bodies.vanished].sum()),
+        "vanished_thin": int((~before.thick[of_bodies.vanished]).sum()),
+        "broken": int((walls.cells[of_walls.broken] >= WALL).sum()),
+        "walls_lost": int((walls.cells[of_walls.vanished] >= WALL).sum()),
+        "walls_pierced": max(0, held.tunnels - max(was.tunnels, sturdy.tunnels)),
+        "voids_joined": len(of_voids.joined),
+        "fused": len(of_bodies.joined),
+        "appeared": len(of_bodies.appeared),
+    }
+    wall_before, wall_after = thinnest_walls(field, found.surface, size)
+    volume = float(shells.volume.sum())
+    return {
+        "level": {
+            "method": "volume" if level == "volume" else "fixed",
+            "common": said(found.common),
+            "lowest": said(float(found.levels.min())),
+            "highest": said(float(found.levels.max())),
+            "bodies": len(found.levels),
+        },
+        "data_volume": total,
+        "volume_change": volume / total - 1,
+        "data": asdict(was),
+        "result": asdict(held),
+        "changes": changes,
+        "thinnest_wall": {"data": wall_before, "result": wall_after},
+        "problems": list(_problems(changes)),
+    }
+
+
+def _counts(solid: Bodies, void: Bodies, euler_number: int) -> Counts:
+    """Return the counts of a solid whose void has the outside for its first body."""
+    cavities = void.count - 1
+    return Counts(
+        components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2,
+        euler_number=euler_number,
+    )  # fmt: skip
+
+
+def _problems(changes: dict[str, int]) -> Iterator[str]:
+    """Say, one phrase each, what was lost that was more than one cell thick."""
+    for name, what in (
+        ("vanished", "bodies vanished"),
+        ("broken", "bodies fell apart"),
+        ("walls_lost", "walls vanished"),
+        ("walls_pierced", "holes broke through walls"),
+        ("voids_joined", "walls between voids broke"),
+    ):
+        if changes[name]:
+            yield f"{changes[name]} {what} in smoothing"
