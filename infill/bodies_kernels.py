@@ -9,7 +9,7 @@ import numpy as np
 from numba import njit
 
 from infill.sparse_kernels import B0, B1, B2, CELLS
-from infill.sparse_surface_kernels import FULL, ROWS, ones, sixfold, within
+from infill.sparse_surface_kernels import FULL, ROWS, lowest, ones, sixfold, within
 
 
 @njit(inline="always", cache=True)
@@ -35,12 +35,6 @@ def join(parent, a, b):  # pragma: no cover
 def beginnings(bits):  # pragma: no cover
     """Return the bits at which runs begin."""
     return np.uint16(bits & ~(bits << np.uint16(1)))
-
-
-@njit(inline="always", cache=True)
-def lowest(bits):  # pragma: no cover
-    """Return the place of the lowest bit that is set."""
-    return ones((bits & -bits) - 1)
 
 
 @njit(inline="always", cache=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,7 @@ from infill.threads import in_threads, thread_count
 STEEPEST = 0.9999  # of phi: beyond, distance is cut off
 SCALE = math.atanh(STEEPEST)
 LIMIT = 0.98  # levels lie between minus and plus this
-TOLERANCE = 1e-5  # of the volume
+TOLERANCE = 5e-5  # of the volume
 BODY_TOLERANCE = 2e-4  # of the volume of one body among several
 ROUNDS = 8
 BIGGEST_STEP = 0.3
@@ -43,8 +44,8 @@ class Levelled:
     field : SparseField
         The field against the level: the surface is where it is 0.
     surface : Surface
-    shells : Shells
-        Of that surface.
+    rate : (V, 3) float32
+        How far its vertices move when the level rises by one, mm.
     common : float
         The level of all that has none of its own.
     levels : (b,) float64
@@ -53,9 +54,14 @@ class Levelled:
 
     field: SparseField
     surface: Surface
-    shells: Shells
+    rate: NDArray[np.float32]
     common: float
     levels: NDArray[np.float64]
+
+    @cached_property
+    def shells(self) -> Shells:
+        """The connected parts of the surface."""
+        return shells(self.surface, self.rate)
 
 
 def straightened(field: SparseField, *, threads: int | None = None) -> SparseField:
@@ -99,7 +105,7 @@ def at_level(
     """Return the surface at one level: the paper's is 0."""
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
-        field=_against(field, level), surface=found.surface, shells=shells(found.surface, found.rate), common=level,
+        field=_against(field, level), surface=found.surface, rate=found.rate, common=level,
         levels=np.full(data.count, level),
     )  # fmt: skip
 
@@ -148,10 +154,9 @@ def at_volume(
         raise GeometryError(
             "nothing is left of the solid after smoothing; use finer voxels, fewer steps or more fidelity"
         )
-    parts = shells(found.surface, found.rate)
     if data.count == 1:
         return Levelled(
-            field=_against(field, level), surface=found.surface, shells=parts, common=level, levels=np.array([level])
+            field=_against(field, level), surface=found.surface, rate=found.rate, common=level, levels=np.array([level])
         )
     return _each_body(field, data, spacing=spacing, targets=targets, common=level, threads=threads)
 
@@ -175,7 +180,7 @@ def _each_body(
         found = extract_level(shifted, spacing=spacing, threads=threads)
         parts = shells(found.surface, found.rate)
         volume, slope = _per_body(parts, found.surface, shifted, data, spacing)
-        best = Levelled(field=shifted, surface=found.surface, shells=parts, common=common, levels=levels)
+        best = Levelled(field=shifted, surface=found.surface, rate=found.rate, common=common, levels=levels)
         off = own & (np.abs(volume - targets) > BODY_TOLERANCE * targets)
         if not off.any():
             break

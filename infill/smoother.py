@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
 BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
+BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
 COMPARED = 20_000  # vertices of which the distance is measured
 ADVICE = "use finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
@@ -49,6 +50,7 @@ class Options(TypedDict, total=False):
     """What the three functions take alike; see `smooth_volume`."""
 
     smoothing: Smoothing
+    refine: bool
     level: LevelMethod
     despeckle: float
     allow_broken: bool
@@ -87,6 +89,9 @@ def smooth_volume(
         Keep the grey levels around the threshold (2): they tell where between two cells the surface lies.
     smoothing : Smoothing
         20 steps if left out, as the paper takes for complex models; 30 for medical data.
+    refine : bool
+        Keep edges, curvature and thin walls better, for about four times the work: see `infill.refining`. For clean
+        data; noise is kept too. Fidelity is left out.
     level : "volume" or float
         "volume" puts the surface where every body has the volume it has in the data; 0 is the paper's surface.
     despeckle : float
@@ -200,6 +205,7 @@ def _smoothed(
     reference: Surface | None,
     *,
     smoothing: Smoothing = Smoothing(steps=20),  # noqa: B008 - frozen
+    refine: bool = False,
     level: LevelMethod = "volume",
     despeckle: float = 0.0,
     allow_broken: bool = False,
@@ -212,6 +218,7 @@ def _smoothed(
     """Do what the three functions have in common."""
     from infill.bodies import bodies, data_bits
     from infill.levels import at_level, at_volume, straightened
+    from infill.refining import as_straightened, distance_level, refine_blocks
     from infill.sparse import smooth_blocks
 
     if isinstance(level, str) and level != "volume":
@@ -220,7 +227,7 @@ def _smoothed(
     size: tuple[float, ...] = tuple(float(x) for x in data.cell_size)
     values, specks = data.values, 0
     with clock.stage("smooth", 0.05):
-        _require(data, max_memory)
+        _require(data, max_memory, BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if refine else 0))
         if despeckle:
             values, specks = _despeckled(data, within("despeckle", despeckle, 0, math.inf, "mm³"), threads)
 
@@ -228,19 +235,25 @@ def _smoothed(
             if progress is not None:
                 progress("smooth", 0.05 + 0.3 * share)
 
-        field = smooth_blocks(values, smoothing, spacing=size, threads=threads, progress=report_step)
+        smoothed = refine_blocks if refine else smooth_blocks
+        field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
     with clock.stage("surface", 0.4):
         before = bodies(field, data_bits(field, threads=threads))
         targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
         if level == "volume":
-            found = at_volume(
-                straightened(field, threads=threads), before, spacing=size, targets=targets, threads=threads
-            )
+            straight = field if refine else straightened(field, threads=threads)
+            found = at_volume(straight, before, spacing=size, targets=targets, threads=threads)
+            found = as_straightened(found) if refine else found
         else:
-            height = within("level", float(level), -0.999, 0.999)
-            found = at_level(field, before, spacing=size, level=height, threads=threads)
+            most = 0.99 if refine else 0.999
+            height = within("level", float(level), -most, most)
+            cut = distance_level(height) if refine else height
+            found = replace(
+                at_level(field, before, spacing=size, level=cut, threads=threads),
+                common=height, levels=np.full(before.count, height),
+            )  # fmt: skip
         if not found.surface.closed:
             raise GeometryError(f"the surface is not closed; {ADVICE}")
     with clock.stage("check", 0.6):
@@ -261,7 +274,7 @@ def _smoothed(
     bounds = surface.bounds
     report = {
         "version": __version__, **source, "grid": list(data.values.shape), "spacing": list(size),
-        "space": data.space, "steps": smoothing.steps, "fidelity": smoothing.fidelity,
+        "space": data.space, "steps": smoothing.steps, "fidelity": 0.0 if refine else smoothing.fidelity, "refined": refine,
         "interface": smoothing.interface, "alpha": smoothing.alpha, "despeckled": specks,
         "triangles": len(surface.faces), "closed": surface.closed, "volume": surface.volume, "area": surface.area,
         "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,
@@ -270,15 +283,13 @@ def _smoothed(
     return Result(surface=surface, report=report, fields={"field": field, "data": replace(data, values=values)})
 
 
-def _require(data: Volume, limit: int | None) -> None:
-    """Raise MemoryLimitError if the surface of the data will not fit into memory: guessed from a few layers."""
+def _require(data: Volume, limit: int | None, each: int) -> None:
+    """Raise MemoryLimitError if the surface will not fit into memory, at `each` bytes a cell, guessed from layers."""
     values: NDArray[Any] = data.values
     steps = max(1, values.shape[0] // 16)
     layers = values[::steps] > 0
     crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * 1.5
-    require_memory(
-        int(crossings * BYTES_PER_SURFACE_CELL), limit, "use larger voxels, a part of the volume, or despeckle it"
-    )
+    require_memory(int(crossings * each), limit, "use larger voxels, a part of the volume, or despeckle it")
 
 
 def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
@@ -323,7 +334,12 @@ def phase_volume(result: Result) -> Volume:
     data, field = result.fields["data"], result.fields["field"]
     cells = math.prod(field.shape)
     require_memory(4 * cells, None, "write a mesh instead of the field, or use larger voxels")
-    whole: Volume = replace(data, values=field.to_dense())
+    values = field.to_dense()
+    if result.report["refined"]:
+        from infill.refining import phase
+
+        values = phase(values)
+    whole: Volume = replace(data, values=values)
     return whole
 
 

@@ -25,7 +25,7 @@ from infill.compiled import Data, Field, Numbers, numbers_of, on_three_axes
 from infill.sparse_kernels import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
 from infill.threads import in_threads, thread_count
 
-MORE = 1.5  # blocks to make room for, over those there are
+ROOM, MORE = 3.0, 1.5  # blocks to make room for over those there are, at first and when it is used up
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,7 +145,7 @@ class _Blocks:
     def __init__(self, slots: NDArray[np.int32], where: NDArray[np.int32], data: Data, threads: int) -> None:
         self.slots, self.count, self.shape, self.threads = slots, len(where), data.shape, threads
         self.where = where
-        room = max(16, int(MORE * self.count))
+        room = max(16, int(ROOM * self.count))
         self.phi = np.empty((0, CELLS), dtype=np.float32)
         self.held: Data = np.empty((0, CELLS), dtype=data.dtype)
         self.faces, self.next_faces = (np.empty((0, FACES), dtype=np.float32) for _ in range(2))

@@ -25,6 +25,7 @@ FACES = THIRD + 2 * FACE_K
 
 # What stands on the lattice for a block that is not kept.
 VOID_BLOCK, SOLID_BLOCK, OUTSIDE = -1, -2, -3
+CHUNK = 32  # blocks that a thread takes at a time: neighbours, mostly
 MIXED, OUTER = 0, -3  # states of a block: of both phases, and without a cell of the grid
 
 
@@ -172,30 +173,31 @@ def step(
         np.empty(CELLS, dtype=np.float32),
         np.empty(CELLS, dtype=np.float32),
     )
-    for s in range(thread, count, threads):
-        if uniform[s] != 0:
-            if unmoved(uniform[s], beside[s], flat):
-                continue
-            uniform[s] = 0
-        own, data = phi[s], held[s]
-        surround(own, faces, flat, beside[s], tall, left, right, before, after)
-        if masked:
-            step_masked(own, data, tall, left, right, before, after, domain, where[s], numbers)
-        else:
-            for t in range(CELLS):
-                own[t] = advanced(
-                    tall[t + PLANE],
-                    tall[t],
-                    tall[t + 2 * PLANE],
-                    left[t],
-                    right[t],
-                    before[t],
-                    after[t],
-                    np.float32(data[t]),
-                    numbers,
-                )
-        repeat_edges(own, where[s], shape)
-        emit(own, next_faces[s], next_flat[s])
+    for chunk in range(thread * CHUNK, count, threads * CHUNK):
+        for s in range(chunk, min(chunk + CHUNK, count)):
+            if uniform[s] != 0:
+                if unmoved(uniform[s], beside[s], flat):
+                    continue
+                uniform[s] = 0
+            own, data = phi[s], held[s]
+            surround(own, faces, flat, beside[s], tall, left, right, before, after)
+            if masked:
+                step_masked(own, data, tall, left, right, before, after, domain, where[s], numbers)
+            else:
+                for t in range(CELLS):
+                    own[t] = advanced(
+                        tall[t + PLANE],
+                        tall[t],
+                        tall[t + 2 * PLANE],
+                        left[t],
+                        right[t],
+                        before[t],
+                        after[t],
+                        np.float32(data[t]),
+                        numbers,
+                    )
+            repeat_edges(own, where[s], shape)
+            emit(own, next_faces[s], next_flat[s])
 
 
 @njit(cache=True)

@@ -86,6 +86,12 @@ def ones(bits):  # pragma: no cover
 
 
 @njit(inline="always", cache=True)
+def lowest(bits):  # pragma: no cover
+    """Return the place of the lowest bit that is set."""
+    return ones((bits & -bits) - 1)
+
+
+@njit(inline="always", cache=True)
 def crossed(a, b, c, d):  # pragma: no cover
     """Return which of 16 cubes have corners of both signs, from their four rows of 17 cells."""
     some, every = a | b | c | d, a & b & c & d
@@ -121,16 +127,14 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
                 masks[n, row, 2] = np.uint16(a ^ (a >> np.uint32(1)))
                 starts[n, row] = vertices
                 vertices += ones(masks[n, row, 0]) + ones(masks[n, row, 1]) + ones(masks[n, row, 2])
-                cubes = crossed(a, b, c, d)
-                if cubes == 0:
-                    continue
-                for k in range(B2):
-                    if (cubes >> np.uint32(k)) & np.uint32(1):
-                        many = triangles[signs_of(a, b, c, d, k)]
-                        if many == UNDECIDED:
-                            undecided += 1
-                        else:
-                            faces += many
+                left = np.int64(crossed(a, b, c, d))
+                while left:
+                    many = triangles[signs_of(a, b, c, d, lowest(left))]
+                    left &= left - 1
+                    if many == UNDECIDED:
+                        undecided += 1
+                    else:
+                        faces += many
         counts[n, 0], counts[n, 1], counts[n, 2] = vertices, faces, undecided
 
 
@@ -190,7 +194,7 @@ def write(
     faces,
     corners,
     corner_edges,
-    lowest,
+    places_of,
     thread,
     threads,
 ):  # pragma: no cover
@@ -206,25 +210,13 @@ def write(
             for j in range(B1):
                 row = i * B1 + j
                 for axis in range(3):
-                    mask = masks[n, row, axis]
-                    for k in range(B2):
-                        if not (mask >> np.uint16(k)) & np.uint16(1):
-                            continue
+                    di, dj, dk = axis == 0, axis == 1, axis == 2
+                    left = np.int64(masks[n, row, axis])
+                    while left:
+                        k = lowest(left)
+                        left &= left - 1
                         here = np.float64(value_at(slots, p, q, r, i, j, k, values, shape, numbers))
-                        there = np.float64(
-                            value_at(
-                                slots,
-                                p,
-                                q,
-                                r,
-                                i + (axis == 0),
-                                j + (axis == 1),
-                                k + (axis == 2),
-                                values,
-                                shape,
-                                numbers,
-                            )
-                        )
+                        there = np.float64(value_at(slots, p, q, r, i + di, j + dj, k + dk, values, shape, numbers))
                         vertices[v, 0] = p * B0 + i - 1
                         vertices[v, 1] = q * B1 + j - 1
                         vertices[v, 2] = r * B2 + k - 1
@@ -232,33 +224,23 @@ def write(
                         rate[v, axis] = 1 / (there - here)
                         v += 1
                 a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
-                cubes = crossed(a, b, c, d)
-                if cubes == 0:
-                    continue
-                for k in range(B2):
-                    if not (cubes >> np.uint32(k)) & np.uint32(1):
-                        continue
+                left = np.int64(crossed(a, b, c, d))
+                while left:
+                    k = lowest(left)
+                    left &= left - 1
                     signs = signs_of(a, b, c, d, k)
                     if many[signs] != UNDECIDED:
                         for t in range(many[signs]):
                             for corner in range(3):
-                                axis, at = edges[triangles[signs, t, corner]]
+                                e = triangles[signs, t, corner]
+                                axis, at = int(edges[e, 0]), int(edges[e, 1])
                                 faces[f, corner] = vertex_number(
-                                    index,
-                                    p,
-                                    q,
-                                    r,
-                                    i + (at & 1),
-                                    j + (at >> 1 & 1),
-                                    k + (at >> 2),
-                                    axis,
-                                    masks,
-                                    starts,
-                                    offsets,
-                                )
+                                    index, p, q, r, i + (at & 1), j + (at >> 1 & 1), k + (at >> 2), axis,
+                                    masks, starts, offsets,
+                                )  # fmt: skip
                             f += 1
                         continue
-                    lowest[u, 0], lowest[u, 1], lowest[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
+                    places_of[u, 0], places_of[u, 1], places_of[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
                     for corner in range(8):
                         corners[u, corner] = value_at(
                             slots,

@@ -1,0 +1,208 @@
+"""What `infill.refining` does to blocks, compiled. Loops run over whole blocks, so that they become vector code.
+
+The averages of a gate live on coarse cells of `size` cells along each axis, (n, 3, 8/size, 8/size, 16/size): the
+mean weight w, and those of w r and w r². Where no block is kept they are 0.
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201
+# No tool sees compiled lines run.
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from infill.sparse_kernels import B0, B1, B2, CELLS, PLANE, emit, repeat_edges, surround, unmoved
+
+SUMS = 3  # w, w r, w r²
+# Twice (3, 10, 3) / 16. Together with the coarse cell's own breadth, size²/12, and that of the interpolation,
+# size²/6, its variance, 3 size²/4, makes that of a Gaussian of `size` cells.
+TAPS = (9 / 256, 60 / 256, 118 / 256)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def step(
+    phi,
+    before,
+    faces,
+    next_faces,
+    flat,
+    next_flat,
+    uniform,
+    beside,
+    where,
+    count,
+    numbers,
+    momentum,
+    shape,
+    thread,
+    threads,
+):  # pragma: no cover
+    """Do one step of all blocks in place, as `infill.sparse_kernels.step`, and leave the old values in `before`."""
+    w0, w1, w2, decay, rest, _ = numbers
+    tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
+    left, right, back, after = (
+        np.empty(CELLS, dtype=np.float32),
+        np.empty(CELLS, dtype=np.float32),
+        np.empty(CELLS, dtype=np.float32),
+        np.empty(CELLS, dtype=np.float32),
+    )
+    for s in range(thread, count, threads):
+        if uniform[s] != 0:
+            if unmoved(uniform[s], beside[s], flat):
+                continue
+            uniform[s] = 0
+        own, old = phi[s], before[s]
+        surround(own, faces, flat, beside[s], tall, left, right, back, after)
+        for t in range(CELLS):
+            c = tall[t + PLANE]
+            a, b, d, e, g, h = tall[t], tall[t + 2 * PLANE], left[t], right[t], back[t], after[t]
+            change = w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c))
+            v = c + (momentum * (c - old[t]) + change)
+            own[t] = v / math.sqrt(decay + rest * (v * v))
+            old[t] = c
+        repeat_edges(own, where[s], shape)
+        emit(own, next_faces[s], next_flat[s])
+
+
+@njit(nogil=True, cache=True)
+def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads):  # pragma: no cover
+    """Add weight times phi to `total`; a block from `known` on was uniform, as its data, in all snapshots so far."""
+    for s in range(thread, count, threads):
+        own, out = phi[s], total[s]
+        if s < known:
+            for t in range(CELLS):
+                out[t] += weight * own[t]
+        else:
+            for t in range(CELLS):
+                out[t] = so_far * np.float32(held[s, t]) + weight * own[t]
+
+
+@njit(nogil=True, cache=True)
+def collect(low, high, most, scale, unit, size, sums, thread, threads):  # pragma: no cover
+    """Set the means of w, w r and w r² over coarse cells; turn `high` from phase into distance, as `low` is.
+
+    w is 1 - phase² of `high`, and r the distance of `high` less that of `low`, times `unit`.
+    """
+    n1, n2 = B1 // size, B2 // size
+    share = np.float32(1 / size**3)
+    weight, moment = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.float32)
+    for s in range(thread, len(low), threads):
+        own, other = high[s], low[s]
+        for t in range(CELLS):
+            weight[t] = max(np.float32(1) - own[t] * own[t], np.float32(0)) * share
+        for t in range(CELLS):
+            v = own[t]
+            if v >= most:
+                own[t] = 1
+            elif v <= -most:
+                own[t] = -1
+            else:
+                own[t] = np.float32(0.5) * np.log((1 + v) / (1 - v)) / scale
+        for t in range(CELLS):
+            moment[t] = (own[t] - other[t]) * unit
+        out = sums[s].reshape(SUMS, -1)
+        out[:] = 0
+        for i in range(B0):
+            for j in range(B1):
+                at = ((i // size) * n1 + j // size) * n2
+                line = (i * B1 + j) * B2
+                for k in range(B2):
+                    w, r = weight[line + k], moment[line + k]
+                    out[0, at + k // size] += w
+                    out[1, at + k // size] += w * r
+                    out[2, at + k // size] += w * r * r
+
+
+@njit(cache=True)
+def fetch(sums, slots, place, rim, out):  # pragma: no cover
+    """Copy the coarse cells of the block at `place` and those around it, `rim` deep, into `out`."""
+    _, _, n0, n1, n2 = sums.shape
+    a0, a1, a2 = place[0] * n0 - rim, place[1] * n1 - rim, place[2] * n2 - rim
+    for i in range(n0 + 2 * rim):
+        p, x = (a0 + i) // n0, (a0 + i) % n0
+        for j in range(n1 + 2 * rim):
+            q, y = (a1 + j) // n1, (a1 + j) % n1
+            inside = 0 <= p < slots.shape[0] and 0 <= q < slots.shape[1]
+            for k in range(n2 + 2 * rim):
+                r, z = (a2 + k) // n2, (a2 + k) % n2
+                slot = slots[p, q, r] if inside and 0 <= r < slots.shape[2] else -1
+                for m in range(SUMS):
+                    out[m, i, j, k] = sums[slot, m, x, y, z] if slot >= 0 else np.float32(0)
+
+
+@njit(nogil=True, cache=True)
+def blur(sums, slots, where, out, thread, threads):  # pragma: no cover
+    """Average the coarse cells with those around them, by `TAPS` along each axis."""
+    _, _, n0, n1, n2 = sums.shape
+    far, near, own = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
+    whole = np.empty((SUMS, n0 + 4, n1 + 4, n2 + 4), dtype=np.float32)
+    for s in range(thread, len(sums), threads):
+        fetch(sums, slots, where[s], 2, whole)
+        for m in range(SUMS):
+            u = whole[m]
+            for i in range(n0):  # in place: what is written is not read again
+                for j in range(n1 + 4):
+                    for k in range(n2 + 4):
+                        outer = far * (u[i, j, k] + u[i + 4, j, k])
+                        u[i, j, k] = outer + near * (u[i + 1, j, k] + u[i + 3, j, k]) + own * u[i + 2, j, k]
+            for i in range(n0):
+                for j in range(n1):
+                    for k in range(n2 + 4):
+                        outer = far * (u[i, j, k] + u[i, j + 4, k])
+                        u[i, j, k] = outer + near * (u[i, j + 1, k] + u[i, j + 3, k]) + own * u[i, j + 2, k]
+            for i in range(n0):
+                for j in range(n1):
+                    for k in range(n2):
+                        outer = far * (u[i, j, k] + u[i, j, k + 4])
+                        out[s, m, i, j, k] = outer + near * (u[i, j, k + 1] + u[i, j, k + 3]) + own * u[i, j, k + 2]
+
+
+@njit(inline="always", cache=True)
+def between(cell, size):  # pragma: no cover
+    """Return between which coarse cells, counted from one before the block, a cell lies, and how far."""
+    place = np.float32((cell + 0.5) / size + 0.5)
+    first = int(place)
+    return first, place - np.float32(first)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, threads):  # pragma: no cover
+    """Move `low` towards `high` as far as the gate lets it: see `infill.refining.gate`."""
+    _, _, n0, n1, n2 = sums.shape
+    size = B0 // n0
+    whole = np.empty((SUMS, n0 + 2, n1 + 2, n2 + 2), dtype=np.float32)
+    line = np.empty((SUMS, n1 + 2, n2 + 2), dtype=np.float32)
+    row = np.empty((SUMS, n2 + 2), dtype=np.float32)
+    mean = np.empty((SUMS, B2), dtype=np.float32)
+    ends, parts = np.empty(B2, dtype=np.int64), np.empty(B2, dtype=np.float32)
+    for k in range(B2):
+        ends[k], parts[k] = between(k, size)
+    bias, spread = signed**4, unsigned**8
+    for s in range(thread, len(low), threads):
+        fetch(sums, slots, where[s], 1, whole)
+        own, other = low[s], high[s]
+        for i in range(B0):
+            at, part = between(i, size)
+            for m in range(SUMS):
+                for j in range(n1 + 2):
+                    for k in range(n2 + 2):
+                        line[m, j, k] = whole[m, at, j, k] + part * (whole[m, at + 1, j, k] - whole[m, at, j, k])
+            for j in range(B1):
+                at, part = between(j, size)
+                for m in range(SUMS):
+                    for k in range(n2 + 2):
+                        row[m, k] = line[m, at, k] + part * (line[m, at + 1, k] - line[m, at, k])
+                    for k in range(B2):
+                        mean[m, k] = row[m, ends[k]] + parts[k] * (row[m, ends[k] + 1] - row[m, ends[k]])
+                first = (i * B1 + j) * B2
+                for k in range(B2):
+                    weight = mean[0, k] + tiny
+                    m = (mean[1, k] / weight) ** 2
+                    v = (mean[2, k] / weight) ** 2
+                    m, v = m * m, v * v
+                    open_ = max(m / (m + bias), v / (v + spread))
+                    own[first + k] += open_ * (other[first + k] - own[first + k])
+        repeat_edges(own, where[s], shape)
