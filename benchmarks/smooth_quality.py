@@ -18,12 +18,16 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, uniform_filter
-from scipy.optimize import root_scalar
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
-from infill import Smoothing, smooth
+from infill import Smoothing
+from infill.bodies import bodies, data_bits
+from infill.levels import at_volume, straightened
+from infill.refining import refine_blocks
+from infill.sparse import smooth_blocks
+from infill.sparse_surface import extract_blocks
 from infill.surface import Surface, extract
 
 Points = NDArray[np.float64]
@@ -172,16 +176,17 @@ def surface_of(field: Field, level: float = 0.0) -> Surface:
     return extract(field, spacing=(1.0, 1.0, 1.0), origin=origin, level=level)
 
 
-def at_volume_level(field: Field, target: float) -> Surface:
-    """Return the surface at the level where it encloses `target` cells, by a secant on the level."""
-    found = root_scalar(lambda c: surface_of(field, c).volume - target, x0=0.0, x1=-0.03, method="secant", xtol=1e-5)
-    return surface_of(field, found.root)
-
-
-def ours(f: Field, steps: int, level: str) -> Surface:
-    """Return the plain scheme of the paper at level 0 or at the level of the voxels' volume."""
-    field = smooth(f, Smoothing(steps=steps), method="dense")
-    return surface_of(field) if level == "0" else at_volume_level(field, float((f > 0).sum()))
+def ours(f: Field, steps: int, level: str, *, refine: bool = False) -> Surface:
+    """Return the scheme of the paper, or the refined one, at level 0 or at the level of the voxels' volume."""
+    field = (refine_blocks if refine else smooth_blocks)(f > 0, Smoothing(steps=steps))
+    cells, half = (1.0, 1.0, 1.0), tuple(n / 2 for n in f.shape)
+    if level == "0":
+        surface = extract_blocks(field, spacing=cells)
+    else:
+        solid = bodies(field, data_bits(field))
+        straight = field if refine else straightened(field)
+        surface = at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64)).surface
+    return Surface(vertices=surface.vertices - half, faces=surface.faces)
 
 
 def majority_sinc(f: Field, passes: int, band: float) -> Surface:
@@ -254,6 +259,7 @@ def gaussian(f: Field, sigma: float) -> Surface:
 SINC = ((15, 0.001), (50, 0.02), (100, 0.003))
 METHODS: dict[str, Callable[[Field], Surface]] = {
     **{f"ours, {n} steps, level {c}": partial(ours, steps=n, level=c) for n in (10, 20) for c in ("0", "volume")},
+    "ours, 20 steps refined": partial(ours, steps=20, level="volume", refine=True),
     **{f"VTK windowed sinc {n}/{b:g}": partial(windowed_sinc, passes=n, band=b) for n, b in SINC},
     "VTK surface nets 16": surface_nets,
     "SimpleITK AntiAliasBinary": partial(level_set, which="itk"),

@@ -272,13 +272,32 @@ def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts
 
 
 @njit(cache=True)
-def label_cells(places, slots, bits, blocks, starts, alone, names, labels):  # pragma: no cover
-    """Set the body of cells at places (N, 3) on the lattice of cells, -1 where there is none."""
+def nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach):  # pragma: no cover
+    """Return the body of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
+    node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts)
+    if node >= 0:
+        return names[node]
+    for distance in range(1, reach + 1):
+        for side in range(6):
+            way = distance if side % 2 else -distance
+            a, b, c = x + way * (side < 2), y + way * (side // 2 == 1), z + way * (side > 3)
+            if a < 0 or b < 0 or c < 0:
+                continue
+            p, q, r = a // B0, b // B1, c // B2
+            if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
+                continue
+            node = node_at(alone, slots, p, q, r, (a % B0) * B1 + b % B1, c % B2, bits, blocks, starts)
+            if node >= 0:
+                return names[node]
+    return np.int32(-1)
+
+
+@njit(cache=True)
+def label_cells(places, slots, bits, blocks, starts, alone, names, reach, labels):  # pragma: no cover
+    """Set the body nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
     for n in range(len(places)):
         x, y, z = places[n]
-        p, q, r = x // B0, y // B1, z // B2
-        node = node_at(alone, slots, p, q, r, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts)
-        labels[n] = names[node] if node >= 0 else -1
+        labels[n] = nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach)
 
 
 @njit(cache=True)
@@ -307,7 +326,6 @@ def lower_to_levels(
     values, where, slots, bits, blocks, starts, alone, names, levels, common, reach, out, thread, threads
 ):  # pragma: no cover
     """Take from every cell the level of the nearest body, looked for along the axes; `common` where there is none."""
-    m0, m1, m2 = slots.shape
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for t in range(CELLS):
@@ -315,29 +333,8 @@ def lower_to_levels(
             if value == 1 or value == -1:
                 out[s, t] = value
                 continue
-            i, j, k = t // (B1 * B2), t // B2 % B1, t % B2
-            node = node_at(alone, slots, p, q, r, i * B1 + j, k, bits, blocks, starts)
-            body = names[node] if node >= 0 else -1
-            distance = 0
-            while body < 0 and distance < reach:
-                distance += 1
-                for side in range(6):
-                    way = distance if side % 2 else -distance
-                    x, y, z = p * B0 + i, q * B1 + j, r * B2 + k
-                    if side < 2:
-                        x += way
-                    elif side < 4:
-                        y += way
-                    else:
-                        z += way
-                    if x < 0 or y < 0 or z < 0 or x >= m0 * B0 or y >= m1 * B1 or z >= m2 * B2:
-                        continue
-                    node = node_at(
-                        alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts
-                    )
-                    if node >= 0:
-                        body = names[node]
-                        break
+            x, y, z = p * B0 + t // (B1 * B2), q * B1 + t // B2 % B1, r * B2 + t % B2
+            body = nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach)
             out[s, t] = value - (levels[body] if body >= 0 else common)
 
 

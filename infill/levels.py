@@ -96,7 +96,9 @@ def volumes_of(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the volume of each body of the data at level 0, mm³, and its slope over the level."""
     found = extract_level(field, spacing=spacing, threads=threads)
-    return _per_body(shells(found.surface, found.rate), found.surface, field, data, spacing)
+    parts = shells(found.surface, found.rate)
+    body, _ = _body_of(parts, found.surface, field, data, spacing)
+    return _sums(body, parts.volume, data.count), _sums(body, parts.slope, data.count)
 
 
 def at_level(
@@ -172,26 +174,37 @@ def _each_body(
 ) -> Levelled:
     """Return the surface at which every body that is large enough has its own volume."""
     own = data.cells >= SMALLEST
+    group: NDArray[np.integer] = np.arange(data.count)  # bodies that run together share a level from then on
     levels = np.full(data.count, common)
     low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # what is known to be below and above
     best: Levelled | None = None
+    least = math.inf
     for _ in range(ROUNDS):
         shifted = _lowered(field, data, levels, common, threads)
         found = extract_level(shifted, spacing=spacing, threads=threads)
         parts = shells(found.surface, found.rate)
-        volume, slope = _per_body(parts, found.surface, shifted, data, spacing)
-        best = Levelled(field=shifted, surface=found.surface, rate=found.rate, common=common, levels=levels)
-        off = own & (np.abs(volume - targets) > BODY_TOLERANCE * targets)
+        body, together = _body_of(parts, found.surface, shifted, data, spacing)
+        joined = _joined(group, together)
+        changed = joined != group
+        group = joined
+        low, high = np.where(changed, -1.0, low), np.where(changed, 1.0, high)
+        volume, slope = (_sums(group, _sums(body, each, data.count)) for each in (parts.volume, parts.slope))
+        wanted = _sums(group, targets)
+        missed = np.abs(volume - wanted)
+        heads = own & (group == np.arange(data.count))
+        if missed[heads].sum() < least:
+            least = float(missed[heads].sum())
+            best = Levelled(field=shifted, surface=found.surface, rate=found.rate, common=common, levels=levels)
+        off = own & (missed > BODY_TOLERANCE * wanted)
         if not off.any():
             break
-        low = np.where(off & (volume > targets), levels, low)
-        high = np.where(off & (volume < targets), levels, high)
+        low = np.where(off & (volume > wanted), levels, low)
+        high = np.where(off & (volume < wanted), levels, high)
         with np.errstate(divide="ignore", invalid="ignore"):
-            change = np.clip((targets - volume) / slope, -BIGGEST_STEP, BIGGEST_STEP)
-        wanted = levels + np.where(slope < 0, change, 0)
-        middle = (low + high) / 2
-        wanted = np.where((slope < 0) & (wanted > low) & (wanted < high), wanted, middle)
-        levels = np.where(off, np.clip(wanted, -1 + 1e-6, LIMIT), levels)
+            change = np.clip((wanted - volume) / slope, -BIGGEST_STEP, BIGGEST_STEP)
+        stepped = levels + np.where(slope < 0, change, 0)
+        stepped = np.where((slope < 0) & (stepped > low) & (stepped < high), stepped, (low + high) / 2)
+        levels = np.where(off, np.clip(stepped, -1 + 1e-6, LIMIT), levels)[group]
     if best is None:  # pragma: no cover - there is always a first round
         raise GeometryError("no surface was found; use finer voxels")
     return best
@@ -213,32 +226,39 @@ def _lowered(field: SparseField, data: Bodies, levels: NDArray[np.float64], comm
     return replace(field, values=out)
 
 
-def _per_body(
-    parts: Shells, surface: Surface, field: SparseField, data: Bodies, spacing: tuple[float, ...]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return volume and slope of each body, its cavities taken off."""
-    body = _body_of(parts, surface, field, data, spacing)
-    known = body >= 0
-    volume, slope = (
-        np.bincount(body[known], weights=each[known], minlength=data.count).astype(np.float64)
-        for each in (parts.volume, parts.slope)
-    )
-    return volume, slope
+def _sums(group: NDArray[np.integer], values: NDArray[np.float64], count: int | None = None) -> NDArray[np.float64]:
+    """Return for every group the sum of what has its number; -1 is no group. Without a count, for every member."""
+    known = group >= 0
+    sums = np.bincount(group[known], weights=values[known], minlength=count or len(values)).astype(np.float64)
+    return sums if count is not None else sums[group]
+
+
+def _joined(group: NDArray[np.integer], together: NDArray[np.integer]) -> NDArray[np.integer]:
+    """Return the groups with those pairs (n, 2) of members joined, each group named by its first member."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    pairs = np.concatenate([together, np.stack([np.arange(len(group)), group], axis=1)])
+    graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(group), len(group)))
+    _, number = connected_components(graph, directed=False)
+    _, first = np.unique(number, return_index=True)
+    joined: NDArray[np.integer] = first[number]
+    return joined
 
 
 def _body_of(
     parts: Shells, surface: Surface, field: SparseField, data: Bodies, spacing: tuple[float, ...]
-) -> NDArray[np.int64]:
-    """Return for every shell the body of the data that most of its vertices lie at, -1 for none."""
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return for every shell the body of the data that most of its vertices lie at, -1 for none.
+
+    And pairs (n, 2) of bodies of a size of their own that have a shell in common.
+    """
     cells = surface.vertices / np.array(spacing) + 0.5  # on the lattice of cells, whose first lies beyond the grid
-    label = np.full(len(cells), -1, dtype=np.int32)
-    for corner in (np.floor(cells + 1e-6), np.ceil(cells - 1e-6)):
-        places = corner.astype(np.int32).clip(0, np.array(field.slots.shape) * BLOCK - 1)
-        here = np.empty(len(cells), dtype=np.int32)
-        bodies_kernels.label_cells(
-            places, field.slots, data.bits, data.blocks, data.starts, data.alone, data.names, here
-        )
-        label = np.where(label < 0, here, label)
+    place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BLOCK - 1)
+    label = np.empty(len(cells), dtype=np.int32)
+    bodies_kernels.label_cells(
+        place, field.slots, data.bits, data.blocks, data.starts, data.alone, data.names, REACH, label
+    )
     count = max(data.count, 1)
     known = label >= 0
     key, votes = np.unique(parts.names[known].astype(np.int64) * count + label[known], return_counts=True)
@@ -246,4 +266,5 @@ def _body_of(
     order = np.argsort(votes, kind="stable")  # the last to be written has most
     found = np.full(len(parts.volume), -1, dtype=np.int64)
     found[shell[order]] = body[order]
-    return found
+    other = (found[shell] != body) & (data.cells[body] >= SMALLEST) & (votes >= SMALLEST)
+    return found, np.stack([body[other], found[shell[other]]], axis=1)

@@ -184,12 +184,10 @@ def refine_blocks(
     """
     threads = thread_count(threads)
     mild, middle, strong = filtered_blocks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
-    low = strong.values.reshape(-1, CELLS)
-    in_threads(transfer_kernels.straighten, low, np.float32(STEEPEST), np.float32(SCALE), low, threads=threads)
-    unit = _unit(smoothing)
-    for field, gate_ in ((middle, OUTER), (mild, INNER)):
-        _blend(strong, field, gate_, unit, threads)
-    return strong
+    result, unit = replace(strong, values=_distance(strong.values, threads)), _unit(smoothing)
+    for milder, limits in ((middle, OUTER), (mild, INNER)):
+        _blend(result, milder.values, limits, unit, threads)
+    return result
 
 
 def phase(distance: Field) -> Field:
@@ -304,18 +302,25 @@ def _unit(smoothing: Smoothing) -> float:
     return SCALE * smoothing.interface / STEEPNESS
 
 
-def _blend(low: SparseField, high: SparseField, gate_: Gate, unit: float, threads: int) -> None:
-    """Do in place what `gate` does, with averages from coarse cells; `low` is a distance, `high` a phase."""
-    coarse = tuple(count // gate_.size for count in BLOCK)
-    sums = np.empty((len(low.values), kernels.SUMS, *coarse), dtype=np.float32)
-    below, above = low.values.reshape(-1, CELLS), high.values.reshape(-1, CELLS)
-    most, scale = np.float32(STEEPEST), np.float32(SCALE)
-    in_threads(kernels.collect, below, above, most, scale, np.float32(unit), gate_.size, sums, threads=threads)
+def _distance(values: Field, threads: int) -> Field:
+    """Return the distance for phi in blocks."""
+    out = np.empty_like(values)
+    blocks, straight = values.reshape(-1, CELLS), out.reshape(-1, CELLS)
+    in_threads(transfer_kernels.straighten, blocks, np.float32(STEEPEST), np.float32(SCALE), straight, threads=threads)
+    return out
+
+
+def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: int) -> None:
+    """Do in place what `gate` does, with averages from coarse cells; `phase` is the milder field."""
+    size = limits.size
+    sums = np.empty((len(low.values), kernels.SUMS, *(count // size for count in BLOCK)), dtype=np.float32)
+    below, above = low.values.reshape(-1, CELLS), _distance(phase, threads).reshape(-1, CELLS)
+    in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
     blurred = np.empty_like(sums)
     in_threads(kernels.blur, sums, low.slots, low.where, blurred, threads=threads)
     in_threads(
-        kernels.blend, below, above, blurred, low.slots, low.where, low.shape, np.float32(gate_.signed),
-        np.float32(gate_.unsigned), np.float32(TINY), threads=threads,
+        kernels.blend, below, above, blurred, low.slots, low.where, low.shape, np.float32(limits.signed),
+        np.float32(limits.unsigned), np.float32(TINY), threads=threads,
     )  # fmt: skip
 
 
@@ -336,7 +341,7 @@ def filtered_reference(
 
 
 def gate(
-    low: NDArray[np.float64], high: NDArray[np.float64], weight: NDArray[np.float64], gate_: Gate
+    low: NDArray[np.float64], high: NDArray[np.float64], weight: NDArray[np.float64], limits: Gate
 ) -> NDArray[np.float64]:
     """Return low + g r, r = high - low, with g near 1 where the milder field `high` is to be believed.
 
@@ -351,17 +356,17 @@ def gate(
         Distances from the surface, cells.
     weight : float64
         1 - phi² of the milder field.
-    gate_ : Gate
+    limits : Gate
     """
     r = high - low
 
     def mean(values: NDArray[np.float64]) -> NDArray[np.float64]:
-        averaged: NDArray[np.float64] = gaussian_filter(values, gate_.size, mode="nearest", truncate=3)
+        averaged: NDArray[np.float64] = gaussian_filter(values, limits.size, mode="nearest", truncate=3)
         return averaged
 
     whole = mean(weight) + TINY
     bias, spread = (mean(weight * r) / whole) ** 4, (mean(weight * r**2) / whole) ** 4
-    share = np.maximum(bias / (bias + gate_.signed**4), spread / (spread + gate_.unsigned**8))
+    share = np.maximum(bias / (bias + limits.signed**4), spread / (spread + limits.unsigned**8))
     blended: NDArray[np.float64] = low + share * r
     return blended
 

@@ -81,28 +81,15 @@ def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads
 
 
 @njit(nogil=True, cache=True)
-def collect(low, high, most, scale, unit, size, sums, thread, threads):  # pragma: no cover
-    """Set the means of w, w r and w r² over coarse cells; turn `high` from phase into distance, as `low` is.
-
-    w is 1 - phase² of `high`, and r the distance of `high` less that of `low`, times `unit`.
-    """
+def collect(low, high, phase, unit, size, sums, thread, threads):  # pragma: no cover
+    """Set the means over coarse cells of w = 1 - phase², w r and w r², r = unit (high - low)."""
     n1, n2 = B1 // size, B2 // size
     share = np.float32(1 / size**3)
     weight, moment = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.float32)
     for s in range(thread, len(low), threads):
-        own, other = high[s], low[s]
         for t in range(CELLS):
-            weight[t] = max(np.float32(1) - own[t] * own[t], np.float32(0)) * share
-        for t in range(CELLS):
-            v = own[t]
-            if v >= most:
-                own[t] = 1
-            elif v <= -most:
-                own[t] = -1
-            else:
-                own[t] = np.float32(0.5) * np.log((1 + v) / (1 - v)) / scale
-        for t in range(CELLS):
-            moment[t] = (own[t] - other[t]) * unit
+            weight[t] = max(np.float32(1) - phase[s, t] * phase[s, t], np.float32(0)) * share
+            moment[t] = (high[s, t] - low[s, t]) * unit
         out = sums[s].reshape(SUMS, -1)
         out[:] = 0
         for i in range(B0):

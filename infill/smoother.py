@@ -274,7 +274,8 @@ def _smoothed(
     bounds = surface.bounds
     report = {
         "version": __version__, **source, "grid": list(data.values.shape), "spacing": list(size),
-        "space": data.space, "steps": smoothing.steps, "fidelity": 0.0 if refine else smoothing.fidelity, "refined": refine,
+        "space": data.space, "steps": smoothing.steps, "refined": refine,
+        "fidelity": 0.0 if refine else smoothing.fidelity,
         "interface": smoothing.interface, "alpha": smoothing.alpha, "despeckled": specks,
         "triangles": len(surface.faces), "closed": surface.closed, "volume": surface.volume, "area": surface.area,
         "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,

@@ -207,11 +207,12 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     moved = report["distance"]
     own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its bodies" if level["bodies"] > 1 else ""
+    how = ", refined" if report["refined"] else f", fidelity {report['fidelity']:g}"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
         "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+.4%} of the data, "
         f"at level {level['common']:.3f}{own}",
-        "smoothing": f"{report['steps']} steps{', refined' if report['refined'] else ''}, fidelity {report['fidelity']:g}, "
+        "smoothing": f"{report['steps']} steps{how}, "
         f"{' x '.join(map(str, report['grid']))} voxels of {' x '.join(f'{h:.4g}' for h in report['spacing'])} mm",
         "bodies": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
