@@ -185,7 +185,10 @@ def ours(f: Field, steps: int, level: str, *, refine: bool = False) -> Surface:
     else:
         solid = bodies(field, data_bits(field))
         straight = field if refine else straightened(field)
-        surface = at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64)).surface
+        found = at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64))
+        surface = extract_blocks(
+            straight, spacing=cells, level=found.common
+        )  # specks of noise get no level of their own
     return Surface(vertices=surface.vertices - half, faces=surface.faces)
 
 

@@ -250,8 +250,11 @@ def mark_thick(slots, where, bits, blocks, starts, alone, names, thick):  # prag
 @njit(cache=True)
 def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts, other_names):  # pragma: no cover
     """Return (body, other body, cells) for every stretch of a row that lies in both."""
-    room = 1024
-    found = np.empty((room, 3), dtype=np.int64)
+    many = 0
+    for s in range(len(bits)):
+        for row in range(ROWS):
+            many += ones(beginnings(bits[s, row] & other_bits[s, row]))
+    found = np.empty((many, 3), dtype=np.int64)
     many = 0
     for s in range(len(bits)):
         for row in range(ROWS):
@@ -260,15 +263,11 @@ def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts
             while left:
                 k = lowest(left)
                 left &= left - 1
-                if many == room:
-                    wider = np.empty((2 * room, 3), dtype=np.int64)
-                    wider[:room] = found
-                    found, room = wider, 2 * room
                 found[many, 0] = names[run_at(bits, blocks, starts, s, row, k)]
                 found[many, 1] = other_names[run_at(other_bits, other_blocks, other_starts, s, row, k)]
                 found[many, 2] = run_length(both, k)
                 many += 1
-    return found[:many].copy()
+    return found
 
 
 @njit(cache=True)

@@ -15,6 +15,7 @@ from infill.inplace import smooth_inplace
 Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
 Kernel = Callable[..., NDArray[np.floating]]
 COMPILED_AXES = 3
+WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, as long as compiling takes
 
 
 def _dense(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
@@ -65,7 +66,8 @@ def smooth(
         "numpy" is the specification in float64; the others are float32, the same to 2e-5.
         "inplace" needs no compiler. "dense" and "sparse" take up to three axes; they are compiled when
         first used, some seconds, and kept on disk. "sparse" leaves out what cannot move, and gives the
-        bits of "dense". "auto" takes "inplace".
+        bits of "dense". "auto" takes "inplace" for two axes and for little work; in three axes, for more than
+        2e8 cells times steps, "sparse" for whole numbers and booleans and "dense" for grey data.
 
     Returns
     -------
@@ -96,5 +98,12 @@ def smooth(
             raise ParameterError(f"{name} has the shape {other.shape}, the data {field.shape}; give equal shapes")
     if domain is not None and domain.dtype != bool:
         raise ParameterError(f"the mask is of type {domain.dtype}; give booleans")
-    kernel = KERNELS["inplace" if method == "auto" else method]
+    kernel = KERNELS[_chosen(np.asarray(f), smoothing) if method == "auto" else method]
     return kernel(field, smoothing, spacing=spacing, initial=start, mask=domain)
+
+
+def _chosen(f: NDArray[np.generic], smoothing: Smoothing) -> str:
+    """Return the kernel that "auto" stands for."""
+    if f.ndim != COMPILED_AXES or f.size * smoothing.steps < WORTH_COMPILING:
+        return "inplace"
+    return "dense" if f.dtype.kind == "f" else "sparse"

@@ -201,7 +201,8 @@ def write(
     """Write vertices in cells from the first cell's centre, triangles, and what there is to know of undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
-        if (offsets[n + 1] == offsets[n]).all():
+        done, todo = offsets[n], offsets[n + 1]
+        if done[0] == todo[0] and done[1] == todo[1] and done[2] == todo[2]:
             continue
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)

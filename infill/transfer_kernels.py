@@ -30,15 +30,20 @@ def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
                     low[k] = min(low[k], v)
                     high[k] = max(high[k], v)
                     zero[k] |= v == 0
-        zeros[p, q] = zero.any()
+        for k in range(1, n2):
+            zero[0] |= zero[k]
+        zeros[p, q] = zero[0] != 0
         for r in range(m2):
             first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+            least, most = np.int8(127), np.int8(-128)
+            for k in range(first, last):
+                least, most = min(least, low[k]), max(most, high[k])
             if not some or first >= last:
                 state[p, q, r] = OUTER
-            elif low[first:last].min() > 0:
+            elif least > 0:
                 state[p, q, r] = 1
             else:
-                state[p, q, r] = -1 if high[first:last].max() <= 0 else MIXED
+                state[p, q, r] = -1 if most <= 0 else MIXED
 
 
 @njit(nogil=True, cache=True)
@@ -59,12 +64,15 @@ def fill_grey_states(data, state, thread, threads):  # pragma: no cover
                     high[k] = max(high[k], line[k])
         for r in range(m2):
             first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
+            least, most = np.float32(np.inf), np.float32(-np.inf)
+            for k in range(first, last):
+                least, most = min(least, low[k]), max(most, high[k])
             if not some or first >= last:
                 state[p, q, r] = OUTER
-            elif low[first:last].min() == 1:
+            elif least == 1:
                 state[p, q, r] = 1
             else:
-                state[p, q, r] = -1 if high[first:last].max() == -1 else MIXED
+                state[p, q, r] = -1 if most == -1 else MIXED
 
 
 @njit(nogil=True, cache=True)
