@@ -36,6 +36,10 @@ check: lint types test
 
 bench: .venv/test
 	@$(BIN)/python -m benchmarks.make
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[bench]'
+	@$(BIN)/python -m benchmarks.smooth_speed
+	@$(BIN)/python -m benchmarks.smooth_quality
+	@$(BIN)/python -m benchmarks.smooth_files
 
 # The pictures of README and docs, made by the program itself.
 pictures: .venv/test

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
-from infill import make
+from infill import make, smooth_volume
 from infill.preview import save_preview
 from infill.render import render
 
@@ -26,6 +27,17 @@ def main() -> None:
         block = make("honeycomb", size=14, height=3, angle=0.12, stamp=stamp)
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
+    save_preview(smooth_volume(gyroid(), spacing=0.5), FOLDER / "smooth.png")
+
+
+def gyroid() -> np.ndarray:
+    """Return the voxels of a ball of gyroid sheet."""
+    x, y, z = np.indices((90, 90, 90)) - 44.5
+    wave = 2 * np.pi / 40
+    sheet = (
+        np.sin(wave * x) * np.cos(wave * y) + np.sin(wave * y) * np.cos(wave * z) + np.sin(wave * z) * np.cos(wave * x)
+    )
+    return (np.abs(sheet) < 0.45) & (x**2 + y**2 + z**2 < 40**2)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,12 @@ import pytest
 from infill import check
 
 FOLDER = Path(__file__).resolve().parents[1] / "examples"
-GOLDEN = {"01_make": 1022.024, "02_own_pattern": 25, "03_before_the_slicer": 0.198714}
+GOLDEN = {
+    "01_make": 1022.024,
+    "02_own_pattern": 25,
+    "03_before_the_slicer": 0.198714,
+    "04_smooth_a_scan": 15430.8,
+}
 
 
 @pytest.mark.parametrize("name", GOLDEN)
