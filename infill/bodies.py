@@ -129,30 +129,45 @@ def _bits(field: SparseField, values: NDArray[Any], threads: int | None) -> NDAr
 
 def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
     """Return the cells that are the lower corner of 2 x 2 x 2 solid ones: what is more than one cell thick."""
-    return _meet_or_spread(field, bits, 1, threads)
+    return _meet_or_spread(field, bits, True, 1, threads)
 
 
 def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
     """Return the cells of those 2 x 2 x 2 cells."""
-    return _meet_or_spread(field, core, -1, threads)
+    return _meet_or_spread(field, core, False, -1, threads)
 
 
-def _meet_or_spread(field: SparseField, bits: NDArray[np.uint16], way: int, threads: int | None) -> NDArray[np.uint16]:
+def grown(
+    field: SparseField, bits: NDArray[np.uint16], cells: int, *, threads: int | None = None
+) -> NDArray[np.uint16]:
+    """Return the cells within so many of those that are set, along each axis."""
+    for _ in range(cells):
+        bits = _meet_or_spread(field, _meet_or_spread(field, bits, False, -1, threads), False, 1, threads)
+    return bits
+
+
+def _meet_or_spread(
+    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None
+) -> NDArray[np.uint16]:
     out = np.empty_like(bits)
     in_threads(
-        kernels.meet_or_spread, field.slots, field.where, bits, SOLID_BLOCK, way, out, threads=thread_count(threads)
-    )
+        kernels.meet_or_spread, field.slots, field.where, bits, SOLID_BLOCK, meet, way, out,
+        threads=thread_count(threads),
+    )  # fmt: skip
     return out
 
 
-def bodies(field: SparseField, bits: NDArray[np.uint16], *, void: bool = False) -> Bodies:
-    """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first."""
+def bodies(field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True) -> Bodies:
+    """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first.
+
+    Without `whole`, only the cells in `bits` count, not the blocks that are solid throughout.
+    """
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
     if void:
         bits = ~bits
         single = (field.slots < 0) & (field.slots != SOLID_BLOCK)
     else:
-        single = field.slots == SOLID_BLOCK
+        single = (field.slots == SOLID_BLOCK) & whole
     blocks = np.empty(len(bits), dtype=np.int64)
     starts = np.empty((len(bits), ROWS), dtype=np.int16)
     runs = kernels.number_runs(bits, blocks, starts)

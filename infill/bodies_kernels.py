@@ -349,12 +349,12 @@ def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def meet_or_spread(slots, where, bits, kind, way, out, thread, threads):  # pragma: no cover
-    """Set cells with all of the 2 x 2 x 2 from them on (`way` 1), or with any of those up to them (`way` -1)."""
+def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):  # pragma: no cover
+    """Set cells all (`meet`) or any of whose 2 x 2 x 2 are set: those from them on (`way` 1), or up to them (-1)."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for row in range(ROWS):
-            found = np.int64(FULL) if way > 0 else np.int64(0)
+            found = np.int64(FULL) if meet else np.int64(0)
             for di in range(2):
                 for dj in range(2):
                     i, j, a, b = row // B1 + way * di, row % B1 + way * dj, p, q
@@ -364,10 +364,11 @@ def meet_or_spread(slots, where, bits, kind, way, out, thread, threads):  # prag
                         b, j = b + way, j - way * B1
                     own = any_row(slots, a, b, r, i * B1 + j, bits, kind)
                     other = any_row(slots, a, b, r + way, i * B1 + j, bits, kind)
-                    if way > 0:
-                        found &= own & (own >> 1 | (other & 1) << (B2 - 1))
+                    beside = own >> 1 | (other & 1) << (B2 - 1) if way > 0 else own << 1 | other >> (B2 - 1)
+                    if meet:
+                        found &= own & beside
                     else:
-                        found |= own | own << 1 | other >> (B2 - 1)
+                        found |= own | beside
             out[s, row] = np.uint16(found & FULL)
 
 

@@ -11,7 +11,7 @@ from infill.surface import Surface
 Floats = NDArray[np.float64]
 
 NEAREST = 6  # samples whose triangles are looked at for every point
-SAMPLES = 200_000  # of a surface, about, beside one for each triangle
+FEW, PER_POINT, MOST = 10_000, 10, 200_000  # samples of a surface, about, beside one for each triangle
 
 
 def distances(points: NDArray[np.floating], surface: Surface) -> Floats:
@@ -30,7 +30,7 @@ def distances(points: NDArray[np.floating], surface: Surface) -> Floats:
     from scipy.spatial import cKDTree
 
     corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
-    sample, face = _samples(corners)
+    sample, face = _samples(corners, min(MOST, FEW + PER_POINT * len(points)))
     _, near = cKDTree(sample).query(points, k=min(NEAREST, len(sample)), workers=-1)
     near = near.reshape(len(points), -1)
     best = np.full(len(points), np.inf)
@@ -40,8 +40,8 @@ def distances(points: NDArray[np.floating], surface: Surface) -> Floats:
     return found
 
 
-def _samples(corners: Floats) -> tuple[Floats, NDArray[np.int64]]:
-    """Return points all over the triangles, and their triangles: a needle has a row of them along its longest side."""
+def _samples(corners: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
+    """Return points all over the triangles, and their triangles; a needle has a row of them along its longest side."""
     sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     order = (sides.argmax(axis=1)[:, None] + np.arange(3)) % 3
     corners = np.take_along_axis(corners, order[:, :, None], axis=1)  # the longest side comes first
@@ -49,7 +49,7 @@ def _samples(corners: Floats) -> tuple[Floats, NDArray[np.int64]]:
     longest = sides.max(axis=1)
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1)  # twice of it
     height = np.divide(area, longest, out=np.zeros_like(area), where=longest > 0)
-    pitch = max(float(area.sum() / SAMPLES) ** 0.5, float(longest.sum()) / SAMPLES, 1e-300)
+    pitch = max(float(area.sum() / count) ** 0.5, float(longest.sum()) / count, 1e-300)
     along, across = (np.maximum(1, np.ceil(each / pitch)).astype(np.int64) for each in (longest, height))
     face, place = next(spread(along * across))
     u, v = (place % along[face] + 0.5) / along[face], (place // along[face] + 0.5) / across[face]

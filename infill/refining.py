@@ -15,8 +15,12 @@ shrinkage - and still damps the short ones, the staircase:
 the mildest, which keeps thin walls, the middle one, which keeps edges, and the strong one, for smooth surfaces.
 Each becomes a distance from the surface, and two gates choose between them: see `gate`.
 
-This is the package's own extension of the scheme of Wang et al. 2020. It trusts the data: noise that the plain
-scheme removes is structure to the gates, and is kept.
+What to expect, cells rms from the truth, after plain smoothing to the volume and refined: a box of 120 x 84 x 60
+with edges of radius 8: 0.165, 0.031; a sphere of radius 80: 0.029, 0.021, but one of radius 26: 0.030, 0.043, for an
+even shift is all that the plain scheme does to it, and the level takes that back. Walls 3 cells thick stay whole
+after 30 steps. Noise in the skin goes as it does in plain smoothing; specks that plain smoothing wipes out stay.
+
+This is the package's own extension of the scheme of Wang et al., Computer-Aided Design 120 (2020) 102804.
 """
 
 from __future__ import annotations

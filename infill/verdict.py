@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -9,12 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.bodies import Bodies, bodies, cores, data_bits, fate, opened, solid_bits
+from infill.bodies import Bodies, bodies, cores, data_bits, fate, grown, opened, solid_bits
 from infill.levels import Levelled, phase_level
 from infill.sparse_surface import euler_number_of_bits
 from infill.thickness import thinnest_walls
 
 WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
+ROUNDED = 2  # cells, and as many as the smoothing blurs: how far edges and corners may draw back
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +42,7 @@ def verdict(
     before: Bodies,
     targets: NDArray[np.float64],
     level: float | str,
+    steps: int,
     size: tuple[float, ...],
     threads: int | None,
 ) -> dict[str, Any]:
@@ -55,6 +58,7 @@ def verdict(
     of_voids = fate(thick_voids, bodies(field, now, void=True))
     was = _counts(before, voids, euler_number_of_bits(field, raw, threads=threads))
     sturdy = _counts(bodies(field, thick), thick_voids, euler_number_of_bits(field, thick, threads=threads))
+    lost = thick & ~grown(field, now, ROUNDED + math.ceil(math.sqrt(2 * steps / 7)), threads=threads)
     shells = found.shells
     held = Counts(
         components=shells.components, cavities=shells.cavities, tunnels=shells.tunnels,
@@ -64,7 +68,7 @@ def verdict(
         "vanished": int(before.thick[of_bodies.vanished].sum()),
         "vanished_thin": int((~before.thick[of_bodies.vanished]).sum()),
         "broken": int((walls.cells[of_walls.broken] >= WALL).sum()),
-        "walls_lost": int((walls.cells[of_walls.vanished] >= WALL).sum()),
+        "walls_lost": int((bodies(field, lost, whole=False).cells >= WALL).sum()),
         "walls_pierced": max(0, held.tunnels - max(was.tunnels, sturdy.tunnels)),
         "voids_joined": len(of_voids.joined),
         "fused": len(of_bodies.joined),

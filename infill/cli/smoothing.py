@@ -99,7 +99,7 @@ def smooth(
         bool,
         typer.Option(
             "--refine",
-            help="Keep edges, curvature and thin walls better: about 4 times the work; for clean data, not for noise.",
+            help="Keep edges, curvature and thin walls better: twice the time; for clean data, not for noise.",
             rich_help_panel=SURFACE,
         ),
     ] = False,
