@@ -182,9 +182,9 @@ def refine_blocks(
     Notes
     -----
     The averages of the gates are taken on a coarse lattice within the blocks, with the variance of the Gaussians of
-    `refine_reference`; so results differ from it by some thousandths of a cell, and just as much between one
-    placement of the data on the lattice and another. While it works, blocks take about three times the memory of
-    `infill.sparse.smooth_blocks`.
+    `refine_reference`; so results differ from it by about 0.01 cells rms where the data are rough, and half
+    as much between one placement of the data on the lattice and another. While it works, blocks take about three
+    times the memory of `infill.sparse.smooth_blocks`.
     """
     threads = thread_count(threads)
     mild, middle, strong = filtered_blocks(f, smoothing, spacing=spacing, threads=threads, progress=progress)

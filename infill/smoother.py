@@ -43,7 +43,7 @@ MARGIN = 8  # cells of void around a mesh or points, so that the edge of the gri
 BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
 COMPARED = 20_000  # vertices of which the distance is measured
-ADVICE = "use finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
+ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
 
 class Options(TypedDict, total=False):
