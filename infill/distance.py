@@ -41,7 +41,7 @@ def distances(points: NDArray[np.floating], surface: Surface) -> Floats:
 
 
 def _samples(corners: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
-    """Return points all over the triangles, and their triangles; a needle has a row of them along its longest side."""
+    """Return points all over the triangles, and their triangles; a needle has one row of them, on its longest side."""
     sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
     order = (sides.argmax(axis=1)[:, None] + np.arange(3)) % 3
     corners = np.take_along_axis(corners, order[:, :, None], axis=1)  # the longest side comes first
@@ -52,7 +52,7 @@ def _samples(corners: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
     pitch = max(float(area.sum() / count) ** 0.5, float(longest.sum()) / count, 1e-300)
     along, across = (np.maximum(1, np.ceil(each / pitch)).astype(np.int64) for each in (longest, height))
     face, place = next(spread(along * across))
-    u, v = (place % along[face] + 0.5) / along[face], (place // along[face] + 0.5) / across[face]
+    u, v = (place % along[face] + 0.5) / along[face], place // along[face] / across[face]
     u *= 1 - v  # a row of points parallel to the longest side is as long as the triangle is wide there
     return a[face] + u[:, None] * (b - a)[face] + v[:, None] * (c - a)[face], face
 

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from infill.checks import positive, whole
+from infill.distance import distances
 from infill.errors import GeometryError
 from infill.surface import Surface
 
 FEWEST = 4
-HALVINGS = 12
+HALVINGS = 8
+COMPARED = 20_000  # vertices of which the distance is measured
+
+Simplifier = Callable[[float], Surface | None]
 
 
 def simplified(surface: Surface, *, tolerance: float | None = None, triangles: int | None = None) -> Surface:
@@ -19,9 +25,9 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
     ----------
     surface : Surface, closed, mm
     tolerance : float, optional
-        mm by which the surface may move, about.
+        mm by which the surface may move: no vertex lies further from the result, as far as is looked.
     triangles : int, optional
-        Most triangles to have; the smallest tolerance that does it is looked for.
+        Most triangles to have.
 
     Raises
     ------
@@ -30,8 +36,63 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
 
     Notes
     -----
-    Edges are collapsed by the manifold library (Apache 2.0), which keeps a closed mesh closed.
+    Edges are collapsed by quadric errors (Garland and Heckbert 1997, fast-simplification, MIT), which keep shape and
+    volume best. Where that opens the mesh or changes its Euler number, the manifold library (Apache 2.0)
+    collapses them, which cannot.
     """
+    near = None if tolerance is None else positive("tolerance", tolerance, "mm")
+    few = None if triangles is None else whole("the number of triangles", triangles, FEWEST)
+    some = surface.vertices[:: max(1, len(surface.vertices) // COMPARED)]
+
+    def fits(found: Surface | None) -> bool:
+        return found is not None and (near is None or bool(distances(some, found).max() <= near))
+
+    found = _by_quadrics(surface, few, near, fits)
+    if found is None or (near is not None and len(found.faces) > len(surface.faces) / 2):
+        other = _by_collapse(surface, few, near, fits)
+        if other is not None and (found is None or len(other.faces) < len(found.faces)):
+            found = other
+    if found is None:
+        raise GeometryError(
+            f"the surface has {len(surface.faces):,} triangles and cannot have so few without opening; allow more"
+        )
+    return found
+
+
+def _by_quadrics(
+    surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
+) -> Surface | None:
+    """Return the surface with few triangles, or as few as fit; None if it would not stay closed."""
+    import fast_simplification
+
+    vertices, faces = np.asarray(surface.vertices, dtype=np.float64), np.asarray(surface.faces, dtype=np.int32)
+
+    def at(count: float) -> Surface | None:
+        points, corners = fast_simplification.simplify(vertices, faces, target_count=int(count))
+        found = Surface(vertices=np.asarray(points, dtype=np.float64), faces=np.asarray(corners))
+        whole_still = found.closed and found.euler_number == surface.euler_number and found.volume > 0
+        return found if whole_still else None
+
+    if near is None:
+        found = surface if few is None or few >= len(faces) else at(few)
+        return found if few is None or found is None or len(found.faces) <= few else None
+    low, high, best = float(FEWEST), float(len(faces)), None
+    for _ in range(HALVINGS):
+        middle = float(np.sqrt(low * high))
+        found = at(middle)
+        if found is not None and fits(found):
+            best, high = found, middle
+        else:
+            low = middle
+    if few is not None and best is not None and len(best.faces) > few:
+        best = at(few)
+    return best
+
+
+def _by_collapse(
+    surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
+) -> Surface | None:
+    """Return the surface with short edges collapsed: by the largest tolerance that fits, or the least that does."""
     import manifold3d
 
     # In 64 bits: the mesh is closed by its indices, and vertices that are equal in 32 bits would be merged.
@@ -43,35 +104,23 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
     )
     if solid.status() != manifold3d.Error.NoError:
         raise GeometryError(f"the surface cannot be simplified ({solid.status().name}); leave it as it is")
-    if tolerance is not None:
-        found = solid.simplify(positive("tolerance", tolerance, "mm"))
-    else:
-        found = solid
-    if triangles is not None and found.num_tri() > whole("the number of triangles", triangles, FEWEST):
-        found = _few(solid, triangles, float(np.ptp(surface.vertices, axis=0).max()), tolerance or 0.0)
-    if found.num_tri() == 0:
-        raise GeometryError("nothing would be left of the surface; use a smaller tolerance or more triangles")
-    mesh = found.to_mesh64()
-    return Surface(vertices=mesh.vert_properties[:, :3], faces=mesh.tri_verts.astype(np.int64))
 
+    def at(tolerance: float) -> Surface | None:
+        mesh = solid.simplify(tolerance).to_mesh64()
+        if len(mesh.tri_verts) == 0:
+            return None
+        return Surface(vertices=mesh.vert_properties[:, :3], faces=mesh.tri_verts.astype(np.int64))
 
-def _few(solid, triangles: int, extent: float, least: float):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN202
-    """Return the solid at about the smallest tolerance at which it has no more triangles than allowed."""
-    low, high = max(least, extent * 1e-7), extent / 4
-    best = None
+    extent = float(np.ptp(surface.vertices, axis=0).max())
+    low, high, best = extent * 1e-7, near or extent / 4, None
     for _ in range(HALVINGS):
         middle = float(np.sqrt(low * high))
-        found = solid.simplify(middle)
-        if found.num_tri() > triangles:
-            low = middle
-        elif found.num_tri() == 0:
-            high = middle
-        else:
-            best, high = found, middle
-            if found.num_tri() > 0.95 * triangles:
-                break
-    if best is None:
-        raise GeometryError(
-            f"the surface has {solid.num_tri():,} triangles and cannot have as few as {triangles:,}; allow more"
-        )
+        found = at(middle)
+        small = found is not None and (few is None or len(found.faces) <= few)
+        if small and (few is not None or fits(found)):
+            best = found
+        if few is not None:  # the least tolerance that makes so few
+            low, high = (low, middle) if small or found is None else (middle, high)
+        else:  # the largest that fits
+            low, high = (middle, high) if fits(found) else (low, middle)
     return best

@@ -485,7 +485,7 @@ def test_simplified_meshes_stay_closed_and_close(options: dict[str, Any]) -> Non
     # A hundred flat triangles for 26 cells of roundness cut its corners off; from a thousand on little is lost.
     assert abs(report["simplified"]["volume_change"]) < (0.03 if options.get("max_triangles", 1000) >= 1000 else 0.3)
     if list(options) == ["tolerance"]:
-        assert report["simplified"]["distance"]["max"] < 3 * options["tolerance"]  # collapses add up
+        assert report["simplified"]["distance"]["max"] < 5 * options["tolerance"]  # collapses add up
     assert result.mesh.euler_number == full.mesh.euler_number
 
 
