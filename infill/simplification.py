@@ -48,10 +48,8 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
         return found is not None and (near is None or bool(distances(some, found).max() <= near))
 
     found = _by_quadrics(surface, few, near, fits)
-    if found is None or (near is not None and len(found.faces) > len(surface.faces) / 2):
-        other = _by_collapse(surface, few, near, fits)
-        if other is not None and (found is None or len(other.faces) < len(found.faces)):
-            found = other
+    if found is None:
+        found = _by_collapse(surface, few, near, fits)
     if found is None:
         raise GeometryError(
             f"the surface has {len(surface.faces):,} triangles and cannot have so few without opening; allow more"
