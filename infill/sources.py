@@ -5,20 +5,23 @@ from __future__ import annotations
 import os
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal, Unpack
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.checks import whole
 from infill.errors import FormatError, ParameterError
 from infill.grid import spacing_of
-from infill.pipeline import Result
 from infill.point_files import read_points
 from infill.reading import READERS, read_mesh
 from infill.scans import read_volume
-from infill.smoother import Options, smooth_mesh, smooth_points, smooth_volume
 from infill.surface import Surface
 from infill.volume import Volume
+
+if TYPE_CHECKING:
+    from infill.pipeline import Result
+    from infill.smoother import Options
 
 Kind = Literal["mesh", "points", "volume"]
 Source = Surface | Volume | NDArray[np.float64]
@@ -102,6 +105,8 @@ def smooth_source(
     **options: Unpack[Options],
 ) -> Result:
     """Smooth what `read_source` returned; raise ParameterError for what does not fit its kind."""
+    from infill.smoother import smooth_mesh, smooth_points, smooth_volume
+
     kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
     given = {
         "resolution": resolution is not None, "voxel": voxel is not None, "shell": shell is not None,
@@ -110,7 +115,8 @@ def smooth_source(
     }  # fmt: skip
     wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
     if wrong:
-        raise ParameterError(f"{wrong[0]} does not go with {kind}; leave it out")
+        fits = [each for each in KINDS if wrong[0] in FITTING[each]]
+        raise ParameterError(f"{wrong[0]} is for {' and '.join(fits)}, and the input is taken for {kind}; leave it out")
     if isinstance(source, Volume):
         ways = [name for name in ("threshold", "range", "otsu") if given[name]]
         if len(ways) > 1:
@@ -120,7 +126,8 @@ def smooth_source(
     if isinstance(source, Surface):
         return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
     if voxel is None:
-        voxel = float(np.ptp(source, axis=0).max()) / (RESOLUTION if resolution is None else resolution)
+        longest = float(np.ptp(source, axis=0).max())
+        voxel = longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
     elif resolution is not None:
         raise ParameterError("both voxel and resolution are given; give one of them")
     return smooth_points(source, voxel=voxel, shell=shell, **options)
@@ -149,6 +156,8 @@ def _axes_of_npy(path: Path) -> int | None:
 
 
 def _ply_has_faces(path: Path) -> bool:
+    if not path.is_file():
+        raise FormatError(f"there is no file {path}; check the name")
     try:
         with path.open("rb") as file:
             head = file.read(65536).split(b"end_header")[0]

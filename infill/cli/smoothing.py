@@ -159,8 +159,6 @@ def smooth(
     check_targets(filter(None, (*outputs, preview)), overwrite=force)
     with progress_bar(shown=not quiet) as progress:
         from infill.allen_cahn import Smoothing
-        from infill.compiling import told_of_compiling
-        from infill.smoother import phase_volume
         from infill.sources import read_source, smooth_source
 
         if progress is not None:
@@ -169,6 +167,9 @@ def smooth(
             source, kind=kind, units=units, array=array, series=series,
             spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
         )  # fmt: skip
+        from infill.compiling import told_of_compiling
+        from infill.smoother import phase_volume
+
         waiting = "compiling, the first time on this machine only: about 15 s"
         with told_of_compiling(lambda: None if quiet else say(waiting)):
             result = smooth_source(
