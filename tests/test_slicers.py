@@ -14,7 +14,7 @@ import pytest
 import slicers
 import trimesh
 
-from infill import Result, make
+from infill import Result, make, smooth_volume
 
 DESIGNS = ["honeycomb", "zigzag", "concentric-heart"]
 READ = 1e-3  # PrusaSlicer adds up 200,000 tetrahedra in float32
@@ -110,3 +110,18 @@ def test_a_gap_between_layers_is_a_message(slice_mesh: Slicer, tmp_path: Path) -
     assert "empty" in " ".join(sliced["messages"]).lower()
     if slice_mesh is slicers.prusa_slice:
         assert sliced["layers"] < round(6 / slicers.LAYER_HEIGHT)
+
+
+@needs_prusa
+@pytest.mark.parametrize("refine", [False, True])
+def test_a_slicer_reads_a_smoothed_scan_without_repair(refine: bool, tmp_path: Path) -> None:
+    """A gyroid ball, specks and all: as many parts, closed, the same volume."""
+    x = (np.indices((60, 60, 60)) - 29.5) * 0.2
+    sheet = sum(np.sin(x[i]) * np.cos(x[(i + 1) % 3]) for i in range(3))
+    result = smooth_volume((np.abs(sheet) < 0.5) & ((x**2).sum(axis=0) < 30), spacing=0.5, refine=refine)
+    path = result.save(tmp_path / "mesh.stl")
+    info = slicers.prusa_info(path)
+    assert info["manifold"]
+    assert info["repairs"] == {}
+    assert info["parts"] == result.report["result"]["components"]
+    assert info["volume"] == pytest.approx(result.report["volume"], rel=READ)
