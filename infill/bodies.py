@@ -31,7 +31,7 @@ class Bodies:
     cells : (b,) int64
         Cells of each body.
     thick : (b,) bool
-        Whether a body holds 2 x 2 x 2 cells somewhere: it is more than one cell thick.
+        Whether a body holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
     bits, blocks, starts, alone, names
         How a cell finds its body: bits of every row, numbers of runs, of blocks of one value, and names of both.
     """
@@ -61,7 +61,7 @@ class Fate:
     broken : (n,) int
         Bodies of which two or more parts of at least `SMALLEST_PART` cells are left.
     joined : (n,) int
-        Bodies after that hold as much of two or more before, all of those more than one cell thick.
+        Bodies after that hold as much of two or more before; if thickness is known, of those more than one cell thick.
     appeared : (n,) int
         Bodies after that have no cell in common with any before.
     """
@@ -157,10 +157,13 @@ def _meet_or_spread(
     return out
 
 
-def bodies(field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True) -> Bodies:
+def bodies(
+    field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True, thickness: bool = False
+) -> Bodies:
     """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first.
 
-    Without `whole`, only the cells in `bits` count, not the blocks that are solid throughout.
+    Without `whole`, only the cells in `bits` count, not the blocks that are solid throughout. With `thickness`, it is
+    told which bodies are more than one cell thick.
     """
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
     if void:
@@ -183,11 +186,12 @@ def bodies(field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, 
     kernels.join_runs(field.slots, field.where, bits, blocks, starts, alone, parent, void)
     names = np.empty(len(parent), dtype=np.int32)
     count = kernels.name_sets(parent, names)
-    cells, thick = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=bool)
+    cells, thick = np.zeros(count, dtype=np.int64), np.zeros(count if thickness else 0, dtype=bool)
     kernels.count_cells(field.where, bits, blocks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], _cells_within(np.argwhere(single), field.shape))
-    kernels.mark_thick(field.slots, field.where, bits, blocks, starts, alone, names, thick)
-    thick[names[alone[single]]] = True
+    if thickness:
+        kernels.mark_thick(field.slots, field.where, bits, blocks, starts, alone, names, thick)
+        thick[names[alone[single]]] = True
     if not void:  # run 0 stands for what lies beyond the grid, which is no solid
         cells, thick, names = cells[1:], thick[1:], names - 1
     return Bodies(cells=cells, thick=thick, bits=bits, blocks=blocks, starts=starts, alone=alone, names=names)
@@ -214,7 +218,7 @@ def fate(before: Bodies, after: Bodies) -> Fate:
     shared = np.bincount(index, weights=every[:, 2], minlength=len(key))
     one, other = np.divmod(key, max(after.count, 1))
     parts = np.bincount(one[shared >= SMALLEST_PART], minlength=before.count)
-    held = (shared >= SMALLEST_PART) & before.thick[one]
+    held = (shared >= SMALLEST_PART) & (before.thick[one] if len(before.thick) else True)
     pieces = np.bincount(other[held], minlength=after.count)
     return Fate(
         vanished=np.flatnonzero(np.bincount(one, minlength=before.count) == 0),

@@ -44,7 +44,7 @@ def run_length(bits, k):  # pragma: no cover
     return ones(((gaps & -gaps) - 1) & FULL)
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def number_runs(bits, blocks, starts):  # pragma: no cover
     """Set where the runs of every block and every row of it begin to count; return how many there are."""
     count = np.int64(1)  # run 0 is what lies beyond the grid
@@ -76,7 +76,7 @@ def node_at(alone, slots, p, q, r, row, k, bits, blocks, starts):  # pragma: no 
     return np.int64(run_at(bits, blocks, starts, slot, row, k))
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # pragma: no cover
     """Join what touches by a face, or if `diagonal` by an edge, in all blocks that are kept."""
     m0, m1, m2 = slots.shape
@@ -151,7 +151,7 @@ def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # p
                                     join(parent, run_at(bits, blocks, starts, s, row, edge), other)
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def join_alone(alone, parent):  # pragma: no cover
     """Join blocks of one value that lie side by side."""
     m0, m1, m2 = alone.shape
@@ -169,7 +169,7 @@ def join_alone(alone, parent):  # pragma: no cover
                     join(parent, np.int64(own), np.int64(alone[p, q, r + 1]))
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def join_beyond(where, bits, blocks, starts, shape, parent):  # pragma: no cover
     """Join every run of void that reaches beyond the grid with what lies there."""
     for s in range(len(where)):
@@ -182,7 +182,7 @@ def join_beyond(where, bits, blocks, starts, shape, parent):  # pragma: no cover
                 join(parent, np.int64(0), np.int64(run_at(bits, blocks, starts, s, row, k)))
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def name_sets(parent, names):  # pragma: no cover
     """Give the sets the names 0, 1, 2 … in the order of their first members; return how many there are."""
     count = 0
@@ -196,7 +196,7 @@ def name_sets(parent, names):  # pragma: no cover
     return count
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def count_cells(where, bits, blocks, starts, shape, names, cells):  # pragma: no cover
     """Add the cells of every run within the grid to its body."""
     for s in range(len(where)):
@@ -209,7 +209,7 @@ def count_cells(where, bits, blocks, starts, shape, names, cells):  # pragma: no
                 cells[names[run_at(bits, blocks, starts, s, row, k)]] += run_length(own, k)
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def mark_thick(slots, where, bits, blocks, starts, alone, names, thick):  # pragma: no cover
     """Mark the bodies that hold two by two by two cells."""
     m0, m1, m2 = slots.shape
@@ -247,7 +247,7 @@ def mark_thick(slots, where, bits, blocks, starts, alone, names, thick):  # prag
                 thick[names[run_at(bits, blocks, starts, s, row, k)]] = True
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts, other_names):  # pragma: no cover
     """Return (body, other body, cells) for every stretch of a row that lies in both."""
     many = 0
@@ -270,7 +270,7 @@ def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts
     return found
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach):  # pragma: no cover
     """Return the body of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
     node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts)
@@ -291,7 +291,7 @@ def nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach):  # 
     return np.int32(-1)
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def label_cells(places, slots, bits, blocks, starts, alone, names, reach, labels):  # pragma: no cover
     """Set the body nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
     for n in range(len(places)):
@@ -299,7 +299,7 @@ def label_cells(places, slots, bits, blocks, starts, alone, names, reach, labels
         labels[n] = nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach)
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def join_faces(faces, parent):  # pragma: no cover
     """Join the corners of every triangle."""
     for f in range(len(faces)):
@@ -307,7 +307,7 @@ def join_faces(faces, parent):  # pragma: no cover
         join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 2]))
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def measure_shells(vertices, rate, faces, names, middle, volume, slope, corners, sides):  # pragma: no cover
     """Add up for every shell six times its volume and that volume's slope over the level, its vertices and faces."""
     for v in range(len(vertices)):
@@ -372,7 +372,7 @@ def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):  
             out[s, row] = np.uint16(found & FULL)
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
 def erase(values, where, bits, blocks, starts, names, marked, void):  # pragma: no cover
     """Make the cells of marked bodies void."""
     for s in range(len(where)):

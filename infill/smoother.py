@@ -42,7 +42,7 @@ LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
 BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
-COMPARED = 20_000  # vertices of which the distance is measured
+COMPARED = 5_000  # vertices of which the distance is measured
 ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
 
@@ -238,7 +238,7 @@ def _smoothed(
         smoothed = refine_blocks if refine else smooth_blocks
         field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
     with clock.stage("surface", 0.4):
-        before = bodies(field, data_bits(field, threads=threads))
+        before = bodies(field, data_bits(field, threads=threads), thickness=True)
         targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
@@ -254,7 +254,8 @@ def _smoothed(
                 at_level(field, before, spacing=size, level=cut, threads=threads),
                 common=height, levels=np.full(before.count, height),
             )  # fmt: skip
-        if not found.surface.closed:
+        closed = found.surface.closed
+        if not closed:
             raise GeometryError(f"the surface is not closed; {ADVICE}")
     with clock.stage("check", 0.6):
         report = verdict(found, before, targets, level, smoothing.steps, size, threads)
@@ -271,13 +272,14 @@ def _smoothed(
                 "volume_change": surface.volume / full.volume - 1,
                 "distance": _summary(distances(_some(full.vertices), surface)),
             }
+    closed = closed if surface is full else surface.closed
     bounds = surface.bounds
     report = {
         "version": __version__, **source, "grid": list(data.values.shape), "spacing": list(size),
         "space": data.space, "steps": smoothing.steps, "refined": refine,
         "fidelity": 0.0 if refine else smoothing.fidelity,
         "interface": smoothing.interface, "alpha": smoothing.alpha, "despeckled": specks,
-        "triangles": len(surface.faces), "closed": surface.closed, "volume": surface.volume, "area": surface.area,
+        "triangles": len(surface.faces), "closed": closed, "volume": surface.volume, "area": surface.area,
         "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,
     }  # fmt: skip
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import whole
-from infill.errors import FormatError, ParameterError
+from infill.errors import FormatError, GeometryError, ParameterError
 from infill.grid import spacing_of
 from infill.point_files import read_points
 from infill.reading import READERS, read_mesh
@@ -127,6 +127,8 @@ def smooth_source(
         return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
     if voxel is None:
         longest = float(np.ptp(source, axis=0).max())
+        if longest == 0:
+            raise GeometryError(f"all {len(source)} points are one point; give points all around the part")
         voxel = longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
     elif resolution is not None:
         raise ParameterError("both voxel and resolution are given; give one of them")

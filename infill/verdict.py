@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -14,6 +15,7 @@ from infill.bodies import Bodies, bodies, cores, data_bits, fate, grown, opened,
 from infill.levels import Levelled, phase_level
 from infill.sparse_surface import euler_number_of_bits
 from infill.thickness import thinnest_walls
+from infill.threads import thread_count
 
 WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
 ROUNDED = 2  # cells, and as many as the smoothing blurs: how far edges and corners may draw back
@@ -52,12 +54,17 @@ def verdict(
     raw, now = data_bits(field, threads=threads), solid_bits(field, threads=threads)
     core = cores(field, raw, threads=threads)
     thick = opened(field, core, threads=threads)
-    after, walls = bodies(field, now), bodies(field, core)
-    voids, thick_voids = bodies(field, raw, void=True), bodies(field, thick, void=True)
-    of_bodies, of_walls = fate(before, after), fate(walls, after)
-    of_voids = fate(thick_voids, bodies(field, now, void=True))
+    with ThreadPoolExecutor(thread_count(threads)) as pool:
+        after, walls, sturdy, voids, thick_voids, voids_after = pool.map(
+            lambda work: bodies(field, work[0], void=work[1], thickness=work[2]),
+            [
+                (now, False, False), (core, False, False), (thick, False, False),
+                (raw, True, False), (thick, True, True), (now, True, False),
+            ],
+        )  # fmt: skip
+    of_bodies, of_walls, of_voids = fate(before, after), fate(walls, after), fate(thick_voids, voids_after)
     was = _counts(before, voids, euler_number_of_bits(field, raw, threads=threads))
-    sturdy = _counts(bodies(field, thick), thick_voids, euler_number_of_bits(field, thick, threads=threads))
+    firm = _counts(sturdy, thick_voids, euler_number_of_bits(field, thick, threads=threads))
     lost = thick & ~grown(field, now, ROUNDED + math.ceil(math.sqrt(2 * steps / 7)), threads=threads)
     shells = found.shells
     held = Counts(
@@ -69,7 +76,7 @@ def verdict(
         "vanished_thin": int((~before.thick[of_bodies.vanished]).sum()),
         "broken": int((walls.cells[of_walls.broken] >= WALL).sum()),
         "walls_lost": int((bodies(field, lost, whole=False).cells >= WALL).sum()),
-        "walls_pierced": max(0, held.tunnels - max(was.tunnels, sturdy.tunnels)),
+        "walls_pierced": max(0, held.tunnels - max(was.tunnels, firm.tunnels)),
         "voids_joined": len(of_voids.joined),
         "fused": len(of_bodies.joined),
         "appeared": len(of_bodies.appeared),

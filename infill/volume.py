@@ -84,5 +84,7 @@ class Volume:
 
     def place(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
         """Return where in space points (N, 3) lie that are given in mm along the grid's axes from its lower corner."""
-        placed: NDArray[np.float64] = points @ np.asarray(self.direction).T + np.array(self.origin)
+        turn = np.asarray(self.direction)
+        turned = points if (turn == np.eye(AXES)).all() else points @ turn.T
+        placed: NDArray[np.float64] = turned + np.array(self.origin)
         return placed

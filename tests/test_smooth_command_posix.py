@@ -1,0 +1,121 @@
+"""`infill smooth` where signals and limits are those of POSIX: files appear whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_command_line_posix import limited
+
+resource = pytest.importorskip("resource", reason="limits of file size are set the POSIX way")
+
+RUN = [sys.executable, "-m", "infill.cli"]
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("small") / "ball.npy"
+    np.save(path, ((np.indices((30, 30, 30)) - 14.5) ** 2).sum(axis=0) <= 100)
+    return path
+
+
+@pytest.fixture(scope="module")
+def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Two seconds of work: many rods, their surface large."""
+    path = tmp_path_factory.mktemp("large") / "rods.npy"
+    x, y, z = np.ogrid[:220, :220, :220]
+    np.save(path, (np.sin(x / 3) + np.sin(y / 3) + np.sin(z / 40) > 0.3))
+    return path
+
+
+@pytest.mark.parametrize("suffix", ["stl", "3mf", "obj", "ply", "glb", "npz", "nrrd"])
+def test_a_full_disk_leaves_the_old_file_whole(suffix: str, small: Path, tmp_path: Path) -> None:
+    path = tmp_path / f"a.{suffix}"
+    path.write_text("precious")
+    done = limited(["smooth", str(small), "-o", str(path), "--force"], 4_000)
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: cannot write")
+    assert done.stderr.count("\n") == 1
+    assert path.read_text() == "precious"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_a_disk_that_is_full_at_the_last_byte_leaves_no_other_file(small: Path, tmp_path: Path) -> None:
+    words = ["smooth", str(small), "--ascii", "--preview", str(tmp_path / "a.png"), "-o", str(tmp_path / "a.npz")]
+    whole = tmp_path / "whole.stl"
+    assert limited([*words, "-o", str(whole)], 10**9).returncode == 0
+    size = whole.stat().st_size
+    for path in tmp_path.iterdir():
+        path.unlink()
+    done = limited([*words, "-o", str(tmp_path / "a.stl")], size - 5)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("delay", [0.1, 0.5, 0.9, 1.3, 1.8])
+def test_ctrl_c_at_any_moment_leaves_no_file(delay: float, large: Path, tmp_path: Path) -> None:
+    path = tmp_path / "a.stl"
+    path.write_text("precious")
+    process = subprocess.Popen(
+        [*RUN, "smooth", str(large), "-o", str(path), "-o", str(tmp_path / "b.obj"), "--force", "--allow-broken"],
+        stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    time.sleep(delay)
+    assert process.poll() is None, "ended before it was interrupted"
+    process.send_signal(signal.SIGINT)
+    _, stderr = process.communicate(timeout=30)
+    assert process.returncode != 0
+    if delay >= 0.9:  # before, Python itself may still be starting
+        assert "Traceback" not in stderr
+    assert list(tmp_path.iterdir()) == [path]
+    assert path.read_text() == "precious"
+
+
+@pytest.mark.parametrize(("number", "code"), [("SIGINT", 130), ("SIGTERM", 143)])
+def test_a_signal_while_it_writes_leaves_no_file(number: str, code: int, large: Path, tmp_path: Path) -> None:
+    process = subprocess.Popen(
+        [*RUN, "smooth", str(large), "-o", str(tmp_path / "a.obj"), "--allow-broken"],
+        stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    while not list(tmp_path.iterdir()) and process.poll() is None:  # until it writes
+        time.sleep(0.01)
+    assert process.poll() is None
+    process.send_signal(getattr(signal, number))
+    _, stderr = process.communicate(timeout=30)
+    assert process.returncode == code
+    assert "Traceback" not in stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_device_as_output(small: Path) -> None:
+    """/dev/null has no suffix; a name of a device cannot be replaced, and is not."""
+    done = subprocess.run([*RUN, "smooth", str(small), "-o", os.devnull, "--force"], capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert not Path(os.devnull).is_file()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
+def test_a_full_stdout_is_told(small: Path) -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([*RUN, "smooth", str(small), "--json", "-q"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)  # fmt: skip
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+
+
+def test_the_memory_of_a_small_job_is_small(small: Path) -> None:
+    """512 MiB hold Python, its compiled kernels and a small volume."""
+    code = (
+        "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, capture_output=True);"
+        "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *RUN, "smooth", str(small), "--json"], capture_output=True, text=True, check=True)  # fmt: skip
+    unit = 1 if sys.platform == "darwin" else 1024
+    assert int(done.stdout) * unit < 2**29
