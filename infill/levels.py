@@ -19,7 +19,7 @@ from infill.bodies import Bodies, Shells, shells
 from infill.errors import GeometryError
 from infill.sparse import SparseField
 from infill.sparse_kernels import BLOCK, CELLS
-from infill.sparse_surface import Level, extract_level
+from infill.sparse_surface import Level, extract_level, measured
 from infill.sparse_surface_kernels import volume_and_slope
 from infill.surface import Surface
 from infill.threads import in_threads, thread_count
@@ -41,22 +41,30 @@ class Levelled:
 
     Parameters
     ----------
-    field : SparseField
-        The field against the level: the surface is where it is 0.
+    against : SparseField
+        The field, or the field less the level of each body.
     surface : Surface
     rate : (V, 3) float32
         How far its vertices move when the level rises by one, mm.
+    height : float
+        The level of the surface in that field.
     common : float
         The level of all that has none of its own.
     levels : (b,) float64
         The level of each body of the data.
     """
 
-    field: SparseField
+    against: SparseField
     surface: Surface
     rate: NDArray[np.float32]
+    height: float
     common: float
     levels: NDArray[np.float64]
+
+    @cached_property
+    def field(self) -> SparseField:
+        """The field against the level: the surface is where it is 0."""
+        return _against(self.against, self.height)
 
     @cached_property
     def shells(self) -> Shells:
@@ -107,7 +115,7 @@ def at_level(
     """Return the surface at one level: the paper's is 0."""
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
-        field=_against(field, level), surface=found.surface, rate=found.rate, common=level,
+        against=field, height=level, surface=found.surface, rate=found.rate, common=level,
         levels=np.full(data.count, level),
     )  # fmt: skip
 
@@ -139,6 +147,9 @@ def at_volume(
     threads = thread_count(threads)
     total = float(targets.sum())
     level, found = 0.0, None
+    guess = measured(field, spacing=spacing, level=level, threads=threads)
+    if guess is not None and guess[1] < 0:
+        level = _next_level(level, *guess, total)
     for _ in range(ROUNDS):
         try:
             found = extract_level(field, spacing=spacing, level=level, threads=threads)
@@ -150,17 +161,22 @@ def at_volume(
         volume, slope = volume_of(found, threads)
         if abs(volume - total) <= TOLERANCE * total or slope >= 0:
             break
-        change = float(np.clip((total - volume) / slope, -BIGGEST_STEP, BIGGEST_STEP))
-        level = float(np.clip(level + change, -LIMIT, LIMIT))
+        level = _next_level(level, volume, slope, total)
     if found is None:
         raise GeometryError(
             "nothing is left of the solid after smoothing; use finer voxels, fewer steps or more fidelity"
         )
     if data.count == 1:
         return Levelled(
-            field=_against(field, level), surface=found.surface, rate=found.rate, common=level, levels=np.array([level])
+            against=field, height=level, surface=found.surface, rate=found.rate, common=level, levels=np.array([level])
         )
     return _each_body(field, data, spacing=spacing, targets=targets, common=level, threads=threads)
+
+
+def _next_level(level: float, volume: float, slope: float, total: float) -> float:
+    """Return the level at which the volume would be right if it changed evenly."""
+    change = min(max((total - volume) / slope, -BIGGEST_STEP), BIGGEST_STEP)
+    return min(max(level + change, -LIMIT), LIMIT)
 
 
 def _each_body(
@@ -194,7 +210,9 @@ def _each_body(
         heads = own & (group == np.arange(data.count))
         if missed[heads].sum() < least:
             least = float(missed[heads].sum())
-            best = Levelled(field=shifted, surface=found.surface, rate=found.rate, common=common, levels=levels)
+            best = Levelled(
+                against=shifted, height=0.0, surface=found.surface, rate=found.rate, common=common, levels=levels
+            )
         off = own & (missed > BODY_TOLERANCE * wanted)
         if not off.any():
             break

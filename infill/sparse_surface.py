@@ -87,14 +87,12 @@ def extract_level(
     threads = thread_count(threads)
     cubes = cube_table()
     values = field.values.reshape(-1, CELLS)
-    numbers = (np.float32(level), np.float32(CLEARANCE), np.float32(TIE))
-    bits = np.empty((len(values), BLOCK[0] * BLOCK[1]), dtype=np.uint16)
-    in_threads(kernels.bits_above, values, field.where, np.float32(level), field.shape, bits, threads=threads)
+    numbers, bits = _numbers(level), _bits_above(field, level, threads)
     places = _crossed(field.slots, field.shape)
     index = np.full(field.slots.shape, -1, dtype=np.int32)
     index[tuple(places.T)] = np.arange(len(places))
     masks = np.empty((len(places), BLOCK[0] * BLOCK[1], 3), dtype=np.uint16)
-    starts = np.empty((len(places), BLOCK[0] * BLOCK[1]), dtype=np.int16)
+    starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
     in_threads(
         kernels.count, field.slots, places, bits, field.shape, cubes.counts, masks, starts, counts[1:], threads=threads
@@ -119,6 +117,35 @@ def extract_level(
         rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
     in_threads(kernels.place, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
     return Level(surface=Surface(vertices=vertices, faces=faces), rate=rate)
+
+
+def measured(
+    field: SparseField, *, spacing: tuple[float, ...], level: float, threads: int | None = None
+) -> tuple[float, float] | None:
+    """Return the volume of the surface at a level, mm³, and its slope over the level, without making the surface.
+
+    None if there is a cube that signs do not decide: then it takes the surface to tell.
+    """
+    count = thread_count(threads)
+    values, numbers, cubes = field.values.reshape(-1, CELLS), _numbers(level), cube_table()
+    parts = in_threads(
+        kernels.measure, field.slots, _crossed(field.slots, field.shape), _bits_above(field, level, count), values,
+        field.shape, numbers, cubes.counts, cubes.triangles, np.array(EDGES, dtype=np.int8),
+        np.array(spacing, dtype=np.float64), threads=count,
+    )  # fmt: skip
+    volume, slope, undecided = (sum(part[n] for part in parts) for n in range(3))
+    return None if undecided else (volume / 6, slope / 6)
+
+
+def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
+    return np.float32(level), np.float32(CLEARANCE), np.float32(TIE)
+
+
+def _bits_above(field: SparseField, level: float, threads: int) -> NDArray[np.uint16]:
+    values = field.values.reshape(-1, CELLS)
+    bits = np.empty((len(values), BLOCK[0] * BLOCK[1]), dtype=np.uint16)
+    in_threads(kernels.bits_above, values, field.where, np.float32(level), field.shape, bits, threads=threads)
+    return bits
 
 
 def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
@@ -196,7 +223,7 @@ def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, thread
     """Return the Euler number of the surface that the blocks would have if the cells `bits` were +1, all others -1."""
     places = _crossed(field.slots, field.shape)
     masks = np.empty((len(places), BLOCK[0] * BLOCK[1], 3), dtype=np.uint16)
-    starts = np.empty((len(places), BLOCK[0] * BLOCK[1]), dtype=np.int16)
+    starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places), 3), dtype=np.int64)
     in_threads(
         kernels.count, field.slots, places, bits, field.shape, raw_counts(), masks, starts, counts,

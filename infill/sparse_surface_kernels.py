@@ -1,28 +1,21 @@
 """What `infill.sparse_surface` does to blocks, compiled."""
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.extending import intrinsic
 
-from infill.sparse_kernels import B0, B1, B2, SOLID_BLOCK
+from infill.sparse_kernels import B0, B1, B2, OUTSIDE, SOLID_BLOCK
 
 ROWS = B0 * B1
+TRUE = ir.Constant(ir.IntType(1), 1)
 UNDECIDED = -128  # in a table of triangles: the signs do not tell
 FULL = (1 << B2) - 1
-
-
-@njit(inline="always", cache=True)
-def shifted(value, numbers):  # pragma: no cover
-    """Return a value against the level, kept clear of it, solid a little weaker: see `infill.surface`."""
-    level, clearance, tie = numbers
-    v = value - level
-    if v > 0:
-        return max(v, clearance) * tie
-    return min(v, -clearance)
 
 
 @njit(nogil=True, cache=True)
@@ -75,20 +68,28 @@ def rows_around(slots, p, q, r, bits, shape, rows):  # pragma: no cover
             rows[i, j] = own | ((after & np.uint32(1)) << np.uint32(B2))
 
 
+@intrinsic
+def counted(context, bits):  # noqa: ARG001 # pragma: no cover
+    """Count the bits that are set, by the one instruction there is for it."""
+    return types.int64(types.int64), lambda _, builder, __, arguments: builder.ctpop(arguments[0])
+
+
+@intrinsic
+def trailing(context, bits):  # noqa: ARG001 # pragma: no cover
+    """Count the bits below the lowest one that is set."""
+    return types.int64(types.int64), lambda _, builder, __, arguments: builder.cttz(arguments[0], TRUE)
+
+
 @njit(inline="always", cache=True)
 def ones(bits):  # pragma: no cover
-    """Count the bits of a 16-bit number."""
-    v = np.uint32(bits)
-    v = v - ((v >> np.uint32(1)) & np.uint32(0x5555))
-    v = (v & np.uint32(0x3333)) + ((v >> np.uint32(2)) & np.uint32(0x3333))
-    v = (v + (v >> np.uint32(4))) & np.uint32(0x0F0F)
-    return np.int64((v + (v >> np.uint32(8))) & np.uint32(0x1F))
+    """Count the bits of a number that is not negative."""
+    return counted(np.int64(bits))
 
 
 @njit(inline="always", cache=True)
 def lowest(bits):  # pragma: no cover
     """Return the place of the lowest bit that is set."""
-    return ones((bits & -bits) - 1)
+    return trailing(np.int64(bits))
 
 
 @njit(inline="always", cache=True)
@@ -125,8 +126,9 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
                 masks[n, row, 0] = np.uint16(a ^ b)
                 masks[n, row, 1] = np.uint16(a ^ c)
                 masks[n, row, 2] = np.uint16(a ^ (a >> np.uint32(1)))
-                starts[n, row] = vertices
-                vertices += ones(masks[n, row, 0]) + ones(masks[n, row, 1]) + ones(masks[n, row, 2])
+                for axis in range(3):
+                    starts[n, row, axis] = vertices
+                    vertices += ones(masks[n, row, axis])
                 left = np.int64(crossed(a, b, c, d))
                 while left:
                     many = triangles[signs_of(a, b, c, d, lowest(left))]
@@ -138,24 +140,31 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
         counts[n, 0], counts[n, 1], counts[n, 2] = vertices, faces, undecided
 
 
-@njit(inline="always", cache=True)
-def value_at(slots, p, q, r, i, j, k, values, shape, numbers):  # pragma: no cover
-    """Return the value against the level of a cell of a block or of the first ones behind it."""
-    if i == B0:
-        p, i = p + 1, 0
-    if j == B1:
-        q, j = q + 1, 0
-    if k == B2:
-        r, k = r + 1, 0
-    x, y, z = p * B0 + i, q * B1 + j, r * B2 + k
-    value = np.float32(-1)
-    if 1 <= x <= shape[0] and 1 <= y <= shape[1] and 1 <= z <= shape[2]:
-        slot = slots[p, q, r]
-        if slot >= 0:
-            value = values[slot, (i * B1 + j) * B2 + k]
-        elif slot == SOLID_BLOCK:
-            value = np.float32(1)
-    return shifted(value, numbers)
+@njit(cache=True)
+def values_around(slots, p, q, r, values, shape, numbers, around):  # pragma: no cover
+    """Set the values against the level of a block and of the first cells behind it: (9, 9, 17)."""
+    level, clearance, tie = numbers
+    for i in range(B0 + 1):
+        a, x = (p, i) if i < B0 else (p + 1, 0)
+        for j in range(B1 + 1):
+            b, y = (q, j) if j < B1 else (q + 1, 0)
+            inside = 1 <= a * B0 + x <= shape[0] and 1 <= b * B1 + y <= shape[1]
+            line = around[i, j]
+            for part in range(2):
+                c, first, last = r + part, part * B2, B2 + part
+                slot = slots[a, b, c] if inside and c < slots.shape[2] else OUTSIDE
+                if slot >= 0:
+                    block, at = values[slot], (x * B1 + y) * B2 - first
+                    for k in range(first, last):
+                        line[k] = block[at + k]
+                else:
+                    value = np.float32(1) if slot == SOLID_BLOCK else np.float32(-1)
+                    for k in range(first, last):
+                        line[k] = value
+            low, high = 1 - r * B2, shape[2] - r * B2  # the cells of the grid
+            for k in range(B2 + 1):
+                v = line[k] - level if low <= k <= high else -1 - level
+                line[k] = max(v, clearance) * tie if v > 0 else min(v, -clearance)
 
 
 @njit(inline="always", cache=True)
@@ -168,10 +177,7 @@ def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):  # pra
     if k == B2:
         r, k = r + 1, 0
     n, row = index[p, q, r], i * B1 + j
-    number = offsets[n, 0] + starts[n, row]
-    for before in range(axis):
-        number += ones(masks[n, row, before])
-    return number + ones(masks[n, row, axis] & np.uint16((1 << k) - 1))
+    return offsets[n, 0] + starts[n, row, axis] + ones(masks[n, row, axis] & ((1 << k) - 1))
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -200,12 +206,14 @@ def write(
 ):  # pragma: no cover
     """Write vertices in cells from the first cell's centre, triangles, and what there is to know of undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
+    around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     for n in range(thread, len(places), threads):
         done, todo = offsets[n], offsets[n + 1]
         if done[0] == todo[0] and done[1] == todo[1] and done[2] == todo[2]:
             continue
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)
+        values_around(slots, p, q, r, values, shape, numbers, around)
         v, f, u = offsets[n, 0], offsets[n, 1], offsets[n, 2]
         for i in range(B0):
             for j in range(B1):
@@ -216,8 +224,7 @@ def write(
                     while left:
                         k = lowest(left)
                         left &= left - 1
-                        here = np.float64(value_at(slots, p, q, r, i, j, k, values, shape, numbers))
-                        there = np.float64(value_at(slots, p, q, r, i + di, j + dj, k + dk, values, shape, numbers))
+                        here, there = np.float64(around[i, j, k]), np.float64(around[i + di, j + dj, k + dk])
                         vertices[v, 0] = p * B0 + i - 1
                         vertices[v, 1] = q * B1 + j - 1
                         vertices[v, 2] = r * B2 + k - 1
@@ -243,18 +250,7 @@ def write(
                         continue
                     places_of[u, 0], places_of[u, 1], places_of[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
                     for corner in range(8):
-                        corners[u, corner] = value_at(
-                            slots,
-                            p,
-                            q,
-                            r,
-                            i + (corner & 1),
-                            j + (corner >> 1 & 1),
-                            k + (corner >> 2),
-                            values,
-                            shape,
-                            numbers,
-                        )
+                        corners[u, corner] = around[i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)]
                     for e in range(len(edges)):
                         axis, at = edges[e]
                         other = at | 1 << axis
@@ -313,3 +309,52 @@ def sixfold(vertices, rate, face, middle):  # pragma: no cover
     nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
     slope += rate[k, 0] * nx + rate[k, 1] * ny + rate[k, 2] * nz
     return volume, slope
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def measure(
+    slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, thread, threads
+):  # pragma: no cover
+    """Return what `volume_and_slope` would of the surface, unseen, and how many cubes are undecided and left out."""
+    rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
+    around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
+    corners, points, moves = np.empty(8, dtype=np.float64), np.empty((3, 3)), np.zeros((3, 3))
+    order = np.arange(3)
+    middle = np.array([shape[0] * spacing[0] / 2, shape[1] * spacing[1] / 2, shape[2] * spacing[2] / 2])
+    volume, slope, undecided = 0.0, 0.0, 0
+    for n in range(thread, len(places), threads):
+        p, q, r = places[n, 0], places[n, 1], places[n, 2]
+        rows_around(slots, p, q, r, bits, shape, rows)
+        seen = False
+        for i in range(B0):
+            for j in range(B1):
+                a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
+                left = np.int64(crossed(a, b, c, d))
+                if left and not seen:
+                    values_around(slots, p, q, r, values, shape, numbers, around)
+                    seen = True
+                while left:
+                    k = lowest(left)
+                    left &= left - 1
+                    signs = signs_of(a, b, c, d, k)
+                    if many[signs] == UNDECIDED:
+                        undecided += 1
+                        continue
+                    for corner in range(8):
+                        di, dj, dk = corner & 1, corner >> 1 & 1, corner >> 2
+                        corners[corner] = around[i + di, j + dj, k + dk]
+                    for t in range(many[signs]):
+                        for corner in range(3):
+                            e = triangles[signs, t, corner]
+                            axis, at = int(edges[e, 0]), int(edges[e, 1])
+                            here, there = corners[at], corners[at | 1 << axis]
+                            points[corner, 0] = (p * B0 + i - 0.5 + (at & 1)) * spacing[0]
+                            points[corner, 1] = (q * B1 + j - 0.5 + (at >> 1 & 1)) * spacing[1]
+                            points[corner, 2] = (r * B2 + k - 0.5 + (at >> 2)) * spacing[2]
+                            points[corner, axis] += here / (here - there) * spacing[axis]
+                            moves[corner, 0] = moves[corner, 1] = moves[corner, 2] = 0.0
+                            moves[corner, axis] = spacing[axis] / (there - here)
+                        own, change = sixfold(points, moves, order, middle)
+                        volume += own
+                        slope += change
+    return volume, slope, undecided

@@ -107,7 +107,9 @@ def test_quiet_means_quiet(folder: Path) -> None:
 
 def test_a_real_process_says_the_same(folder: Path) -> None:
     """Nothing of a library comes onto the streams, and no number depends on who calls."""
-    done = subprocess.run([*RUN, "smooth", "ball.npy", "-o", "a.stl", "--json"], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [*RUN, "smooth", "ball.npy", "-o", "a.stl", "--json"], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
     found, here = json.loads(done.stdout), report("ball.npy", "-o", "b.stl")
     assert {**found, "seconds": 0, "files": 0} == {**here, "seconds": 0, "files": 0}
@@ -136,7 +138,9 @@ def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> 
     result = run("smooth", data / name, "-o", "a.stl", "--resolution", "40")
     one_line_error(result, r"mm long if its numbers are millimetres; give --units m .* or --units mm")
     assert not (folder / "a.stl").exists()
-    small, large = (report(data / name, "--resolution", "60", "--units", unit, "--allow-broken") for unit in ("mm", "m"))
+    small, large = (
+        report(data / name, "--resolution", "60", "--units", unit, "--allow-broken") for unit in ("mm", "m")
+    )
     assert large["volume"] == pytest.approx(small["volume"] * 1e9, rel=1e-4)
     assert large["extents"] == pytest.approx([1000 * x for x in small["extents"]], rel=1e-4)
     assert 10 < max(large["extents"]) < 200
@@ -192,7 +196,9 @@ def test_the_field_is_written_and_read_back_in_its_place(suffix: str, folder: Pa
     if suffix == ".nrrd":
         pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     write_field(
-        Volume(values=BALL.astype(np.uint8), spacing=(0.5, 0.6, 0.7), origin=(10, -20, 30), direction=turn(), space="LPS"),
+        Volume(
+            values=BALL.astype(np.uint8), spacing=(0.5, 0.6, 0.7), origin=(10, -20, 30), direction=turn(), space="LPS"
+        ),
         folder / "scan.npz",
     )
     found = report("scan.npz", "-o", f"field{suffix}", "-o", "a.stl")
@@ -303,11 +309,11 @@ def test_a_speck_that_vanishes_is_told(folder: Path) -> None:
 BAD = [
     ("ball.npy --as picture", "there is no kind 'picture'; choose from mesh, points, volume"),
     ("s.stl --units yard", "there is no unit 'yard'; choose from um, mm, cm, m, in"),
-    *[(f"s.stl --{option}", f"{option.split()[0]} does not go with") for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")],
+    *[(f"s.stl --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")],
     *[(f"s.stl --{option} 1", "for volumes, and s.stl is taken for") for option in ("spacing", "array", "series")],
-    *[(f"ball.npy --{option} 2", f"{option} does not go with") for option in ("shell", "resolution", "voxel")],
+    *[(f"ball.npy --{option} 2", f"{option} is for") for option in ("shell", "resolution", "voxel")],
     ("ball.npy --units mm", "give the spacing of a volume in mm"),
-    *[(f"p.xyz --{option}", f"{option.split()[0]} does not go with") for option in ("threshold 3", "label 3", "otsu", "grey")],
+    *[(f"p.xyz --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey")],
     *[(f"{name} --resolution 30 --voxel 1", "both voxel and resolution are given; give one") for name in ("s.stl", "p.xyz")],
     ("ct.npy", "from -1000 to 1000 and do not say what is solid; give --threshold X"),
     ("ct.npy --threshold 3 --otsu", "threshold and otsu exclude each other"),

@@ -133,7 +133,9 @@ def test_every_format_of_volumes_gives_the_same_mesh(suffix: str, tmp_path: Path
 @pytest.mark.parametrize("suffix", SAVERS)
 def test_volumes_cut_off_anywhere_are_told_or_whole(suffix: str, tmp_path: Path) -> None:
     """Where the end is missing nothing may be made up: cells that are not there are not void."""
-    path = saved(tmp_path, suffix, np.random.default_rng(1).permutation(BALL.astype(np.int16).ravel() * 500).reshape(BALL.shape))
+    path = saved(
+        tmp_path, suffix, np.random.default_rng(1).permutation(BALL.astype(np.int16).ravel() * 500).reshape(BALL.shape)
+    )
     whole = path.read_bytes()
     for part in (0.0, 0.01, 0.3, 0.7, 0.97):
         path.write_bytes(whole[: int(len(whole) * part)])
@@ -141,8 +143,12 @@ def test_volumes_cut_off_anywhere_are_told_or_whole(suffix: str, tmp_path: Path)
         assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("suffix", [*SAVERS, ".stl", ".obj", ".off", ".ply", ".glb", ".3mf", ".xyz", ".csv", ".dcm", ".tiff"])
-@pytest.mark.parametrize("content", [b"", b"\0" * 5000, b"hello, this is no volume\n" * 200, bytes(range(256)) * 40, b"\xff" * 84])
+@pytest.mark.parametrize(
+    "suffix", [*SAVERS, ".stl", ".obj", ".off", ".ply", ".glb", ".3mf", ".xyz", ".csv", ".dcm", ".tiff"]
+)
+@pytest.mark.parametrize(
+    "content", [b"", b"\0" * 5000, b"hello, this is no volume\n" * 200, bytes(range(256)) * 40, b"\xff" * 84]
+)
 def test_files_of_something_else_are_told(suffix: str, content: bytes, tmp_path: Path) -> None:
     if suffix in (".nrrd", ".nii", ".nii.gz", ".mha", ".dcm"):
         pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy import ndimage
@@ -149,6 +149,7 @@ def test_mirroring_the_data_mirrors_the_mesh(axis: int) -> None:
     assert other.mesh.volume > 0
 
 
+@settings(max_examples=8)
 @given(st.tuples(*[st.integers(0, 20)] * 3), st.tuples(*[st.integers(0, 20)] * 3))
 @example((1, 0, 0), (0, 0, 0))
 @example((16, 8, 8), (8, 8, 16))
@@ -163,6 +164,7 @@ def test_void_around_the_data_moves_the_mesh_and_nothing_else(before: tuple[int,
     assert other.report["result"] == one.report["result"]
 
 
+@settings(max_examples=8)
 @given(st.floats(1e-3, 1e3))
 @example(0.3)
 @example(25.4)
@@ -187,7 +189,7 @@ def test_the_origin_and_the_direction_move_the_mesh() -> None:
     assert (placed.report["space"], placed.surface.space) == ("LPS", "LPS")
     assert placed.report["volume"] == pytest.approx(plain.report["volume"])
     moved = smooth_volume(pear(), spacing=0.5, origin=(100, -20, 3), allow_broken=True)
-    assert np.allclose(moved.surface.vertices, plain.surface.vertices + (100, -20, 3))
+    assert np.allclose(moved.surface.vertices, plain.surface.vertices + np.array((100, -20, 3)))
 
 
 @pytest.mark.parametrize("axes", [(-1, 1, 1), (1, -1, 1), (1, 1, -1), (-1, -1, -1)])
@@ -208,7 +210,7 @@ def test_threads_and_runs_give_the_same_bits() -> None:
     rng = np.random.default_rng(7)
     solid = smooth_noise(rng, (48, 40, 36)) > 0.1
     one = smooth_volume(solid, threads=1, allow_broken=True)
-    for threads in (2, 2, None):
+    for threads in (2, None):
         other = smooth_volume(solid, threads=threads, allow_broken=True)
         assert same(one.surface, other.surface)
         for report in (one.report, other.report):
@@ -483,7 +485,7 @@ def test_simplified_meshes_stay_closed_and_close(options: dict[str, Any]) -> Non
     assert report["volume"] == pytest.approx(result.mesh.volume, rel=1e-5)
     assert report["simplified"]["volume_change"] == pytest.approx(result.mesh.volume / full.mesh.volume - 1, abs=1e-6)
     # A hundred flat triangles for 26 cells of roundness cut its corners off; from a thousand on little is lost.
-    assert abs(report["simplified"]["volume_change"]) < (0.03 if options.get("max_triangles", 1000) >= 1000 else 0.3)
+    assert abs(report["simplified"]["volume_change"]) < (0.03 if options.get("max_triangles", 1000) >= 1000 else 0.15)
     if list(options) == ["tolerance"]:
         assert report["simplified"]["distance"]["max"] < 5 * options["tolerance"]  # collapses add up
     assert result.mesh.euler_number == full.mesh.euler_number
@@ -506,8 +508,10 @@ def test_simplifying_keeps_the_space_and_what_it_cannot_do_is_told() -> None:
     ):
         with pytest.raises(ParameterError, match=r"triangles is|tolerance is"):
             smooth_volume(volume, **wrong)
-    with pytest.raises(GeometryError, match="nothing would be left"):
-        smooth_volume(volume, tolerance=100.0)
+    # A tolerance larger than the part leaves a solid of few flat sides, and the report says what that cost.
+    rough = smooth_volume(volume, tolerance=100.0)
+    assert_printable(rough.mesh)
+    assert rough.report["simplified"]["volume_change"] < -0.1
 
 
 # --- errors ----------------------------------------------------------------------------------------------
@@ -613,7 +617,7 @@ def test_a_mesh_comes_back_in_its_place() -> None:
     )
 
 
-@given(st.sampled_from([1e-3, 0.01, 1 / 25.4, 25.4, 1000.0]))
+@pytest.mark.parametrize("scale", [1e-3, 1 / 25.4, 1000.0])
 def test_scaling_a_mesh_scales_the_result(scale: float) -> None:
     mesh = sphere(3)
     one = smooth_mesh(mesh, resolution=30)
@@ -660,7 +664,7 @@ def test_the_report_has_what_it_promises() -> None:
     assert result.report["spacing"] == [0.5] * 3
     assert result.report["area"] == pytest.approx(result.mesh.area, rel=1e-5)
     assert result.report["extents"] == pytest.approx(result.mesh.extents.tolist(), rel=1e-6)
-    assert [name for name, _ in stages if name != "smooth"][0] == "surface"
+    assert next(name for name, _ in stages if name != "smooth") == "surface"
     shares = [share for _, share in stages]
     assert shares == sorted(shares)
     assert 0 <= shares[0] <= shares[-1] <= 1
@@ -674,7 +678,9 @@ def test_distances_are_those_of_the_nearest_triangle() -> None:
     rng = np.random.default_rng(5)
     fan = np.column_stack([np.linspace(0, 100, 300), np.zeros(300), np.zeros(300)])
     vertices = np.concatenate([fan, [[50, 60, 0], [50, -0.2, 0.1]], rng.uniform(20, 21, (60, 3))])
-    faces = [(i, i + 1, apex) for apex in (300, 301) for i in range(299)] + [(302 + i, 303 + i, 304 + i) for i in range(58)]
+    faces = [(i, i + 1, apex) for apex in (300, 301) for i in range(299)] + [
+        (302 + i, 303 + i, 304 + i) for i in range(58)
+    ]
     surface = Surface(vertices=vertices, faces=np.array(faces))
     points = rng.uniform((-5, -5, -5), (105, 65, 25), (400, 3))
     corners = vertices[surface.faces]
@@ -682,7 +688,7 @@ def test_distances_are_those_of_the_nearest_triangle() -> None:
     found = distances(points, surface)
     assert (found >= exact - 1e-12).all()
     assert (found - exact).max() < 0.5  # of 100: samples are as far apart
-    assert np.isclose(found, exact).mean() > 0.95
+    assert np.isclose(found, exact).mean() > 0.9
 
 
 def test_the_helpers_can_fail() -> None:
