@@ -19,6 +19,7 @@ from infill.sparse_surface_kernels import ROWS, bits_above
 from infill.surface import Surface
 from infill.threads import in_threads, thread_count
 
+LARGE = 100  # cells: two such bodies that run together are told
 SMALLEST_PART = 8  # cells: what comes off a body and is smaller is a crumb, no part of it
 
 
@@ -61,7 +62,8 @@ class Fate:
     broken : (n,) int
         Bodies of which two or more parts of at least `SMALLEST_PART` cells are left.
     joined : (n,) int
-        Bodies after that hold as much of two or more before; if thickness is known, of those more than one cell thick.
+        Bodies after that hold at least `LARGE` cells of two or more before; if thickness is known, of those more than
+        one cell thick.
     appeared : (n,) int
         Bodies after that have no cell in common with any before.
     """
@@ -219,7 +221,7 @@ def fate(before: Bodies, after: Bodies) -> Fate:
     one, other = np.divmod(key, max(after.count, 1))
     parts = np.bincount(one[shared >= SMALLEST_PART], minlength=before.count)
     held = (shared >= SMALLEST_PART) & (before.thick[one] if len(before.thick) else True)
-    pieces = np.bincount(other[held], minlength=after.count)
+    pieces = np.bincount(other[held & (shared >= LARGE)], minlength=after.count)
     return Fate(
         vanished=np.flatnonzero(np.bincount(one, minlength=before.count) == 0),
         broken=np.flatnonzero(parts > 1),
@@ -247,3 +249,18 @@ def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDAr
     void = False if values.dtype == bool else -1
     kernels.erase(out, field.where, every.bits, every.blocks, every.starts, every.names, small, void)
     return out
+
+
+def cells_of(field: SparseField, every: Bodies, number: int) -> NDArray[np.int64]:
+    """Return the cells (n, 3) of a body that lie in blocks kept, counted from the first of the grid."""
+    blocks, rows = np.nonzero(every.bits)
+    solid = every.bits[blocks, rows, None] >> np.arange(BLOCK[2], dtype=np.uint16) & 1
+    which, k = np.nonzero(solid)
+    block, row = blocks[which], rows[which]
+    place = field.where[block].astype(np.int64) * BLOCK + np.stack([row // BLOCK[1], row % BLOCK[1], k], axis=1)
+    label = np.empty(len(place), dtype=np.int32)
+    kernels.label_cells(
+        place.astype(np.int32), field.slots, every.bits, every.blocks, every.starts, every.alone, every.names, 0, label
+    )
+    cells: NDArray[np.int64] = place[label == number] - 1
+    return cells

@@ -6,8 +6,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from infill.compiling import njit
 from infill.sparse_kernels import B0, B1, B2, CELLS
 from infill.sparse_surface_kernels import FULL, ROWS, lowest, ones, sixfold, within
 

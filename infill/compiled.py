@@ -16,10 +16,11 @@ import math
 from typing import Any
 
 import numpy as np
-from numba import njit, prange
+from numba import prange
 from numpy.typing import NDArray
 
 from infill.allen_cahn import Smoothing
+from infill.compiling import njit
 from infill.grid import spacing_of
 
 Field = NDArray[np.float32]

@@ -1,9 +1,23 @@
-"""Saying so when code is being compiled, which the first run on a machine has to wait for."""
+"""Compiling: what to do where the result cannot be kept on disk, and saying so when it has to be waited for."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
+
+
+def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401 - hands on
+    """Return numba's decorator; where there is no folder to keep compiled code in, it is not kept."""
+    import numba
+
+    def compiled(function: Callable[..., Any]) -> Any:  # noqa: ANN401 - a dispatcher of numba's
+        try:
+            return numba.njit(**options)(function)
+        except RuntimeError:
+            return numba.njit(**(options | {"cache": False}))(function)
+
+    return compiled
 
 
 @contextmanager

@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from infill.compiling import njit
 from infill.sparse_kernels import B0, B1, B2, CELLS, PLANE, emit, repeat_edges, surround, unmoved
 
 SUMS = 3  # w, w r, w r²

@@ -102,10 +102,10 @@ def otsu_threshold(volume: Volume) -> float:
     -----
     Source: Otsu, IEEE Transactions on Systems, Man and Cybernetics 9 (1979). The histogram has one bin per
     value for whole numbers that span up to 65,536, else 4,096 bins. The threshold is the upper edge of the
-    last bin below, so value >= threshold is the upper class.
+    last bin below; where bins are empty beside it, the middle of those. value >= threshold is the upper class.
 
     >>> otsu_threshold(Volume(values=np.array([[[0, 1, 9, 10]]])))
-    1.5
+    5.0
     """
     from skimage.filters import threshold_otsu
 
@@ -113,8 +113,11 @@ def otsu_threshold(volume: Volume) -> float:
     if least == most:
         raise ParameterError(f"all values are {least:g}; there is nothing that Otsu's method could part")
     counts, edges = _histogram(volume.values)
-    middle = threshold_otsu(hist=(counts, (edges[:-1] + edges[1:]) / 2))  # type: ignore[no-untyped-call]
-    return float(middle + (edges[1] - edges[0]) / 2)
+    middles = (edges[:-1] + edges[1:]) / 2
+    highest = threshold_otsu(hist=(counts, middles))  # type: ignore[no-untyped-call]
+    found = int(np.searchsorted(middles, highest + (edges[1] - edges[0]) / 2))
+    below, above = np.flatnonzero(counts[:found])[-1], found + np.flatnonzero(counts[found:])[0]
+    return float((middles[below] + middles[above]) / 2)
 
 
 def grey(volume: Volume, level: float, window: float | None = None) -> Volume:

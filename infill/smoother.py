@@ -16,21 +16,24 @@ from numpy.typing import ArrayLike, NDArray
 
 from infill import __version__
 from infill.allen_cahn import Smoothing
+from infill.capping import capped
 from infill.checks import within
 from infill.distance import distances
 from infill.errors import GeometryError, ParameterError
 from infill.export import surface_of
 from infill.grid import spacing_of
 from infill.machine import require_memory
+from infill.outcome import as_float, moved, placed, some, summary
 from infill.pipeline import Clock, Progress, Result
 from infill.points import voxelise_points
+from infill.reading import closed_or_merged
 from infill.segmentation import grey as grey_levels
 from infill.segmentation import threshold as segment
 from infill.simplification import simplified
 from infill.surface import Surface
 from infill.verdict import verdict
 from infill.volume import Volume
-from infill.voxels import voxelise_reported
+from infill.voxels import Repairs, voxelise_reported
 
 if TYPE_CHECKING:
     import trimesh
@@ -42,7 +45,8 @@ LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
 BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
-COMPARED = 5_000  # vertices of which the distance is measured
+SIMPLER = 0.05  # of the volume: what simplifying may change
+ROUGH = 0.03  # of the volume: what voxels may hold more or less than a mesh
 ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
 
@@ -176,7 +180,8 @@ def smooth_mesh(
     solid, repairs = voxelise_reported(
         surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=options.get("max_memory")
     )
-    return _smoothed(solid, {"source": "mesh", "repairs": asdict(repairs)}, surface, **options)
+    source = {"source": "mesh", "repairs": asdict(repairs)}
+    return _smoothed(solid, source, _closed(surface, solid, repairs), repairs=repairs, **options)
 
 
 def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None, **options: Unpack[Options]) -> Result:
@@ -204,6 +209,7 @@ def _smoothed(
     source: dict[str, Any],
     reference: Surface | None,
     *,
+    repairs: Repairs | None = None,
     smoothing: Smoothing = Smoothing(steps=20),  # noqa: B008 - frozen
     refine: bool = False,
     level: LevelMethod = "volume",
@@ -259,18 +265,25 @@ def _smoothed(
             raise GeometryError(f"the surface is not closed; {ADVICE}")
     with clock.stage("check", 0.6):
         report = verdict(found, before, targets, level, smoothing.steps, size, threads)
+        report["problems"] += _of_voxels(float(targets.sum()), repairs)
         if report["problems"] and not allow_broken:
             raise GeometryError(f"{'; '.join(report['problems'])}; {ADVICE}")
     with clock.stage("measure", 0.75):
-        surface = _placed(found.surface, data)
-        report["distance"] = _moved(surface, field, data, reference, threads)
+        surface = placed(found.surface, data)
+        report["distance"] = moved(surface, field, data, reference, threads)
         full = surface
         if tolerance is not None or max_triangles is not None:
             surface = replace(simplified(full, tolerance=tolerance, triangles=max_triangles), space=data.space)
+            change = surface.volume / full.volume - 1
+            if abs(change) > SIMPLER and not allow_broken:
+                raise GeometryError(
+                    f"simplifying to {len(surface.faces):,} triangles would change the volume by {change:+.0%}; "
+                    "allow more triangles or give a smaller tolerance"
+                )
             report["simplified"] = {
                 "triangles_before": len(full.faces),
-                "volume_change": surface.volume / full.volume - 1,
-                "distance": _summary(distances(_some(full.vertices), surface)),
+                "volume_change": change,
+                "distance": summary(distances(some(full.vertices), surface)),
             }
     closed = closed if surface is full else surface.closed
     bounds = surface.bounds
@@ -283,7 +296,32 @@ def _smoothed(
         "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,
     }  # fmt: skip
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
-    return Result(surface=surface, report=report, fields={"field": field, "data": replace(data, values=values)})
+    return Result(
+        surface=surface,
+        report=report,
+        fields={"field": field, "levelled": found.field, "data": replace(data, values=values)},
+    )
+
+
+def _of_voxels(total: float, repairs: Repairs | None) -> list[str]:
+    """Say whether the voxels hold much more or less than the mesh they stand for."""
+    if repairs is None or repairs.volume == 0:
+        return []
+    off = total / repairs.volume - 1
+    if off > ROUGH or (off < -ROUGH and repairs.bodies == 1):  # bodies that overlap are united
+        word = "more" if off > 0 else "less"
+        return [f"the voxels hold {abs(off):.0%} {word} than the mesh, whose walls are thin for them"]
+    return []
+
+
+def _closed(mesh: Surface, solid: Volume, repairs: Repairs) -> Surface:
+    """Return a mesh with its holes capped as for the voxels."""
+    if not repairs.holes:
+        return mesh
+    size, origin = solid.cell_size, np.array(solid.origin)
+    whole = closed_or_merged(mesh.vertices, mesh.faces)
+    vertices, faces, _ = capped((whole.vertices - origin) / size - 0.5, whole.faces)
+    return Surface(vertices=(vertices + 0.5) * size + origin, faces=faces)
 
 
 def _require(data: Volume, limit: int | None, each: int) -> None:
@@ -317,69 +355,5 @@ def _grey_volumes(
     """Return the volume of each body of grey data as its surface at level 0 encloses it, mm³."""
     from infill.levels import volumes_of
 
-    volume, _ = volumes_of(replace(field, values=_as_float(field)), data, spacing=size, threads=threads)
+    volume, _ = volumes_of(replace(field, values=as_float(field)), data, spacing=size, threads=threads)
     return np.where(volume > 0, volume, data.cells * math.prod(size))
-
-
-def _placed(surface: Surface, data: Volume) -> Surface:
-    """Return the surface where the volume lies in space."""
-    faces = surface.faces[:, ::-1] if data.mirrored else surface.faces
-    return Surface(vertices=data.place(surface.vertices), faces=faces, space=data.space)
-
-
-def staircase(result: Result) -> Surface:
-    """Return the surface of the data that a result was smoothed from, in the same place."""
-    return _raw(result.fields["field"], result.fields["data"], None)
-
-
-def phase_volume(result: Result) -> Volume:
-    """Return the phase field of a result as a whole, float32, [x, y, z]."""
-    data, field = result.fields["data"], result.fields["field"]
-    cells = math.prod(field.shape)
-    require_memory(4 * cells, None, "write a mesh instead of the field, or use larger voxels")
-    values = field.to_dense()
-    if result.report["refined"]:
-        from infill.refining import phase
-
-        values = phase(values)
-    whole: Volume = replace(data, values=values)
-    return whole
-
-
-def _raw(field: SparseField, data: Volume, threads: int | None) -> Surface:
-    from infill.sparse_surface import extract_blocks
-
-    raw = extract_blocks(replace(field, values=_as_float(field)), spacing=tuple(data.cell_size), threads=threads)
-    return _placed(raw, data)
-
-
-def _moved(
-    surface: Surface, field: SparseField, data: Volume, reference: Surface | None, threads: int | None
-) -> dict[str, Any]:
-    """Return how far the voxels and the result lie from the mesh they were made from, or from one another, mm."""
-    raw = _raw(field, data, threads)
-    if reference is None:
-        return {"from": "voxels", "result": _summary(distances(_some(surface.vertices), raw))}
-    return {
-        "from": "mesh",
-        "data": _summary(distances(_some(raw.vertices), reference)),
-        "result": _summary(distances(_some(surface.vertices), reference)),
-    }
-
-
-def _as_float(field: SparseField) -> NDArray[np.float32]:
-    values: NDArray[np.float32] = field.data.astype(np.float32)
-    return values
-
-
-def _some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return so many of the vertices as are compared, spread evenly over them."""
-    return vertices[:: max(1, len(vertices) // COMPARED)]
-
-
-def _summary(distance: NDArray[np.float64]) -> dict[str, float]:
-    return {
-        "mean": float(distance.mean()),
-        "rms": float(np.sqrt((distance**2).mean())),
-        "max": float(distance.max()),
-    }

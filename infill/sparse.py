@@ -196,8 +196,8 @@ class _Blocks:
         self.slots[tuple(wanted.T)] = np.arange(first, self.count)
         kernels.find_neighbours(self.slots, self.where, self.beside, first, self.count)
         in_threads(
-            kernels.fill, self.phi, self.held, self.faces, self.next_faces, self.flat, self.next_flat, self.uniform,
-            first, self.count, threads=self.threads,
+            kernels.fill, self.phi, self.held, self.flat, self.next_flat, self.uniform, first, self.count,
+            threads=self.threads,
         )  # fmt: skip
 
     def step(self, numbers: Numbers, domain: NDArray[np.bool_]) -> None:

@@ -10,9 +10,9 @@ that a block can be stepped in place while its neighbours still read what it was
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from infill.compiled import advanced
+from infill.compiling import njit
 
 BLOCK = (8, 8, 16)  # cells; the last axis is contiguous
 B0, B1, B2 = BLOCK
@@ -118,16 +118,13 @@ def wanted(slots, where, beside, flat, count):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def fill(phi, held, faces, next_faces, flat, next_flat, uniform, first, count, thread, threads):  # pragma: no cover
-    """Give the blocks from `first` on the value they are uniform in."""
+def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):  # pragma: no cover
+    """Give the blocks from `first` on the value they are uniform in; nobody reads faces that are flat."""
     for s in range(first + thread, count, threads):
         value = uniform[s]
         for t in range(CELLS):
             phi[s, t] = value
             held[s, t] = value
-        for t in range(FACES):
-            faces[s, t] = value
-            next_faces[s, t] = value
         for side in range(6):
             flat[s, side] = value
             next_flat[s, side] = value

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
 
+from infill.compiling import njit
 from infill.sparse_kernels import B0, B1, B2, OUTSIDE, SOLID_BLOCK
 
 ROWS = B0 * B1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -11,13 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.bodies import Bodies, bodies, cores, data_bits, fate, grown, opened, solid_bits
+from infill.bodies import Bodies, bodies, cells_of, cores, data_bits, fate, grown, opened, solid_bits
 from infill.levels import Levelled, phase_level
+from infill.sparse import SparseField
 from infill.sparse_surface import euler_number_of_bits
 from infill.thickness import thinnest_walls
 from infill.threads import thread_count
 
 WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
+NAMED = 5  # of the lost walls are told of
+FAINT = -0.9  # a body that only so low a level holds would be gone at level 0
 ROUNDED = 2  # cells, and as many as the smoothing blurs: how far edges and corners may draw back
 
 
@@ -71,11 +74,13 @@ def verdict(
         components=shells.components, cavities=shells.cavities, tunnels=shells.tunnels,
         euler_number=int(shells.euler.sum()),
     )  # fmt: skip
+    gone = bodies(field, lost, whole=False)
     changes = {
         "vanished": int(before.thick[of_bodies.vanished].sum()),
         "vanished_thin": int((~before.thick[of_bodies.vanished]).sum()),
         "broken": int((walls.cells[of_walls.broken] >= WALL).sum()),
-        "walls_lost": int((bodies(field, lost, whole=False).cells >= WALL).sum()),
+        "walls_lost": int((gone.cells >= WALL).sum()),
+        "faint": int((before.thick & (before.cells >= WALL) & (_levels(found, said) < FAINT)).sum()),
         "walls_pierced": max(0, held.tunnels - max(was.tunnels, firm.tunnels)),
         "voids_joined": len(of_voids.joined),
         "fused": len(of_bodies.joined),
@@ -97,8 +102,24 @@ def verdict(
         "result": asdict(held),
         "changes": changes,
         "thinnest_wall": {"data": wall_before, "result": wall_after},
+        "lost": [
+            _piece(field, gone, number, size)
+            for number in np.argsort(-gone.cells)[:NAMED]
+            if gone.cells[number] >= WALL
+        ],
         "problems": list(_problems(changes)),
     }
+
+
+def _levels(found: Levelled, said: Callable[[float], float]) -> NDArray[np.float64]:
+    """Return the level of phi of each body."""
+    return np.array([said(float(level)) for level in found.levels])
+
+
+def _piece(field: SparseField, pieces: Bodies, number: int, size: tuple[float, ...]) -> dict[str, Any]:
+    """Return how large a piece is and where, mm along the axes of the grid from its lower corner."""
+    cells = cells_of(field, pieces, number)
+    return {"voxels": len(cells), "at": ((cells.mean(axis=0) + 0.5) * size).tolist()}
 
 
 def _counts(solid: Bodies, void: Bodies, euler_number: int) -> Counts:
@@ -112,12 +133,13 @@ def _counts(solid: Bodies, void: Bodies, euler_number: int) -> Counts:
 
 def _problems(changes: dict[str, int]) -> Iterator[str]:
     """Say, one phrase each, what was lost that was more than one cell thick."""
-    for name, what in (
-        ("vanished", "bodies vanished"),
-        ("broken", "bodies fell apart"),
-        ("walls_lost", "walls vanished"),
-        ("walls_pierced", "holes broke through walls"),
-        ("voids_joined", "walls between voids broke"),
+    for name, what, words in (
+        ("vanished", "{} vanished", ("body", "bodies")),
+        ("broken", "{} fell apart", ("body", "bodies")),
+        ("fused", "{} ran together out of several", ("body", "bodies")),
+        ("walls_lost", "{} vanished", ("wall", "walls")),
+        ("walls_pierced", "{} broke through walls", ("hole", "holes")),
+        ("voids_joined", "{} between voids broke", ("wall", "walls")),
     ):
-        if changes[name]:
-            yield f"{changes[name]} {what} in smoothing"
+        if count := changes[name]:
+            yield what.format(f"{count} {words[count > 1]}") + " in smoothing"

@@ -17,6 +17,7 @@ from infill.surface import Surface
 from infill.volume import Volume
 
 RESOLUTION = 200  # cells along the longest side if nothing is said
+FEWEST = 2  # voxels along the longest side
 ROUNDING = 1e-6  # of a cell: what a side may be longer than whole cells without a cell more
 CROSSING_BYTES, FACE_BYTES = 60, 420  # measured peaks, sorting included
 
@@ -35,12 +36,15 @@ class Repairs:
         Loops of open edges that got a cap. A triangle that stands twice or faces the wrong way is one too.
     hole_share : float
         Area of the caps over the area of mesh and caps. The inside is a guess where this is large.
+    volume : float
+        Volume that the mesh and its caps enclose, mm³; where bodies overlap it counts for each.
     """
 
     bodies: int
     turned: int
     holes: int
     hole_share: float
+    volume: float
 
 
 def voxelise(
@@ -128,6 +132,11 @@ def voxelise_reported(
         size = float(extents.max()) / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
     else:
         size = length("voxel", voxel)
+        if size > extents.max() / FEWEST:
+            raise ParameterError(
+                f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
+                f"give at most {extents.max() / FEWEST:g} mm"
+            )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
     advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels or a lower resolution"
     require_memory(math.prod(shape), max_memory, advice)  # before anything is laid out
@@ -160,5 +169,6 @@ def voxelise_reported(
         turned=int(turned.sum()),
         holes=holes,
         hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),
+        volume=abs(float(np.where(turned, -volumes, volumes).sum())) * size**3,
     )
     return Volume(values=inside, spacing=size, origin=tuple(origin.tolist())), repairs

@@ -168,7 +168,7 @@ def smooth(
             spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
         )  # fmt: skip
         from infill.compiling import told_of_compiling
-        from infill.smoother import phase_volume
+        from infill.outcome import field_volume
 
         waiting = "compiling, the first time on this machine only: about 15 s"
         with told_of_compiling(lambda: None if quiet else say(waiting)):
@@ -189,7 +189,7 @@ def smooth(
             if path.suffix.lower() in WRITERS:
                 parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
             else:
-                parts[path] = partial(field_writer(path), phase_volume(result))
+                parts[path] = partial(field_writer(path), field_volume(result))
         if preview is not None:
             from infill.preview import write_preview
 
