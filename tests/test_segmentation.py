@@ -192,13 +192,12 @@ def test_otsu_agrees_with_scikit_image(order: Any, rng: np.random.Generator) -> 
     )
     whole = np.asarray(values.astype(np.int16), order=order)
     assert np.array_equal(whole >= otsu_threshold(volume(whole)), whole > threshold_otsu(whole))
-    # Bins of a 4096th of about 1700.
-    assert otsu_threshold(volume(np.asarray(values, order=order))) == pytest.approx(
-        threshold_otsu(values, 4096), abs=0.5
-    )
+    # It parts the same cells, in the middle between the classes; bins are a 4096th of about 1700.
+    parted = np.asarray(values, order=order)
+    assert ((parted >= otsu_threshold(volume(parted))) != (parted > threshold_otsu(values, 4096))).mean() < 1e-3
     assert threshold(volume(whole), otsu=True)[1]["low"] == otsu_threshold(volume(whole))
     wide = whole.astype(np.int32) * 1000
-    assert otsu_threshold(volume(wide)) / 1000 == pytest.approx(threshold_otsu(whole), abs=1)
+    assert np.array_equal(wide >= otsu_threshold(volume(wide)), whole > threshold_otsu(whole))
 
 
 def test_large_volumes_are_looked_at_in_parts(rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch) -> None:
