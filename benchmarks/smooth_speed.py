@@ -46,7 +46,7 @@ def ours_volume(f: NDArray[np.bool_]) -> int:
     """Smooth and mesh at the level of the data's volume."""
     field = smooth_blocks(f, SMOOTHING)
     data = bodies(field, data_bits(field))
-    found = at_volume(straightened(field), data, spacing=UNIT, targets=data.cells.astype(np.float64))
+    found = at_volume(straightened(field, out=field.values), data, spacing=UNIT, targets=data.cells.astype(np.float64))
     return len(found.surface.faces)
 
 

@@ -111,19 +111,19 @@ class Shells:
         return int((2 - self.euler).sum() // 2)
 
 
-def solid_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept blocks are solid, (n, rows) uint16."""
-    return _bits(field, field.values, threads)
+def solid_bits(field: SparseField, *, level: float = 0.0, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return which cells of the kept blocks are above the level, (n, rows) uint16."""
+    return _bits(field, field.values, level, threads)
 
 
 def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
     """Return which cells of the kept blocks are solid in the data, (n, rows) uint16."""
-    return _bits(field, field.data, threads)
+    return _bits(field, field.data, 0.0, threads)
 
 
-def _bits(field: SparseField, values: NDArray[Any], threads: int | None) -> NDArray[np.uint16]:
+def _bits(field: SparseField, values: NDArray[Any], height: float, threads: int | None) -> NDArray[np.uint16]:
     bits = np.empty((len(field.where), ROWS), dtype=np.uint16)
-    level = values.dtype.type(0)
+    level = values.dtype.type(height)
     flat = values.reshape(-1, CELLS)
     in_threads(bits_above, flat, field.where, level, field.shape, bits, threads=thread_count(threads))
     return bits

@@ -62,23 +62,20 @@ class Levelled:
     levels: NDArray[np.float64]
 
     @cached_property
-    def field(self) -> SparseField:
-        """The field against the level: the surface is where it is 0."""
-        return _against(self.against, self.height)
-
-    @cached_property
     def shells(self) -> Shells:
         """The connected parts of the surface."""
         return shells(self.surface, self.rate)
 
 
-def straightened(field: SparseField, *, threads: int | None = None) -> SparseField:
-    """Return the field as a distance from the surface, scaled to [-1, 1].
+def straightened(
+    field: SparseField, *, out: NDArray[np.float32] | None = None, threads: int | None = None
+) -> SparseField:
+    """Return the field as a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values.
 
     Across the surface phi is tanh of the distance, and marching cubes would draw a straight line through two
     points of it. Through artanh phi the line is straight, which halves the error of the normals.
     """
-    out = np.empty_like(field.values)
+    out = np.empty_like(field.values) if out is None else out
     in_threads(
         transfer_kernels.straighten, field.values.reshape(-1, CELLS), np.float32(STEEPEST), np.float32(SCALE),
         out.reshape(-1, CELLS), threads=thread_count(threads),
@@ -226,11 +223,6 @@ def _each_body(
     if best is None:  # pragma: no cover - there is always a first round
         raise GeometryError("no surface was found; use finer voxels")
     return best
-
-
-def _against(field: SparseField, level: float) -> SparseField:
-    """Return the field less the level; what is uniform stays."""
-    return field if level == 0 else replace(field, values=field.values - np.float32(level))
 
 
 def _lowered(field: SparseField, data: Bodies, levels: NDArray[np.float64], common: float, threads: int) -> SparseField:

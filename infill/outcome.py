@@ -28,7 +28,7 @@ def placed(surface: Surface, data: Volume) -> Surface:
 
 def staircase(result: Result) -> Surface:
     """Return the surface of the data that a result was smoothed from, in the same place."""
-    return raw_surface(result.fields["field"], result.fields["data"], None)
+    return raw_surface(result.fields["levelled"].against, result.fields["data"], None)
 
 
 def field_volume(result: Result) -> Volume:
@@ -36,10 +36,11 @@ def field_volume(result: Result) -> Volume:
 
     Of a surface at the level of the volume it is the distance from the surface, +-1 some cells away from it.
     """
-    data, field = result.fields["data"], result.fields["levelled"]
+    data, found = result.fields["data"], result.fields["levelled"]
+    field = found.against
     cells = math.prod(field.shape)
     require_memory(8 * cells, None, "write a mesh instead of the field, or use larger voxels")
-    whole: Volume = replace(data, values=field.to_dense().clip(-1, 1))
+    whole: Volume = replace(data, values=(field.to_dense() - np.float32(found.height)).clip(-1, 1))
     return whole
 
 

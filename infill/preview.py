@@ -53,7 +53,7 @@ def write_preview(result: Result, file: BinaryIO) -> None:
 
 def preview(result: Result) -> Image.Image:
     """Return the stages of a result as one picture: points, stamp, field and mesh, or voxels and mesh."""
-    return _before_and_after(result) if "field" in result.fields else _four_stages(result)
+    return _before_and_after(result) if "levelled" in result.fields else _four_stages(result)
 
 
 def _before_and_after(result: Result) -> Image.Image:

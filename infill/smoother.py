@@ -249,7 +249,7 @@ def _smoothed(
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
         if level == "volume":
-            straight = field if refine else straightened(field, threads=threads)
+            straight = field if refine else straightened(field, out=field.values, threads=threads)
             found = at_volume(straight, before, spacing=size, targets=targets, threads=threads)
             found = as_straightened(found) if refine else found
         else:
@@ -299,7 +299,7 @@ def _smoothed(
     return Result(
         surface=surface,
         report=report,
-        fields={"field": field, "levelled": found.field, "data": replace(data, values=values)},
+        fields={"levelled": found, "data": replace(data, values=values)},
     )
 
 

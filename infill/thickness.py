@@ -16,17 +16,18 @@ THIN = 0.01  # the thinnest wall is that of this part of the surface
 
 
 def thinnest_walls(
-    field: SparseField, surface: Surface, spacing: tuple[float, ...]
+    field: SparseField, surface: Surface, spacing: tuple[float, ...], level: float = 0.0
 ) -> tuple[float | None, float | None]:
     """Return how thick the solid is behind the thinnest hundredth of the surface, mm: in the data, and smoothed.
 
     Parameters
     ----------
     field : SparseField
-        Solid where it is above 0; its data are solid above 0 too.
+        Solid where it is above the level; its data are solid above 0.
     surface : Surface
         Of that solid, mm from the lower corner of the first cell.
     spacing : (hx, hy, hz), mm
+    level : float
 
     Returns
     -------
@@ -47,7 +48,7 @@ def thinnest_walls(
     step = STEP * float(size.min())
     at = np.arange(1, round(FARTHEST / STEP) + 1) * step
     cells = np.floor((start[:, None] + inwards[:, None] * at[:, None]) / size).astype(np.int64)
-    smoothed, data = solid_at(field, cells.reshape(-1, 3))
+    smoothed, data = solid_at(field, cells.reshape(-1, 3), level)
     return tuple(
         _thin(inside.reshape(len(start), len(at)), step, leeway) for inside, leeway in ((data, 4), (smoothed, 1))
     )  # type: ignore[return-value]
@@ -67,7 +68,7 @@ def _thin(inside: NDArray[np.bool_], step: float, leeway: int) -> float | None:
     return None if thin >= inside.shape[1] * step else thin
 
 
-def solid_at(field: SparseField, cells: NDArray[np.int64]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+def solid_at(field: SparseField, cells: NDArray[np.int64], level: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Return for cells (N, 3) of the grid whether they are solid, smoothed and in the data; beyond it none is."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     place = np.where(inside[:, None], cells, 0) + 1
@@ -76,9 +77,9 @@ def solid_at(field: SparseField, cells: NDArray[np.int64]) -> tuple[NDArray[np.b
     kept = slot >= 0
     alone = (slot == SOLID_BLOCK) & inside
     found = []
-    for values in (field.values, field.data):
+    for values, height in ((field.values, level), (field.data, 0.0)):
         solid = alone.copy()
-        above: NDArray[np.bool_] = values[slot[kept], cell[kept, 0], cell[kept, 1], cell[kept, 2]] > 0
+        above: NDArray[np.bool_] = values[slot[kept], cell[kept, 0], cell[kept, 1], cell[kept, 2]] > height
         solid[kept] = above & inside[kept]
         found.append(solid)
     return found[0], found[1]

@@ -135,7 +135,7 @@ def spread(slots, blocks, whole, thread, threads):  # pragma: no cover
 @njit(nogil=True, cache=True, error_model="numpy")
 def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
     """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: vector code, which a log is not."""
-    ratio = np.empty(CELLS, dtype=np.float32)
+    ratio, power = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.int32)
     bits = ratio.view(np.int32)
     half = np.float32(0.34657359) / scale  # ln 2 / 2
     for s in range(thread, len(blocks), threads):
@@ -144,9 +144,9 @@ def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
             v = min(max(block[t], -most), most)
             ratio[t] = (1 + v) / (1 - v)
         for t in range(CELLS):  # the power of two, taken so that the rest lies around 1
-            power = (bits[t] - 0x3F3504F3) >> 23
-            bits[t] -= power << 23
-            line[t] = power
+            power[t] = (bits[t] - 0x3F3504F3) >> 23
+        for t in range(CELLS):
+            bits[t] -= power[t] << 23
         for t in range(CELLS):  # log2 of the rest by the series of artanh
             x = (ratio[t] - 1) / (ratio[t] + 1)
             y = x * x
@@ -154,5 +154,5 @@ def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
                 np.float32(2.88539008)
                 + y * (np.float32(0.96179669) + y * (np.float32(0.57707802) + y * np.float32(0.4121986)))
             )
-            v = half * (line[t] + log)
+            v = half * (np.float32(power[t]) + log)
             line[t] = np.float32(1) if block[t] >= most else (np.float32(-1) if block[t] <= -most else v)

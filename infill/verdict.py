@@ -53,8 +53,8 @@ def verdict(
 ) -> dict[str, Any]:
     """Return what smoothing did, with the problems in plain words."""
     said = phase_level if level == "volume" else float
-    field, total = found.field, float(targets.sum())
-    raw, now = data_bits(field, threads=threads), solid_bits(field, threads=threads)
+    field, total = found.against, float(targets.sum())
+    raw, now = data_bits(field, threads=threads), solid_bits(field, level=found.height, threads=threads)
     core = cores(field, raw, threads=threads)
     thick = opened(field, core, threads=threads)
     with ThreadPoolExecutor(thread_count(threads)) as pool:
@@ -86,7 +86,7 @@ def verdict(
         "fused": len(of_bodies.joined),
         "appeared": len(of_bodies.appeared),
     }
-    wall_before, wall_after = thinnest_walls(field, found.surface, size)
+    wall_before, wall_after = thinnest_walls(field, found.surface, size, found.height)
     volume = float(shells.volume.sum())
     return {
         "level": {
