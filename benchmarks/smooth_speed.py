@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 
 from benchmarks.pairs import row
 from infill import Smoothing
-from infill.bodies import bodies, data_bits
-from infill.levels import at_volume, straightened
+from infill.levels import at_volume, counted
 from infill.sparse import smooth_blocks
 from infill.sparse_surface import extract_blocks
 
@@ -44,9 +43,8 @@ def ours(f: NDArray[np.bool_]) -> int:
 
 def ours_volume(f: NDArray[np.bool_]) -> int:
     """Smooth and mesh at the level of the data's volume."""
-    field = smooth_blocks(f, SMOOTHING)
-    data = bodies(field, data_bits(field))
-    found = at_volume(straightened(field, out=field.values), data, spacing=UNIT, targets=data.cells.astype(np.float64))
+    data, field, guess = counted(smooth_blocks(f, SMOOTHING), spacing=UNIT)
+    found = at_volume(field, data, spacing=UNIT, targets=data.cells.astype(np.float64), guess=guess)
     return len(found.surface.faces)
 
 

@@ -6,7 +6,7 @@ Cells of solid are joined by faces, cells of void by faces and edges, as marchin
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -188,15 +188,25 @@ def bodies(
     kernels.join_runs(field.slots, field.where, bits, blocks, starts, alone, parent, void)
     names = np.empty(len(parent), dtype=np.int32)
     count = kernels.name_sets(parent, names)
-    cells, thick = np.zeros(count, dtype=np.int64), np.zeros(count if thickness else 0, dtype=bool)
+    cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, blocks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], _cells_within(np.argwhere(single), field.shape))
-    if thickness:
-        kernels.mark_thick(field.slots, field.where, bits, blocks, starts, alone, names, thick)
-        thick[names[alone[single]]] = True
     if not void:  # run 0 stands for what lies beyond the grid, which is no solid
-        cells, thick, names = cells[1:], thick[1:], names - 1
-    return Bodies(cells=cells, thick=thick, bits=bits, blocks=blocks, starts=starts, alone=alone, names=names)
+        cells, names = cells[1:], names - 1
+    every = Bodies(
+        cells=cells, thick=np.empty(0, dtype=bool), bits=bits, blocks=blocks, starts=starts, alone=alone, names=names
+    )
+    return with_thickness(field, every) if thickness else every
+
+
+def with_thickness(field: SparseField, every: Bodies) -> Bodies:
+    """Return the bodies, with which of them are more than one cell thick."""
+    thick = np.zeros(every.count, dtype=bool)
+    kernels.mark_thick(
+        field.slots, field.where, every.bits, every.blocks, every.starts, every.alone, every.names, thick
+    )
+    thick[every.names[every.alone[every.alone >= 0]]] = True
+    return replace(every, thick=thick)
 
 
 def _cells_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:

@@ -8,6 +8,7 @@ true surface. Bodies differ, so each one gets a level of its own.
 from __future__ import annotations
 
 import math
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill import bodies_kernels, transfer_kernels
-from infill.bodies import Bodies, Shells, shells
+from infill.bodies import Bodies, Shells, bodies, data_bits, shells
 from infill.errors import GeometryError
 from infill.sparse import SparseField
 from infill.sparse_kernels import BLOCK, CELLS
@@ -96,6 +97,20 @@ def volume_of(found: Level, threads: int) -> tuple[float, float]:
     return sum(part[0] for part in parts) / 6, sum(part[1] for part in parts) / 6
 
 
+def counted(
+    field: SparseField, *, spacing: tuple[float, ...], straighten: bool = True, threads: int | None = None
+) -> tuple[Bodies, SparseField, tuple[float, float] | None]:
+    """Return the bodies of the data, the field on a straight profile, and its volume and slope at level 0.
+
+    Bodies are looked for by a thread of its own meanwhile. A field that is straightened gives up its values.
+    """
+    with ThreadPoolExecutor(1) as aside:
+        found = aside.submit(bodies, field, data_bits(field, threads=threads))
+        straight = straightened(field, out=field.values, threads=threads) if straighten else field
+        guess = measured(straight, spacing=spacing, level=0.0, threads=threads)
+        return found.result(), straight, guess
+
+
 def volumes_of(
     field: SparseField, data: Bodies, *, spacing: tuple[float, ...], threads: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -123,6 +138,7 @@ def at_volume(
     *,
     spacing: tuple[float, ...],
     targets: NDArray[np.float64],
+    guess: tuple[float, float] | None = None,
     threads: int | None = None,
 ) -> Levelled:
     """Return the surface at which every body has the volume it has in the data.
@@ -135,6 +151,8 @@ def at_volume(
     spacing : (hx, hy, hz), mm
     targets : (b,) float64
         Volume of each body, mm³.
+    guess : (float, float), optional
+        Volume at level 0 and its slope over the level, if known.
 
     Raises
     ------
@@ -144,7 +162,7 @@ def at_volume(
     threads = thread_count(threads)
     total = float(targets.sum())
     level, found = 0.0, None
-    guess = measured(field, spacing=spacing, level=level, threads=threads)
+    guess = guess or measured(field, spacing=spacing, level=level, threads=threads)
     if guess is not None and guess[1] < 0:
         level = _next_level(level, *guess, total)
     for _ in range(ROUNDS):

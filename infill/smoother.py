@@ -222,8 +222,7 @@ def _smoothed(
     progress: Progress | None = None,
 ) -> Result:
     """Do what the three functions have in common."""
-    from infill.bodies import bodies, data_bits
-    from infill.levels import at_level, at_volume, straightened
+    from infill.levels import at_level, at_volume, counted
     from infill.refining import as_straightened, distance_level, refine_blocks
     from infill.sparse import smooth_blocks
 
@@ -244,13 +243,13 @@ def _smoothed(
         smoothed = refine_blocks if refine else smooth_blocks
         field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
     with clock.stage("surface", 0.4):
-        before = bodies(field, data_bits(field, threads=threads), thickness=True)
+        by_volume = level == "volume"
+        before, field, guess = counted(field, spacing=size, straighten=by_volume and not refine, threads=threads)
         targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
-        if level == "volume":
-            straight = field if refine else straightened(field, out=field.values, threads=threads)
-            found = at_volume(straight, before, spacing=size, targets=targets, threads=threads)
+        if by_volume:
+            found = at_volume(field, before, spacing=size, targets=targets, guess=guess, threads=threads)
             found = as_straightened(found) if refine else found
         else:
             most = 0.99 if refine else 0.999

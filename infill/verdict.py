@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.bodies import Bodies, bodies, cells_of, cores, data_bits, fate, grown, opened, solid_bits
+from infill.bodies import Bodies, bodies, cells_of, cores, data_bits, fate, grown, opened, solid_bits, with_thickness
 from infill.levels import Levelled, phase_level
 from infill.sparse import SparseField
 from infill.sparse_surface import euler_number_of_bits
@@ -58,6 +58,7 @@ def verdict(
     core = cores(field, raw, threads=threads)
     thick = opened(field, core, threads=threads)
     with ThreadPoolExecutor(thread_count(threads)) as pool:
+        known = pool.submit(with_thickness, field, before)
         after, walls, sturdy, voids, thick_voids, voids_after = pool.map(
             lambda work: bodies(field, work[0], void=work[1], thickness=work[2]),
             [
@@ -65,6 +66,7 @@ def verdict(
                 (raw, True, False), (thick, True, True), (now, True, False),
             ],
         )  # fmt: skip
+        before = known.result()
     of_bodies, of_walls, of_voids = fate(before, after), fate(walls, after), fate(thick_voids, voids_after)
     was = _counts(before, voids, euler_number_of_bits(field, raw, threads=threads))
     firm = _counts(sturdy, thick_voids, euler_number_of_bits(field, thick, threads=threads))
