@@ -12,7 +12,7 @@ from infill.sparse_kernels import B0, B1, B2, CELLS
 from infill.sparse_surface_kernels import FULL, ROWS, lowest, ones, sixfold, within
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def root(parent, n):  # pragma: no cover
     """Return the first of the set that `n` is in."""
     while parent[n] != n:
@@ -21,7 +21,7 @@ def root(parent, n):  # pragma: no cover
     return n
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def join(parent, a, b):  # pragma: no cover
     """Make one set of two; the first of it stays the first."""
     a, b = root(parent, a), root(parent, b)
@@ -31,13 +31,13 @@ def join(parent, a, b):  # pragma: no cover
         parent[a] = b
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def beginnings(bits):  # pragma: no cover
     """Return the bits at which runs begin."""
     return np.uint16(bits & ~(bits << np.uint16(1)))
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def run_length(bits, k):  # pragma: no cover
     """Return how many bits are set from bit `k` on without a gap."""
     gaps = ~(np.int64(bits) >> k)
@@ -58,14 +58,14 @@ def number_runs(bits, blocks, starts):  # pragma: no cover
     return count
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def run_at(bits, blocks, starts, s, row, k):  # pragma: no cover
     """Return the number of the run that cell `k` of a row lies in."""
     upto = np.uint16((2 << k) - 1)
     return blocks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def node_at(alone, slots, p, q, r, row, k, bits, blocks, starts):  # pragma: no cover
     """Return the node of a cell of any block of the lattice, -1 if the cell is not of the kind that is labelled."""
     slot = slots[p, q, r]
@@ -337,7 +337,7 @@ def lower_to_levels(
             out[s, t] = value - (levels[body] if body >= 0 else common)
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
     """Return a row of any block of the lattice; a block of one value is full if it is of `kind`."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:

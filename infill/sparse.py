@@ -104,7 +104,7 @@ def smooth_blocks(
     if initial is not None:
         start = on_three_axes(initial).astype(np.float32)
         state = np.where(state == _states_of(start, threads)[1], state, MIXED)
-    domain = np.ones((0, 0, 0), dtype=bool) if mask is None else on_three_axes(mask)
+    domain = None if mask is None else on_three_axes(mask)
     blocks = _Blocks.around(state, data, threads)
     blocks.gather(start, data)
     for n in range(smoothing.steps):
@@ -127,6 +127,8 @@ def _states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[
         data = field.astype(np.int8, copy=False)
     else:
         data = field.astype(np.float32, copy=False)
+    data = data.view()
+    data.flags.writeable = False  # compiled once, whether the array may be written to or not
     lattice = tuple(math.ceil((count + 2) / size) for count, size in zip(data.shape, BLOCK, strict=True))
     state = np.empty(lattice, dtype=np.int8)
     zeros = np.zeros(lattice[:2], dtype=bool)
@@ -184,7 +186,8 @@ class _Blocks:
 
     def activate(self) -> None:
         """Begin to keep the blocks beside faces of another value."""
-        wanted = kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count)
+        found = np.empty((6 * self.count, 3), dtype=np.int32)
+        wanted = found[: kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count, found)]
         if len(wanted) == 0:
             return
         first, self.count = self.count, self.count + len(wanted)
@@ -200,7 +203,7 @@ class _Blocks:
             threads=self.threads,
         )  # fmt: skip
 
-    def step(self, numbers: Numbers, domain: NDArray[np.bool_]) -> None:
+    def step(self, numbers: Numbers, domain: NDArray[np.bool_] | None) -> None:
         """Do one step, in place."""
         in_threads(
             kernels.step, self.phi, self.held, self.faces, self.next_faces, self.flat, self.next_flat, self.uniform,

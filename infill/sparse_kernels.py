@@ -89,9 +89,8 @@ def find_neighbours(slots, where, beside, first, count):  # pragma: no cover
 
 
 @njit(cache=True)
-def wanted(slots, where, beside, flat, count):  # pragma: no cover
-    """Return the places beside faces whose value differs from theirs, (w, 3), each once."""
-    found = np.empty((max(1, 6 * count), 3), dtype=np.int32)
+def wanted(slots, where, beside, flat, count, found):  # pragma: no cover
+    """Set `found` to the places beside faces whose value differs from theirs, each once; return how many."""
     many = 0
     for s in range(count):
         for side in range(6):
@@ -114,7 +113,7 @@ def wanted(slots, where, beside, flat, count):  # pragma: no cover
                 many += 1
     for n in range(many):
         slots[found[n, 0], found[n, 1], found[n, 2]] += 10
-    return found[:many].copy()
+    return many
 
 
 @njit(nogil=True, cache=True)
@@ -162,7 +161,6 @@ def step(
     threads,
 ):  # pragma: no cover
     """Do one step of all blocks in place; read neighbours' faces from `faces`, leave the new ones in `next_faces`."""
-    masked = domain.size > 0
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, before, after = (
         np.empty(CELLS, dtype=np.float32),
@@ -178,7 +176,7 @@ def step(
                 uniform[s] = 0
             own, data = phi[s], held[s]
             surround(own, faces, flat, beside[s], tall, left, right, before, after)
-            if masked:
+            if domain is not None:  # decided when it is compiled
                 step_masked(own, data, tall, left, right, before, after, domain, where[s], numbers)
             else:
                 for t in range(CELLS):

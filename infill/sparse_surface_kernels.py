@@ -295,7 +295,7 @@ def volume_and_slope(vertices, rate, faces, middle, thread, threads):  # pragma:
     return volume, slope
 
 
-@njit(inline="always", cache=True)
+@njit(cache=True)
 def sixfold(vertices, rate, face, middle):  # pragma: no cover
     """Return six times the volume between a face and the middle, and its change when the level rises by one."""
     i, j, k = face
@@ -314,14 +314,12 @@ def sixfold(vertices, rate, face, middle):  # pragma: no cover
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def measure(
-    slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, thread, threads
+    slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, middle, order, thread, threads
 ):  # pragma: no cover
     """Return what `volume_and_slope` would of the surface, unseen, and how many cubes are undecided and left out."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
-    corners, points, moves = np.empty(8, dtype=np.float64), np.empty((3, 3)), np.zeros((3, 3))
-    order = np.arange(3)
-    middle = np.array([shape[0] * spacing[0] / 2, shape[1] * spacing[1] / 2, shape[2] * spacing[2] / 2])
+    corners, points, moves = np.empty(8), np.empty((3, 3)), np.empty((3, 3))
     volume, slope, undecided = 0.0, 0.0, 0
     for n in range(thread, len(places), threads):
         p, q, r = places[n, 0], places[n, 1], places[n, 2]

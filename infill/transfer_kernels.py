@@ -16,10 +16,11 @@ def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
     """Set the state of every block of int8 data, solid above 0, and whether a row of blocks holds a zero."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
+    low, high, zero = np.empty(n2, dtype=np.int8), np.empty(n2, dtype=np.int8), np.empty(n2, dtype=np.int8)
     for row in range(thread, m0 * m1, threads):
         p, q = row // m1, row % m1
-        low, high = np.full(n2, 127, dtype=np.int8), np.full(n2, -128, dtype=np.int8)
-        zero = np.zeros(n2, dtype=np.int8)
+        for k in range(n2):
+            low[k], high[k], zero[k] = 127, -128, 0
         some = False
         for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
             for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
@@ -51,9 +52,11 @@ def fill_grey_states(data, state, thread, threads):  # pragma: no cover
     """Set the state of every block of float data: uniform only if all cells are +1 or all are -1."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
+    low, high = np.empty(n2, dtype=np.float32), np.empty(n2, dtype=np.float32)
     for row in range(thread, m0 * m1, threads):
         p, q = row // m1, row % m1
-        low, high = np.full(n2, np.inf, dtype=np.float32), np.full(n2, -np.inf, dtype=np.float32)
+        for k in range(n2):
+            low[k], high[k] = np.inf, -np.inf
         some = False
         for i in range(max(p * B0 - 1, 0), min((p + 1) * B0 - 1, n0)):
             for j in range(max(q * B1 - 1, 0), min((q + 1) * B1 - 1, n1)):
