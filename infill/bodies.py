@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from infill import bodies_kernels as kernels
 from infill.sparse import SparseField
-from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK
-from infill.sparse_surface_kernels import ROWS, bits_above
+from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
+from infill.sparse_surface_kernels import ROWS, bits_above, volumes
 from infill.surface import Surface
 from infill.threads import in_threads, thread_count
 
@@ -149,11 +149,11 @@ def grown(
 
 
 def _meet_or_spread(
-    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None
+    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BLOCK
 ) -> NDArray[np.uint16]:
     out = np.empty_like(bits)
     in_threads(
-        kernels.meet_or_spread, field.slots, field.where, bits, SOLID_BLOCK, meet, way, out,
+        kernels.meet_or_spread, field.slots, field.where, bits, kind, meet, way, out,
         threads=thread_count(threads),
     )  # fmt: skip
     return out
@@ -196,15 +196,15 @@ def bodies(
     every = Bodies(
         cells=cells, thick=np.empty(0, dtype=bool), bits=bits, blocks=blocks, starts=starts, alone=alone, names=names
     )
-    return with_thickness(field, every) if thickness else every
+    return with_thickness(field, every, void=void) if thickness else every
 
 
-def with_thickness(field: SparseField, every: Bodies) -> Bodies:
+def with_thickness(field: SparseField, every: Bodies, *, void: bool = False) -> Bodies:
     """Return the bodies, with which of them are more than one cell thick."""
     thick = np.zeros(every.count, dtype=bool)
-    kernels.mark_thick(
-        field.slots, field.where, every.bits, every.blocks, every.starts, every.alone, every.names, thick
-    )
+    kind = VOID_BLOCK if void else SOLID_BLOCK
+    core = _meet_or_spread(field, every.bits, True, 1, 1, kind)
+    kernels.mark_runs(every.bits, every.blocks, every.starts, every.names, core, thick)
     thick[every.names[every.alone[every.alone >= 0]]] = True
     return replace(every, thick=thick)
 
@@ -246,11 +246,21 @@ def shells(surface: Surface, rate: NDArray[np.float32]) -> Shells:
     kernels.join_faces(surface.faces, parent)
     names = np.empty(len(parent), dtype=np.int32)
     count = kernels.name_sets(parent, names)
-    volume, slope = np.zeros(count), np.zeros(count)
-    corners, sides = np.zeros(count, dtype=np.int64), np.zeros(count, dtype=np.int64)
-    middle = surface.vertices.mean(axis=0)
-    kernels.measure_shells(surface.vertices, rate, surface.faces, names, middle, volume, slope, corners, sides)
-    return Shells(names=names, volume=volume / 6, slope=slope / 6, euler=corners - sides // 2)
+    shell = names[surface.faces[:, 0]]
+    own, change = face_sums(surface, rate)
+    volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
+    corners, sides = np.bincount(names, minlength=count), np.bincount(shell, minlength=count)
+    return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
+
+
+def face_sums(
+    surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return for every face the volume between it and a point in the middle, mm³, and its slope over the level."""
+    own, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
+    middle = surface.vertices[len(surface.vertices) // 2]
+    in_threads(volumes, surface.vertices, rate, surface.faces, middle, own, change, threads=thread_count(threads))
+    return own, change
 
 
 def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDArray[np.bool_]) -> NDArray[Any]:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from infill.compiling import njit
-from infill.sparse_kernels import B0, B1, B2, CELLS
-from infill.sparse_surface_kernels import FULL, ROWS, lowest, ones, sixfold, within
+from infill.sparse_kernels import B0, B1, B2, CELLS, OUTSIDE, VOID_BLOCK
+from infill.sparse_surface_kernels import FULL, ROWS, lowest, ones, within
 
 
 @njit(cache=True)
@@ -210,41 +210,15 @@ def count_cells(where, bits, blocks, starts, shape, names, cells):  # pragma: no
 
 
 @njit(nogil=True, cache=True)
-def mark_thick(slots, where, bits, blocks, starts, alone, names, thick):  # pragma: no cover
-    """Mark the bodies that hold two by two by two cells."""
-    m0, m1, m2 = slots.shape
-    for s in range(len(where)):
-        p, q, r = where[s]
+def mark_runs(bits, blocks, starts, names, chosen, marked):  # pragma: no cover
+    """Mark the bodies of cells that are `chosen`."""
+    for s in range(len(bits)):
         for row in range(ROWS):
-            i, j = row // B1, row % B1
-            own = bits[s, row]
-            if own == 0:
-                continue
-            every = np.uint32(FULL | 1 << B2)
-            for di in range(2):
-                for dj in range(2):
-                    x, y, a, b = i + di, j + dj, p, q
-                    if x == B0:
-                        a, x = p + 1, 0
-                    if y == B1:
-                        b, y = q + 1, 0
-                    if a == m0 or b == m1:
-                        every = np.uint32(0)
-                        continue
-                    slot = slots[a, b, r]
-                    line = np.uint32(0)
-                    if slot >= 0:
-                        line = np.uint32(bits[slot, x * B1 + y])
-                    elif alone[a, b, r] >= 0:
-                        line = np.uint32(FULL)
-                    if r + 1 < m2 and node_at(alone, slots, a, b, r + 1, x * B1 + y, 0, bits, blocks, starts) >= 0:
-                        line |= np.uint32(1 << B2)
-                    every &= line
-            left = np.int64(every & (every >> np.uint32(1)))
+            left = np.int64(beginnings(bits[s, row] & chosen[s, row]))
             while left:
                 k = lowest(left)
                 left &= left - 1
-                thick[names[run_at(bits, blocks, starts, s, row, k)]] = True
+                marked[names[run_at(bits, blocks, starts, s, row, k)]] = True
 
 
 @njit(nogil=True, cache=True)
@@ -308,19 +282,6 @@ def join_faces(faces, parent):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def measure_shells(vertices, rate, faces, names, middle, volume, slope, corners, sides):  # pragma: no cover
-    """Add up for every shell six times its volume and that volume's slope over the level, its vertices and faces."""
-    for v in range(len(vertices)):
-        corners[names[v]] += 1
-    for f in range(len(faces)):
-        shell = names[faces[f, 0]]
-        sides[shell] += 1
-        own, change = sixfold(vertices, rate, faces[f], middle)
-        volume[shell] += own
-        slope[shell] += change
-
-
-@njit(nogil=True, cache=True)
 def lower_to_levels(
     values, where, slots, bits, blocks, starts, alone, names, levels, common, reach, out, thread, threads
 ):  # pragma: no cover
@@ -345,7 +306,7 @@ def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
     slot = slots[p, q, r]
     if slot >= 0:
         return np.int64(bits[slot, row])
-    return np.int64(FULL) if slot == kind else np.int64(0)
+    return np.int64(FULL) if slot == kind or (slot == OUTSIDE and kind == VOID_BLOCK) else np.int64(0)
 
 
 @njit(nogil=True, cache=True)

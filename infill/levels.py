@@ -16,12 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill import bodies_kernels, transfer_kernels
-from infill.bodies import Bodies, Shells, bodies, data_bits, shells
+from infill.bodies import Bodies, Shells, bodies, data_bits, face_sums, shells
 from infill.errors import GeometryError
 from infill.sparse import SparseField
 from infill.sparse_kernels import BLOCK, CELLS
 from infill.sparse_surface import Level, extract_level, measured
-from infill.sparse_surface_kernels import volume_and_slope
 from infill.surface import Surface
 from infill.threads import in_threads, thread_count
 
@@ -91,10 +90,8 @@ def phase_level(level: float) -> float:
 
 def volume_of(found: Level, threads: int) -> tuple[float, float]:
     """Return the volume a surface encloses, mm³, and how it changes when the level rises by one."""
-    surface = found.surface
-    middle = surface.vertices[len(surface.vertices) // 2]
-    parts = in_threads(volume_and_slope, surface.vertices, found.rate, surface.faces, middle, threads=threads)
-    return sum(part[0] for part in parts) / 6, sum(part[1] for part in parts) / 6
+    own, change = face_sums(found.surface, found.rate, threads=threads)
+    return float(own.sum()), float(change.sum())
 
 
 def counted(

@@ -284,15 +284,13 @@ def place(vertices, rate, spacing, origin, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def volume_and_slope(vertices, rate, faces, middle, thread, threads):  # pragma: no cover
-    """Return six times the volume that a part of the faces encloses, and its change when the level rises by one."""
+def volumes(vertices, rate, faces, middle, own, change, thread, threads):  # pragma: no cover
+    """Set for every face the volume between it and the middle, and its change when the level rises by one."""
     size = (len(faces) + threads - 1) // threads
-    volume, slope = 0.0, 0.0
     for f in range(thread * size, min(len(faces), (thread + 1) * size)):
-        own, change = sixfold(vertices, rate, faces[f], middle)
-        volume += own
-        slope += change
-    return volume, slope
+        six, more = sixfold(vertices, rate, faces[f], middle)
+        own[f] = six / 6
+        change[f] = more / 6
 
 
 @njit(cache=True)
@@ -316,7 +314,7 @@ def sixfold(vertices, rate, face, middle):  # pragma: no cover
 def measure(
     slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, middle, order, thread, threads
 ):  # pragma: no cover
-    """Return what `volume_and_slope` would of the surface, unseen, and how many cubes are undecided and left out."""
+    """Return six times the volume of the surface, its slope over the level, and how many cubes were left undecided."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     corners, points, moves = np.empty(8), np.empty((3, 3)), np.empty((3, 3))
