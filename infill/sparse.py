@@ -179,10 +179,16 @@ class _Blocks:
 
     def gather(self, start: Data, data: Data) -> None:
         """Take over start and data, which may be the same array."""
-        for whole, blocks in ((data, self.held), (start, self.phi)):
-            take = transfer_kernels.gather_binary if whole.dtype == np.int8 else transfer_kernels.gather_grey
-            in_threads(take, whole, self.where, blocks, self.count, threads=self.threads)
+        self._take(data, self.held)
+        if start is data:
+            self.phi[: self.count] = self.held[: self.count]
+        else:
+            self._take(start, self.phi)
         in_threads(kernels.emit_all, self.phi, self.faces, self.flat, self.count, threads=self.threads)
+
+    def _take(self, whole: Data, blocks: Data) -> None:
+        take = transfer_kernels.gather_binary if whole.dtype == np.int8 else transfer_kernels.gather_grey
+        in_threads(take, whole, self.where, blocks, self.count, threads=self.threads)
 
     def activate(self) -> None:
         """Begin to keep the blocks beside faces of another value."""
