@@ -207,7 +207,7 @@ def read_npz(path: Path, name: str | None = None) -> Volume:
             raise FormatError(f"{path} holds no array {name!r}; it holds {', '.join(members) or 'none'}")
         if name is None and len(volumes) != 1:
             found = f"{len(volumes)} arrays with three axes ({', '.join(volumes)})" if volumes else "no volume"
-            advice = f"choose one by array={volumes[0]!r}" if volumes else "save an array [x, y, z]"
+            advice = f"choose one: --array {volumes[0]}" if volumes else "save an array [x, y, z]"
             raise FormatError(f"{path} holds {found}; {advice}")
         values = _member(archive, members[name or volumes[0]])
         place = {key: _member(archive, members[key]) for key in PLACE & set(members)}

@@ -321,7 +321,7 @@ def _read_dicom(folder: Path, series: str | None) -> Volume:
     listed = ", ".join(f"{each} ({len(names)} slices)" for each, names in found.items())
     if series is None and len(found) > 1:
         raise FormatError(
-            f"{folder} holds {len(found)} DICOM series, {listed}; choose one by series={next(iter(found))!r}"
+            f"{folder} holds {len(found)} DICOM series, {listed}; choose one: --series {next(iter(found))}"
         )
     if series is not None and series not in found:
         raise FormatError(f"{folder} holds no DICOM series {series!r}; it holds {listed}")

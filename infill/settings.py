@@ -12,7 +12,7 @@ import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from infill.errors import FormatError, ParameterError
 from patterns import PATTERNS, Pattern, parameters
@@ -251,3 +251,17 @@ def parse_numbers(name: str, text: str, counts: tuple[int, ...]) -> tuple[float,
         wanted = " or ".join(map(str, counts))
         raise ParameterError(f"{name} is {text!r}; give {wanted} number(s), with commas between")
     return numbers
+
+
+def parse_level(text: str) -> Literal["volume"] | float:
+    """Return the level of a surface, by name or number, or raise ParameterError.
+
+    >>> parse_level("0")
+    0.0
+    """
+    if text == "volume":
+        return "volume"
+    try:
+        return float(text)
+    except ValueError:
+        raise ParameterError(f"level is {text!r}; give volume, or a number between -1 and 1") from None

@@ -108,7 +108,7 @@ def test_npz_in_either_order(tmp_path: Path) -> None:
 def test_npz_with_several_arrays_wants_a_name(tmp_path: Path) -> None:
     path = tmp_path / "a.npz"
     np.savez(path, first=numbers(), second=-numbers())
-    with pytest.raises(FormatError, match=r"2 arrays .*\(first, second\); choose one by array='first'"):
+    with pytest.raises(FormatError, match=r"2 arrays .*\(first, second\); choose one: --array first"):
         read_volume(path)
     assert read_volume(path, array="second").values.min() < 0
     with pytest.raises(FormatError, match="no array 'third'; it holds first, second"):
@@ -513,7 +513,7 @@ def test_dicom_slices_become_a_volume(sitk: Any, tmp_path: Path) -> None:
 def test_several_dicom_series_want_a_choice(sitk: Any, tmp_path: Path) -> None:
     write_series(sitk, tmp_path, "1.2.826.0.1.1", image_of(sitk, numbers()))
     write_series(sitk, tmp_path, "1.2.826.0.1.2", image_of(sitk, numbers() + 5))
-    with pytest.raises(FormatError, match=r"2 DICOM series, 1.2.826.0.1.1 \(7 slices\), .*choose one by series='1"):
+    with pytest.raises(FormatError, match=r"2 DICOM series, 1.2.826.0.1.1 \(7 slices\), .*choose one: --series 1"):
         read_volume(tmp_path)
     assert np.array_equal(read_volume(tmp_path, series="1.2.826.0.1.2").values, numbers() + 5)
     with pytest.raises(FormatError, match=r"no DICOM series 'x'; it holds 1.2.826.0.1.1 \(7"):

@@ -144,13 +144,13 @@ def smooth(
     from infill.export import WRITERS, writer
     from infill.fields import FIELD_WRITERS, field_writer
     from infill.output import check_targets
-    from infill.settings import parse_bytes, parse_numbers
+    from infill.settings import parse_bytes, parse_level, parse_numbers
 
     outputs = output or []
     if not (outputs or preview or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
     for path in outputs:
-        if path.suffix.lower() not in FIELD_WRITERS:
+        if ascii_stl or path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
     if preview is not None:
         from infill.preview import check_preview
@@ -178,7 +178,7 @@ def smooth(
                 between=None if between is None else parse_numbers("range", between, (2,)),
                 label=tuple(label) if label else None, otsu=otsu, grey=grey,
                 smoothing=Smoothing(steps=steps, fidelity=fidelity, interface=interface), refine=refine,
-                level="volume" if level == "volume" else parse_numbers("level", level, (1,))[0],
+                level=parse_level(level),
                 despeckle=despeckle, allow_broken=allow_broken, tolerance=tolerance, max_triangles=max_triangles,
                 threads=threads, max_memory=None if max_memory is None else parse_bytes(max_memory), progress=progress,
             )  # fmt: skip
