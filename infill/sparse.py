@@ -187,8 +187,8 @@ class _Blocks:
         in_threads(kernels.emit_all, self.phi, self.faces, self.flat, self.count, threads=self.threads)
 
     def _take(self, whole: Data, blocks: Data) -> None:
-        take = transfer_kernels.gather_binary if whole.dtype == np.int8 else transfer_kernels.gather_grey
-        in_threads(take, whole, self.where, blocks, self.count, threads=self.threads)
+        level = 0 if whole.dtype == np.int8 else None
+        in_threads(transfer_kernels.gather, whole, self.where, blocks, self.count, level, threads=self.threads)
 
     def activate(self) -> None:
         """Begin to keep the blocks beside faces of another value."""

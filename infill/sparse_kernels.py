@@ -69,18 +69,21 @@ def emit_all(blocks, faces, flat, count, thread, threads):  # pragma: no cover
 
 
 @njit(cache=True)
+def place_beside(place, side):  # pragma: no cover
+    """Return the place beside a block: low and high along i, j, k."""
+    a, b, c = place[0], place[1], place[2]
+    way = 1 if side % 2 else -1
+    if side < 2:
+        return a + way, b, c
+    return (a, b + way, c) if side < 4 else (a, b, c + way)
+
+
+@njit(cache=True)
 def find_neighbours(slots, where, beside, first, count):  # pragma: no cover
     """Set what lies beside the blocks from `first` on, and that they lie beside those."""
     for s in range(first, count):
         for side in range(6):
-            a, b, c = where[s, 0], where[s, 1], where[s, 2]
-            way = 1 if side % 2 else -1
-            if side < 2:
-                a += way
-            elif side < 4:
-                b += way
-            else:
-                c += way
+            a, b, c = place_beside(where[s], side)
             inside = 0 <= a < slots.shape[0] and 0 <= b < slots.shape[1] and 0 <= c < slots.shape[2]
             other = slots[a, b, c] if inside else OUTSIDE
             beside[s, side] = other
@@ -99,14 +102,7 @@ def wanted(slots, where, beside, flat, count, found):  # pragma: no cover
                 continue
             if flat[s, side] == (1 if other == SOLID_BLOCK else -1):
                 continue
-            a, b, c = where[s, 0], where[s, 1], where[s, 2]
-            way = 1 if side % 2 else -1
-            if side < 2:
-                a += way
-            elif side < 4:
-                b += way
-            else:
-                c += way
+            a, b, c = place_beside(where[s], side)
             if slots[a, b, c] == other:
                 slots[a, b, c] = other - 10  # seen
                 found[many, 0], found[many, 1], found[many, 2] = a, b, c

@@ -79,8 +79,8 @@ def fill_grey_states(data, state, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def gather_grey(whole, where, blocks, count, thread, threads):  # pragma: no cover
-    """Copy the cells of blocks; cells beyond the grid repeat the edge."""
+def gather(whole, where, blocks, count, level, thread, threads):  # pragma: no cover
+    """Copy the cells of blocks; cells beyond the grid repeat the edge. With a level, +1 where above it and -1 else."""
     n0, n1, n2 = whole.shape
     for s in range(thread, count, threads):
         i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
@@ -91,23 +91,11 @@ def gather_grey(whole, where, blocks, count, thread, threads):  # pragma: no cov
                 line = whole[x, min(max(j0 + j, 0), n1 - 1)]
                 at = (i * B1 + j) * B2
                 for k in range(B2):
-                    block[at + k] = line[min(max(k0 + k, 0), n2 - 1)]
-
-
-@njit(nogil=True, cache=True)
-def gather_binary(whole, where, blocks, count, thread, threads):  # pragma: no cover
-    """Copy the cells of blocks, +1 where above 0 and -1 else; cells beyond the grid repeat the edge."""
-    n0, n1, n2 = whole.shape
-    for s in range(thread, count, threads):
-        i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
-        block = blocks[s]
-        for i in range(B0):
-            x = min(max(i0 + i, 0), n0 - 1)
-            for j in range(B1):
-                line = whole[x, min(max(j0 + j, 0), n1 - 1)]
-                at = (i * B1 + j) * B2
-                for k in range(B2):
-                    block[at + k] = 1 if line[min(max(k0 + k, 0), n2 - 1)] > 0 else -1
+                    value = line[min(max(k0 + k, 0), n2 - 1)]
+                    if level is None:  # decided when it is compiled
+                        block[at + k] = value
+                    else:
+                        block[at + k] = 1 if value > level else -1
 
 
 @njit(nogil=True, cache=True)

@@ -150,7 +150,7 @@ def smooth(
     if not (outputs or preview or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
     for path in outputs:
-        if ascii_stl or path.suffix.lower() not in FIELD_WRITERS:
+        if path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
     if preview is not None:
         from infill.preview import check_preview
