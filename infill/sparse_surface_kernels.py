@@ -317,7 +317,7 @@ def measure(
     """Return six times the volume of the surface, its slope over the level, and how many cubes were left undecided."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
-    corners, points, moves = np.empty(8), np.empty((3, 3)), np.empty((3, 3))
+    corners, points, moves = np.empty(8), np.empty((3, 3)), np.empty((3, 3), dtype=np.float32)
     volume, slope, undecided = 0.0, 0.0, 0
     for n in range(thread, len(places), threads):
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
