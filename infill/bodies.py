@@ -264,10 +264,14 @@ def face_sums(
 
 
 def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDArray[np.bool_]) -> NDArray[Any]:
-    """Return data (nx, ny, nz) with the bodies marked in `small` (b,) made void; all of them are in kept blocks."""
-    out = values.copy()
+    """Return data (nx, ny, nz) with the bodies marked in `small` (b,) made void; floating-point data as float32."""
+    out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
     kernels.erase(out, field.where, every.bits, every.blocks, every.starts, every.names, small, void)
+    single = np.argwhere(every.alone >= 0)
+    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # blocks that are solid throughout
+        low = np.maximum(place * BLOCK - 1, 0)
+        out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BLOCK - 1, strict=True))] = void
     return out
 
 

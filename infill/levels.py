@@ -154,11 +154,11 @@ def at_volume(
     Raises
     ------
     GeometryError
-        If no level gives the volume: smoothing has taken too much of the data away.
+        If nothing is left above any level. Where no level gives the volume, what comes nearest is returned.
     """
     threads = thread_count(threads)
     total = float(targets.sum())
-    level, found = 0.0, None
+    level, height, found = 0.0, 0.0, None
     guess = guess or measured(field, spacing=spacing, level=level, threads=threads)
     if guess is not None and guess[1] < 0:
         level = _next_level(level, *guess, total)
@@ -170,6 +170,7 @@ def at_volume(
             if level < -LIMIT + 1e-3:
                 break
             continue
+        height = level
         volume, slope = volume_of(found, threads)
         if abs(volume - total) <= TOLERANCE * total or slope >= 0:
             break
@@ -180,9 +181,10 @@ def at_volume(
         )
     if data.count == 1:
         return Levelled(
-            against=field, height=level, surface=found.surface, rate=found.rate, common=level, levels=np.array([level])
-        )
-    return _each_body(field, data, spacing=spacing, targets=targets, common=level, threads=threads)
+            against=field, height=height, surface=found.surface, rate=found.rate, common=height,
+            levels=np.array([height]),
+        )  # fmt: skip
+    return _each_body(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:

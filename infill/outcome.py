@@ -82,3 +82,14 @@ def summary(distance: NDArray[np.float64]) -> dict[str, float]:
         "rms": float(np.sqrt((distance**2).mean())),
         "max": float(distance.max()),
     }
+
+
+def component_count(surface: Surface) -> int:
+    """Return how many connected parts a surface has, shells of cavities included."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    a, b, c = surface.faces.T
+    ends = np.concatenate([a, a]), np.concatenate([b, c])
+    graph = coo_matrix((np.ones(len(ends[0]), dtype=np.int8), ends), shape=(len(surface.vertices),) * 2)
+    return int(connected_components(graph, directed=False)[0])

@@ -277,7 +277,7 @@ def _histogram(values: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.fl
     edges: NDArray[np.float64] = np.linspace(least, most, BINS + 1)
     counts = np.zeros(BINS)
     for part in _slabs(values):
-        counts += np.histogram(part.ravel(order="K"), BINS, (least, most))[0]
+        counts += np.histogram(part.ravel(order="K").astype(np.float64), BINS, (least, most))[0]
     return counts, edges
 
 

@@ -38,7 +38,7 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
     -----
     Edges are collapsed by quadric errors (Garland and Heckbert 1997, fast-simplification, MIT), which keep shape and
     volume best. Where that opens the mesh or changes its Euler number, the manifold library (Apache 2.0)
-    collapses them, which cannot.
+    collapses them, which keeps it closed but may take out bodies smaller than the tolerance it needs.
     """
     near = None if tolerance is None else positive("tolerance", tolerance, "mm")
     few = None if triangles is None else whole("the number of triangles", triangles, FEWEST)
@@ -51,8 +51,11 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
     if found is None:
         found = _by_collapse(surface, few, near, fits)
     if found is None:
+        wanted = [] if few is None else [f"at most {few:,} triangles"]
+        wanted += [] if near is None else [f"{near:g} mm of leeway"]
         raise GeometryError(
-            f"the surface has {len(surface.faces):,} triangles and cannot have so few without opening; allow more"
+            f"the surface has {len(surface.faces):,} triangles; it cannot be simplified to {' and '.join(wanted)} "
+            "without opening or moving further; allow more"
         )
     return found
 
@@ -84,6 +87,7 @@ def _by_quadrics(
             low = middle
     if few is not None and best is not None and len(best.faces) > few:
         best = at(few)
+        best = best if fits(best) else None
     return best
 
 
@@ -115,7 +119,7 @@ def _by_collapse(
         middle = float(np.sqrt(low * high))
         found = at(middle)
         small = found is not None and (few is None or len(found.faces) <= few)
-        if small and (few is not None or fits(found)):
+        if small and fits(found):
             best = found
         if few is not None:  # the least tolerance that makes so few
             low, high = (low, middle) if small or found is None else (middle, high)

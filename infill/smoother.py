@@ -23,7 +23,7 @@ from infill.errors import GeometryError, ParameterError
 from infill.export import surface_of
 from infill.grid import spacing_of
 from infill.machine import require_memory
-from infill.outcome import as_float, moved, placed, some, summary
+from infill.outcome import as_float, component_count, moved, placed, some, summary
 from infill.pipeline import Clock, Progress, Result
 from infill.points import voxelise_points
 from infill.reading import closed_or_merged
@@ -45,9 +45,11 @@ LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
 BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
+OFF = 0.01  # of the volume: what the level of the volume may miss, by specks that are gone
 SIMPLER = 0.05  # of the volume: what simplifying may change
 ROUGH = 0.03  # of the volume: what voxels may hold more or less than a mesh
 ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
+ADVICE_REFINED = "use finer voxels or fewer steps (or --allow-broken, to have it anyway)"
 
 
 class Options(TypedDict, total=False):
@@ -265,8 +267,10 @@ def _smoothed(
     with clock.stage("check", 0.6):
         report = verdict(found, before, targets, level, smoothing.steps, size, threads)
         report["problems"] += _of_voxels(float(targets.sum()), repairs)
+        if by_volume and abs(report["volume_change"]) > OFF:
+            report["problems"].append(f"the volume is off by {report['volume_change']:+.1%}, which no level mends")
         if report["problems"] and not allow_broken:
-            raise GeometryError(f"{'; '.join(report['problems'])}; {ADVICE}")
+            raise GeometryError(f"{'; '.join(report['problems'])}; {ADVICE_REFINED if refine else ADVICE}")
     with clock.stage("measure", 0.75):
         surface = placed(found.surface, data)
         report["distance"] = moved(surface, field, data, reference, threads)
@@ -282,6 +286,7 @@ def _smoothed(
             report["simplified"] = {
                 "triangles_before": len(full.faces),
                 "volume_change": change,
+                "components": component_count(surface),
                 "distance": summary(distances(some(full.vertices), surface)),
             }
     closed = closed if surface is full else surface.closed

@@ -131,7 +131,8 @@ def measured(
     parts = in_threads(
         kernels.measure, field.slots, _crossed(field.slots, field.shape), _bits_above(field, level, count), values,
         field.shape, numbers, cubes.counts, cubes.triangles, np.array(EDGES, dtype=np.int8),
-        np.array(spacing, dtype=np.float64), np.array(field.shape) * spacing / 2, np.arange(3, dtype=np.int32), threads=count,
+        np.array(spacing, dtype=np.float64), np.array(field.shape) * spacing / 2, np.arange(3, dtype=np.int32),
+        threads=count,
     )  # fmt: skip
     volume, slope, undecided = (sum(part[n] for part in parts) for n in range(3))
     return None if undecided else (volume / 6, slope / 6)

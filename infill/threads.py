@@ -12,6 +12,7 @@ from infill.checks import whole
 from infill.machine import usable_cores
 
 VARIABLE = "NUMBA_NUM_THREADS"
+MOST = 256  # threads: more cost more than they bring
 
 
 def thread_count(asked: int | None = None) -> int:
@@ -21,9 +22,9 @@ def thread_count(asked: int | None = None) -> int:
     3
     """
     if asked is not None:
-        return whole("the number of threads", asked, 1)
+        return min(whole("the number of threads", asked, 1), MOST)
     said = os.environ.get(VARIABLE, "")
-    return int(said) if said.isdigit() and int(said) > 0 else usable_cores()
+    return min(int(said), MOST) if said.isdecimal() and int(said) > 0 else usable_cores()
 
 
 def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> list[Any]:  # noqa: ANN401 - hands on
@@ -33,11 +34,11 @@ def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> lis
     """
     if threads == 1:
         return [kernel(*arguments, 0, 1)]
-    started = [_pool(threads).submit(kernel, *arguments, thread, threads) for thread in range(1, threads)]
+    started = [_pool(threads, os.getpid()).submit(kernel, *arguments, thread, threads) for thread in range(1, threads)]
     first = kernel(*arguments, 0, threads)
     return [first, *(each.result() for each in started)]
 
 
 @cache
-def _pool(threads: int) -> ThreadPoolExecutor:
+def _pool(threads: int, process: int) -> ThreadPoolExecutor:  # noqa: ARG001 - a forked process has no threads yet
     return ThreadPoolExecutor(threads - 1, thread_name_prefix="infill")

@@ -47,7 +47,10 @@ def test_the_reader_of_imports_sees_nested_ones(tmp_path: Path) -> None:
 
 def modules_after(code: str) -> set[str]:
     done = subprocess.run(
-        [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"], capture_output=True, text=True, check=True
+        [sys.executable, "-c", f"{code}\nimport sys; print(*sys.modules)"],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
     )
     return set(done.stdout.split())
 

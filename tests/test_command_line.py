@@ -98,7 +98,9 @@ def test_both_names_are_the_same_program() -> None:
 def test_completion_is_there() -> None:
     environment = {**os.environ, "_INFILL_COMPLETE": "complete_bash", "COMP_WORDS": "infill make ho", "COMP_CWORD": "2"}
     code = "import sys; sys.argv = ['infill']; from infill.cli import main; main()"
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, encoding="utf-8", check=False
+    )
     assert "honeycomb" in done.stdout
 
 
@@ -479,7 +481,7 @@ def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
     (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
     (folder / "entry_points.txt").write_text("[infill.patterns]\nbroken = no_such_module:Pattern\n")
     done = subprocess.run(
-        [*RUN, "list"], capture_output=True, text=True, check=False,
+        [*RUN, "list"], capture_output=True, encoding="utf-8", check=False,
         env={**os.environ, "PYTHONPATH": str(folder.parent)},
     )  # fmt: skip
     assert done.returncode == 0

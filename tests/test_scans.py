@@ -612,7 +612,7 @@ def test_reading_arrays_loads_nothing_medical() -> None:
 
     done = subprocess.run(
         [sys.executable, "-c", "import infill.scans, infill.fields, json, sys; print(json.dumps(list(sys.modules)))"],
-        capture_output=True, text=True, check=True,
+        capture_output=True, encoding="utf-8", check=True,
     )  # fmt: skip
     assert not {"SimpleITK", "tifffile", "PIL", "skimage"} & set(json.loads(done.stdout))
 

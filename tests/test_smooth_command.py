@@ -108,7 +108,7 @@ def test_quiet_means_quiet(folder: Path) -> None:
 def test_a_real_process_says_the_same(folder: Path) -> None:
     """Nothing of a library comes onto the streams, and no number depends on who calls."""
     done = subprocess.run(
-        [*RUN, "smooth", "ball.npy", "-o", "a.stl", "--json"], capture_output=True, text=True, check=False
+        [*RUN, "smooth", "ball.npy", "-o", "a.stl", "--json"], capture_output=True, encoding="utf-8", check=False
     )
     assert done.returncode == 0, done.stderr
     found, here = json.loads(done.stdout), report("ball.npy", "-o", "b.stl")

@@ -66,7 +66,7 @@ def test_ctrl_c_at_any_moment_leaves_no_file(delay: float, large: Path, tmp_path
     path.write_text("precious")
     process = subprocess.Popen(
         [*RUN, "smooth", str(large), "-o", str(path), "-o", str(tmp_path / "b.obj"), "--force", "--allow-broken"],
-        stderr=subprocess.PIPE, text=True, start_new_session=True,
+        stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True,
     )  # fmt: skip
     time.sleep(delay)
     assert process.poll() is None, "ended before it was interrupted"
@@ -82,7 +82,7 @@ def test_ctrl_c_at_any_moment_leaves_no_file(delay: float, large: Path, tmp_path
 def test_ctrl_c_while_it_writes_leaves_no_file(large: Path, tmp_path: Path) -> None:
     process = subprocess.Popen(
         [*RUN, "smooth", str(large), "-o", str(tmp_path / "a.obj"), "--allow-broken"],
-        stderr=subprocess.PIPE, text=True, start_new_session=True,
+        stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True,
     )  # fmt: skip
     while not list(tmp_path.iterdir()) and process.poll() is None:  # until it writes
         time.sleep(0.01)
@@ -97,7 +97,7 @@ def test_ctrl_c_while_it_writes_leaves_no_file(large: Path, tmp_path: Path) -> N
 def test_a_device_as_output(small: Path) -> None:
     """/dev/null has no suffix; a name of a device cannot be replaced, and is not."""
     done = subprocess.run(
-        [*RUN, "smooth", str(small), "-o", os.devnull, "--force"], capture_output=True, text=True, check=False
+        [*RUN, "smooth", str(small), "-o", os.devnull, "--force"], capture_output=True, encoding="utf-8", check=False
     )
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
@@ -107,7 +107,7 @@ def test_a_device_as_output(small: Path) -> None:
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
 def test_a_full_stdout_is_told(small: Path) -> None:
     with open("/dev/full", "w") as full:
-        done = subprocess.run([*RUN, "smooth", str(small), "--json", "-q"], stdout=full, stderr=subprocess.PIPE, text=True, check=False)  # fmt: skip
+        done = subprocess.run([*RUN, "smooth", str(small), "--json", "-q"], stdout=full, stderr=subprocess.PIPE, encoding="utf-8", check=False)  # fmt: skip
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
 
@@ -118,6 +118,6 @@ def test_the_memory_of_a_small_job_is_small(small: Path) -> None:
         "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, capture_output=True);"
         "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
     )
-    done = subprocess.run([sys.executable, "-c", code, *RUN, "smooth", str(small), "--json"], capture_output=True, text=True, check=True)  # fmt: skip
+    done = subprocess.run([sys.executable, "-c", code, *RUN, "smooth", str(small), "--json"], capture_output=True, encoding="utf-8", check=True)  # fmt: skip
     unit = 1 if sys.platform == "darwin" else 1024
     assert int(done.stdout) * unit < 2**29

@@ -472,7 +472,7 @@ def test_a_speck_that_vanishes_is_told_and_no_error() -> None:
     assert result.mesh.volume == pytest.approx(solid.sum(), rel=VOLUME)
 
 
-@pytest.mark.parametrize("options", [{"tolerance": 0.02}, {"tolerance": 0.1}, {"max_triangles": 2000}, {"max_triangles": 100}, {"tolerance": 0.05, "max_triangles": 1000}])  # fmt: skip
+@pytest.mark.parametrize("options", [{"tolerance": 0.02}, {"tolerance": 0.1}, {"max_triangles": 2000}, {"max_triangles": 100}, {"tolerance": 0.5, "max_triangles": 1000}])  # fmt: skip
 def test_simplified_meshes_stay_closed_and_close(options: dict[str, Any]) -> None:
     solid = ball((40, 40, 40), (19.5,) * 3, 13) | brick((40, 40, 40), (15, 25), (5, 35), (15, 25))
     full = smooth_volume(solid)
@@ -702,3 +702,52 @@ def test_the_helpers_can_fail() -> None:
     shell = np.ones((3, 3, 3), bool)
     shell[1, 1, 1] = False
     assert counted(shell) == (1, 1)
+
+
+def test_despeckling_takes_whole_bodies_blocks_and_all() -> None:
+    """A body so large that it has blocks that are solid throughout."""
+    two = np.zeros((130, 70, 70), dtype=bool)
+    two[5:55, 5:55, 5:55] = two[62:126, 3:67, 3:67] = True
+    result = smooth_volume(two, despeckle=130_000.0, smoothing=Smoothing(steps=5))
+    assert result.report["despeckled"] == 1
+    assert result.report["result"]["components"] == 1
+    assert result.mesh.volume == pytest.approx(64**3, rel=1e-4)
+
+
+@pytest.mark.parametrize("kind", [">f4", "float16", "float64"])
+def test_despeckling_a_phase_field_of_any_float(kind: str) -> None:
+    field = np.where(ball((30, 30, 30), (14.5,) * 3, 9), 1.0, -1.0)
+    field[2, 2, 2:4] = 1
+    result = smooth_volume(field.astype(kind), despeckle=5.0, smoothing=Smoothing(steps=5))
+    assert (result.report["despeckled"], result.report["result"]["components"]) == (1, 1)
+
+
+def test_tolerance_and_triangles_are_both_kept_or_it_is_told() -> None:
+    solid = ball((40, 40, 40), (19.5,) * 3, 13)
+    with pytest.raises(GeometryError, match=r"at most 300 triangles and 0.02 mm of leeway"):
+        smooth_volume(solid, max_triangles=300, tolerance=0.02)
+    both = smooth_volume(solid, max_triangles=2000, tolerance=0.5).report
+    assert both["triangles"] <= 2000
+    assert both["simplified"]["distance"]["max"] <= 0.55
+    assert both["simplified"]["components"] == 1
+
+
+def test_a_volume_that_no_level_mends_is_a_problem(rng: np.random.Generator) -> None:
+    noise = rng.random((20, 20, 20)) < 0.5
+    result = smooth_volume(noise, allow_broken=True)
+    assert abs(result.report["volume_change"]) > 0.01
+    assert any("the volume is off by" in problem for problem in result.report["problems"])
+
+
+def test_otsu_of_half_precision_and_of_a_narrow_range() -> None:
+    values = np.where(ball((30, 30, 30), (14.5,) * 3, 9), 1.0, -1.0)
+    for data in (((values + 1) * 100).astype(np.float16), (1000 + 0.01 * values).astype(np.float32)):
+        found = smooth_volume(data, threshold="otsu", smoothing=Smoothing(steps=5))
+        assert found.report["result"]["components"] == 1
+
+
+def test_more_threads_than_make_sense_still_work() -> None:
+    solid = ball((30, 30, 30), (14.5,) * 3, 9)
+    assert smooth_volume(solid, threads=100_000).report["volume"] == pytest.approx(
+        smooth_volume(solid).report["volume"]
+    )

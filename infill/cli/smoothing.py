@@ -104,8 +104,12 @@ def smooth(
         ),
     ] = False,
     fidelity: Annotated[
-        float, typer.Option(help="How strongly the data hold, 0 to 1 or more.", rich_help_panel=SURFACE)
-    ] = 0.01,
+        float | None,
+        typer.Option(
+            help="How strongly the data hold, 0 to 1 or more; not with --refine. (default: 0.01)",
+            rich_help_panel=SURFACE,
+        ),
+    ] = None,
     interface: Annotated[
         float, typer.Option(help="Voxels from the surface to phi = 0.9.", rich_help_panel=SURFACE)
     ] = 2.0,
@@ -147,6 +151,8 @@ def smooth(
     from infill.settings import parse_bytes, parse_level, parse_numbers
 
     outputs = output or []
+    if refine and fidelity is not None:
+        raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
     if not (outputs or preview or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
     for path in outputs:
@@ -177,7 +183,10 @@ def smooth(
                 resolution=resolution, voxel=voxel, shell=shell, threshold=threshold,
                 between=None if between is None else parse_numbers("range", between, (2,)),
                 label=tuple(label) if label else None, otsu=otsu, grey=grey,
-                smoothing=Smoothing(steps=steps, fidelity=fidelity, interface=interface), refine=refine,
+                smoothing=Smoothing(
+                    steps=steps, fidelity=0.01 if fidelity is None else fidelity, interface=interface
+                ),
+                refine=refine,
                 level=parse_level(level),
                 despeckle=despeckle, allow_broken=allow_broken, tolerance=tolerance, max_triangles=max_triangles,
                 threads=threads, max_memory=None if max_memory is None else parse_bytes(max_memory), progress=progress,
@@ -229,7 +238,7 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
         cost = report["simplified"]
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
-            f"volume {cost['volume_change']:+.4%}"
+            f"volume {cost['volume_change']:+.4%}, {cost['components']} shell(s)"
         )
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
