@@ -24,6 +24,7 @@ from infill.threads import in_threads, thread_count
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
 EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]
 CORNERS = 8
+LARGE = 2000  # blocks: fewer make a surface in some milliseconds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,8 +125,11 @@ def measured(
 ) -> tuple[float, float] | None:
     """Return the volume of the surface at a level, mm³, and its slope over the level, without making the surface.
 
-    None if there is a cube that signs do not decide: then it takes the surface to tell.
+    None if there is a cube that signs do not decide: then it takes the surface to tell. And None for a small surface,
+    which is made in no time.
     """
+    if len(field.where) < LARGE:
+        return None
     count = thread_count(threads)
     values, numbers, cubes = field.values.reshape(-1, CELLS), _numbers(level), cube_table()
     parts = in_threads(

@@ -10,8 +10,16 @@ from scipy.spatial import cKDTree
 
 from infill import GeometryError, Smoothing
 from infill.bodies import data_bits
+from infill.levels import volume_of
 from infill.sparse import SparseField, smooth_blocks
-from infill.sparse_surface import cube_table, euler_number_of_bits, extract_blocks, extract_level, raw_counts
+from infill.sparse_surface import (
+    cube_table,
+    euler_number_of_bits,
+    extract_blocks,
+    extract_level,
+    measured,
+    raw_counts,
+)
 from infill.sparse_surface_kernels import UNDECIDED
 from infill.surface import Surface, extract
 
@@ -143,3 +151,17 @@ def test_int8_booleans_and_floats_give_the_same_bits(rng: np.random.Generator) -
         for f in (solid, signs.astype(np.int8), signs.astype(np.float32), signs.astype(np.int64))
     ]
     assert all(np.array_equal(fields[0], other) for other in fields[1:])
+
+
+def test_a_surface_is_measured_as_it_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Volume and slope without the surface, where it is large: made small here."""
+    x = np.indices((30, 30, 40)) - np.array([14.2, 15.1, 19.7])[:, None, None, None]
+    field = smooth_blocks((x**2).sum(axis=0) < 121, Smoothing(steps=8), spacing=(0.5, 0.5, 0.4))
+    assert measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02) is None
+    monkeypatch.setattr("infill.sparse_surface.LARGE", 0)
+    volume, slope = measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02, threads=2)
+    made = extract_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02)
+    assert volume == pytest.approx(made.surface.volume, rel=1e-9)
+    assert slope == pytest.approx(volume_of(made, 1)[1], rel=1e-6)
+    rough = smooth_blocks(np.random.default_rng(0).random((20, 20, 20)) < 0.4, Smoothing(steps=1))
+    assert measured(rough, spacing=UNIT, level=0.0) is None  # signs do not decide every cube
