@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from typing import Any, Literal
 
@@ -14,6 +15,8 @@ from infill.inplace import smooth_inplace
 
 Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
 Kernel = Callable[..., NDArray[np.floating]]
+LOG = logging.getLogger("infill")
+COMPILED = ("dense", "sparse")
 COMPILED_AXES = 3
 WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, as long as compiling takes
 
@@ -65,9 +68,10 @@ def smooth(
     method : {"auto", "numpy", "inplace", "dense", "sparse"}
         "numpy" is the specification in float64; the others are float32, the same to 2e-5.
         "inplace" needs no compiler. "dense" and "sparse" take up to three axes; they are compiled when
-        first used, some seconds, and kept on disk. "sparse" leaves out what cannot move, and gives the
-        bits of "dense". "auto" takes "inplace" for two axes and for little work; in three axes, for more than
-        2e8 cells times steps, "sparse" for whole numbers and booleans and "dense" for grey data.
+        first used, some seconds, which the log "infill" tells of, and kept on disk. "sparse" leaves out what
+        cannot move, and gives the bits of "dense". "auto" takes "inplace" for two axes and for little work;
+        in three axes, for more than 2e8 cells times steps, "sparse" for whole numbers and booleans and
+        "dense" for grey data.
 
     Returns
     -------
@@ -88,7 +92,7 @@ def smooth(
     """
     if method != "auto" and method not in KERNELS:
         raise ParameterError(f"there is no method {method!r}; choose from auto, {', '.join(KERNELS)}")
-    if method in ("dense", "sparse") and np.ndim(f) > COMPILED_AXES:
+    if method in COMPILED and np.ndim(f) > COMPILED_AXES:
         raise ParameterError(f"method {method!r} takes up to {COMPILED_AXES} axes, not {np.ndim(f)}; choose inplace")
     field = phase_field(f)
     start = None if initial is None else phase_field(initial, "the initial field")
@@ -98,8 +102,13 @@ def smooth(
             raise ParameterError(f"{name} has the shape {other.shape}, the data {field.shape}; give equal shapes")
     if domain is not None and domain.dtype != bool:
         raise ParameterError(f"the mask is of type {domain.dtype}; give booleans")
-    kernel = KERNELS[_chosen(np.asarray(f), smoothing) if method == "auto" else method]
-    return kernel(field, smoothing, spacing=spacing, initial=start, mask=domain)
+    chosen = _chosen(np.asarray(f), smoothing) if method == "auto" else method
+    if chosen not in COMPILED:
+        return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
+    from infill.compiling import told_of_compiling
+
+    with told_of_compiling(lambda: LOG.warning("compiling the %s kernel, the first time on this machine only", chosen)):
+        return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
 
 
 def _chosen(f: NDArray[np.generic], smoothing: Smoothing) -> str:

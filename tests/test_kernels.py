@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import math
+import os
+import subprocess
+import sys
 import threading
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -428,3 +432,15 @@ def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("infill.inplace.np.sqrt", interrupted)
     with pytest.raises(KeyboardInterrupt):
         smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")
+
+
+def test_the_log_tells_of_compiling(tmp_path: Path) -> None:
+    """Once on a machine: here in a process with an empty folder for compiled code."""
+    code = "import infill; infill.smooth([[[True, False]]], method='dense')"
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    told = [
+        subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, encoding="utf-8", check=True)
+        for _ in range(2)
+    ]
+    assert told[0].stderr == "compiling the dense kernel, the first time on this machine only\n"
+    assert told[1].stderr == ""
