@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
+
+from infill import smooth_volume
 
 settings.register_profile(
     "suite", deadline=None, max_examples=25, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
@@ -28,3 +31,17 @@ def data() -> Path:
 @pytest.fixture
 def rng() -> np.random.Generator:
     return np.random.default_rng(20201)
+
+
+@pytest.fixture(scope="session")
+def compiled() -> None:
+    """Compile what smoothing takes, so that nothing is said of it later, by other processes neither."""
+    ball = np.sum((np.indices((20, 20, 20)) - 9.5) ** 2, axis=0) < 40
+    for refine in (False, True):
+        smooth_volume(ball, refine=refine)
+
+
+@pytest.fixture
+def silent_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Say nothing of what is compiled in this process: which test is first to need it depends on their order."""
+    monkeypatch.setattr("infill.compiling.told_of_compiling", lambda tell: contextlib.nullcontext())

@@ -19,6 +19,8 @@ from test_command_line import one_line_error, plain, run
 from infill import Volume, read_mesh, read_volume
 from infill.fields import write_field
 
+pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
+
 RUN = [sys.executable, "-m", "infill.cli"]
 CELLS = (26, 22, 24)
 MIDDLE = (12.0, 10.0, 11.0)

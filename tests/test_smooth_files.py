@@ -18,6 +18,8 @@ from test_command_line import one_line_error, run
 from infill import Volume, read_mesh
 from infill.fields import write_field
 
+pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
+
 COARSE = ["--resolution", "48"]
 
 # What each file of data/nasty gives: a line, or the volume by SOURCES.md and how near 48 cells come to it.
