@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from infill import bodies_kernels as kernels
 from infill.sparse import SparseField
 from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
-from infill.sparse_surface_kernels import ROWS, bits_above, volumes
+from infill.sparse_surface import rows_above
+from infill.sparse_surface_kernels import ROWS, volumes
 from infill.surface import Surface
 from infill.threads import in_threads, thread_count
 
@@ -113,20 +114,12 @@ class Shells:
 
 def solid_bits(field: SparseField, *, level: float = 0.0, threads: int | None = None) -> NDArray[np.uint16]:
     """Return which cells of the kept blocks are above the level, (n, rows) uint16."""
-    return _bits(field, field.values, level, threads)
+    return rows_above(field, field.values, level, threads=threads)
 
 
 def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
     """Return which cells of the kept blocks are solid in the data, (n, rows) uint16."""
-    return _bits(field, field.data, 0.0, threads)
-
-
-def _bits(field: SparseField, values: NDArray[Any], height: float, threads: int | None) -> NDArray[np.uint16]:
-    bits = np.empty((len(field.where), ROWS), dtype=np.uint16)
-    level = values.dtype.type(height)
-    flat = values.reshape(-1, CELLS)
-    in_threads(bits_above, flat, field.where, level, field.shape, bits, threads=thread_count(threads))
-    return bits
+    return rows_above(field, field.data, 0.0, threads=threads)
 
 
 def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
@@ -203,7 +196,7 @@ def with_thickness(field: SparseField, every: Bodies, *, void: bool = False) -> 
     """Return the bodies, with which of them are more than one cell thick."""
     thick = np.zeros(every.count, dtype=bool)
     kind = VOID_BLOCK if void else SOLID_BLOCK
-    core = _meet_or_spread(field, every.bits, True, 1, 1, kind)
+    core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
     kernels.mark_runs(every.bits, every.blocks, every.starts, every.names, core, thick)
     thick[every.names[every.alone[every.alone >= 0]]] = True
     return replace(every, thick=thick)
@@ -242,15 +235,20 @@ def fate(before: Bodies, after: Bodies) -> Fate:
 
 def shells(surface: Surface, rate: NDArray[np.float32]) -> Shells:
     """Return the connected parts of a closed surface."""
-    parent = np.arange(len(surface.vertices))
-    kernels.join_faces(surface.faces, parent)
-    names = np.empty(len(parent), dtype=np.int32)
-    count = kernels.name_sets(parent, names)
+    names, count = shell_names(surface)
     shell = names[surface.faces[:, 0]]
     own, change = face_sums(surface, rate)
     volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
     corners, sides = np.bincount(names, minlength=count), np.bincount(shell, minlength=count)
     return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
+
+
+def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
+    """Return for every vertex (V,) the number of the connected part it belongs to, and how many parts there are."""
+    parent = np.arange(len(surface.vertices))
+    kernels.join_faces(surface.faces.astype(np.int32, copy=False), parent)
+    names = np.empty(len(parent), dtype=np.int32)
+    return names, int(kernels.name_sets(parent, names))
 
 
 def face_sums(

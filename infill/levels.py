@@ -110,12 +110,12 @@ def counted(
 
 def volumes_of(
     field: SparseField, data: Bodies, *, spacing: tuple[float, ...], threads: int | None = None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the volume of each body of the data at level 0, mm³, and its slope over the level."""
+) -> NDArray[np.float64]:
+    """Return the volume of each body of the data at level 0, (b,) mm³."""
     found = extract_level(field, spacing=spacing, threads=threads)
     parts = shells(found.surface, found.rate)
     body, _ = _body_of(parts, found.surface, field, data, spacing)
-    return _sums(body, parts.volume, data.count), _sums(body, parts.slope, data.count)
+    return _sums(body, parts.volume, data.count)
 
 
 def at_level(
@@ -158,20 +158,21 @@ def at_volume(
     """
     threads = thread_count(threads)
     total = float(targets.sum())
-    level, height, found = 0.0, 0.0, None
+    level, height, found, least = 0.0, 0.0, None, math.inf
     guess = guess or measured(field, spacing=spacing, level=level, threads=threads)
     if guess is not None and guess[1] < 0:
         level = _next_level(level, *guess, total)
     for _ in range(ROUNDS):
         try:
-            found = extract_level(field, spacing=spacing, level=level, threads=threads)
+            tried = extract_level(field, spacing=spacing, level=level, threads=threads)
         except GeometryError:
             level = (level - LIMIT) / 2  # nothing left up there
             if level < -LIMIT + 1e-3:
                 break
             continue
-        height = level
-        volume, slope = volume_of(found, threads)
+        volume, slope = volume_of(tried, threads)
+        if abs(volume - total) < least:
+            found, height, least = tried, level, abs(volume - total)
         if abs(volume - total) <= TOLERANCE * total or slope >= 0:
             break
         level = _next_level(level, volume, slope, total)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Any
 
@@ -37,10 +36,10 @@ def field_volume(result: Result) -> Volume:
     Of a surface at the level of the volume it is the distance from the surface, +-1 some cells away from it.
     """
     data, found = result.fields["data"], result.fields["levelled"]
-    field = found.against
-    cells = math.prod(field.shape)
-    require_memory(8 * cells, None, "write a mesh instead of the field, or use larger voxels")
-    whole: Volume = replace(data, values=(field.to_dense() - np.float32(found.height)).clip(-1, 1))
+    require_memory(4 * data.values.size, None, "write a mesh instead of the field, or use larger voxels")
+    values = found.against.to_dense()
+    values -= np.float32(found.height)
+    whole: Volume = replace(data, values=values.clip(-1, 1, out=values))
     return whole
 
 
@@ -82,14 +81,3 @@ def summary(distance: NDArray[np.float64]) -> dict[str, float]:
         "rms": float(np.sqrt((distance**2).mean())),
         "max": float(distance.max()),
     }
-
-
-def component_count(surface: Surface) -> int:
-    """Return how many connected parts a surface has, shells of cavities included."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    a, b, c = surface.faces.T
-    ends = np.concatenate([a, a]), np.concatenate([b, c])
-    graph = coo_matrix((np.ones(len(ends[0]), dtype=np.int8), ends), shape=(len(surface.vertices),) * 2)
-    return int(connected_components(graph, directed=False)[0])

@@ -17,6 +17,7 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.reading import readable
 
 AXES = 3
 # What NumPy raises for files that hold something else than they should.
@@ -52,14 +53,9 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
     FormatError
         If there is no such file, its suffix is unknown, or it holds no points or broken ones.
     """
-    source = Path(path)
-    suffix = source.suffix.lower()
-    if suffix not in READERS:
-        raise FormatError(f"cannot tell a format of points from {source.name!r}; use one of {', '.join(READERS)}")
-    if not source.is_file():
-        raise FormatError(f"there is no file {source}; check the name")
+    source = readable(path, READERS, "a format of points")
     try:
-        points = READERS[suffix](source)
+        points = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if points.ndim != 2 or points.shape[1] < AXES:

@@ -9,7 +9,7 @@ import re
 import struct
 import zipfile
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -53,14 +53,9 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     FormatError
         If there is no such file, its suffix is unknown, or it holds no triangles or broken ones.
     """
-    source = Path(path)
-    suffix = source.suffix.lower()
-    if suffix not in READERS:
-        raise FormatError(f"cannot tell a mesh format from {source.name!r}; use one of {', '.join(READERS)}")
-    if not source.is_file():
-        raise FormatError(f"there is no file {source}; check the name")
+    source = readable(path, READERS, "a mesh format")
     try:
-        vertices, faces = READERS[suffix](source)
+        vertices, faces = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if len(faces) == 0:
@@ -70,6 +65,16 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
     return closed_or_merged(vertices, faces)
+
+
+def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
+    """Return the path of a file that is there and has one of the suffixes, or raise FormatError."""
+    source = Path(path)
+    if source.suffix.lower() not in suffixes:
+        raise FormatError(f"cannot tell {what} from {source.name!r}; use one of {', '.join(suffixes)}")
+    if not source.is_file():
+        raise FormatError(f"there is no file {source}; check the name")
+    return source
 
 
 def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:

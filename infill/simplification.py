@@ -15,8 +15,6 @@ FEWEST = 4
 HALVINGS = 8
 COMPARED = 20_000  # vertices of which the distance is measured
 
-Simplifier = Callable[[float], Surface | None]
-
 
 def simplified(surface: Surface, *, tolerance: float | None = None, triangles: int | None = None) -> Surface:
     """Return a surface of fewer triangles.

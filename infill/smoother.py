@@ -23,7 +23,7 @@ from infill.errors import GeometryError, ParameterError
 from infill.export import surface_of
 from infill.grid import spacing_of
 from infill.machine import require_memory
-from infill.outcome import as_float, component_count, moved, placed, some, summary
+from infill.outcome import as_float, moved, placed, some, summary
 from infill.pipeline import Clock, Progress, Result
 from infill.points import voxelise_points
 from infill.reading import closed_or_merged
@@ -224,6 +224,7 @@ def _smoothed(
     progress: Progress | None = None,
 ) -> Result:
     """Do what the three functions have in common."""
+    from infill.bodies import bodies, data_bits, shell_names
     from infill.levels import at_level, at_volume, counted
     from infill.refining import as_straightened, distance_level, refine_blocks
     from infill.sparse import smooth_blocks
@@ -245,8 +246,11 @@ def _smoothed(
         smoothed = refine_blocks if refine else smooth_blocks
         field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
     with clock.stage("surface", 0.4):
-        by_volume = level == "volume"
-        before, field, guess = counted(field, spacing=size, straighten=by_volume and not refine, threads=threads)
+        by_volume, guess = level == "volume", None
+        if by_volume:
+            before, field, guess = counted(field, spacing=size, straighten=not refine, threads=threads)
+        else:
+            before = bodies(field, data_bits(field, threads=threads))
         targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
@@ -266,6 +270,8 @@ def _smoothed(
             raise GeometryError(f"the surface is not closed; {ADVICE}")
     with clock.stage("check", 0.6):
         report = verdict(found, before, targets, level, smoothing.steps, size, threads)
+        for piece in report["lost"]:
+            piece["at"] = data.place(np.array([piece["at"]]))[0].tolist()
         report["problems"] += _of_voxels(float(targets.sum()), repairs)
         if by_volume and abs(report["volume_change"]) > OFF:
             report["problems"].append(f"the volume is off by {report['volume_change']:+.1%}, which no level mends")
@@ -286,7 +292,7 @@ def _smoothed(
             report["simplified"] = {
                 "triangles_before": len(full.faces),
                 "volume_change": change,
-                "components": component_count(surface),
+                "shells": shell_names(surface)[1],
                 "distance": summary(distances(some(full.vertices), surface)),
             }
     closed = closed if surface is full else surface.closed
@@ -359,5 +365,5 @@ def _grey_volumes(
     """Return the volume of each body of grey data as its surface at level 0 encloses it, mm³."""
     from infill.levels import volumes_of
 
-    volume, _ = volumes_of(replace(field, values=as_float(field)), data, spacing=size, threads=threads)
+    volume = volumes_of(replace(field, values=as_float(field)), data, spacing=size, threads=threads)
     return np.where(volume > 0, volume, data.cells * math.prod(size))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,11 +89,11 @@ def extract_level(
     threads = thread_count(threads)
     cubes = cube_table()
     values = field.values.reshape(-1, CELLS)
-    numbers, bits = _numbers(level), _bits_above(field, level, threads)
+    numbers, bits = _numbers(level), rows_above(field, field.values, level, threads=threads)
     places = _crossed(field.slots, field.shape)
     index = np.full(field.slots.shape, -1, dtype=np.int32)
     index[tuple(places.T)] = np.arange(len(places))
-    masks = np.empty((len(places), BLOCK[0] * BLOCK[1], 3), dtype=np.uint16)
+    masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
     in_threads(
@@ -132,9 +133,10 @@ def measured(
         return None
     count = thread_count(threads)
     values, numbers, cubes = field.values.reshape(-1, CELLS), _numbers(level), cube_table()
+    bits = rows_above(field, field.values, level, threads=count)
     parts = in_threads(
-        kernels.measure, field.slots, _crossed(field.slots, field.shape), _bits_above(field, level, count), values,
-        field.shape, numbers, cubes.counts, cubes.triangles, np.array(EDGES, dtype=np.int8),
+        kernels.measure, field.slots, _crossed(field.slots, field.shape), bits, values, field.shape,
+        numbers, cubes.counts, cubes.triangles, np.array(EDGES, dtype=np.int8),
         np.array(spacing, dtype=np.float64), np.array(field.shape) * spacing / 2, np.arange(3, dtype=np.int32),
         threads=count,
     )  # fmt: skip
@@ -146,10 +148,13 @@ def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
     return np.float32(level), np.float32(CLEARANCE), np.float32(TIE)
 
 
-def _bits_above(field: SparseField, level: float, threads: int) -> NDArray[np.uint16]:
-    values = field.values.reshape(-1, CELLS)
-    bits = np.empty((len(values), BLOCK[0] * BLOCK[1]), dtype=np.uint16)
-    in_threads(kernels.bits_above, values, field.where, np.float32(level), field.shape, bits, threads=threads)
+def rows_above(
+    field: SparseField, values: NDArray[Any], level: float, *, threads: int | None = None
+) -> NDArray[np.uint16]:
+    """Return which cells of the kept blocks have `values` (n, 8, 8, 16) above the level, a row a number: (n, 64)."""
+    bits = np.empty((len(field.where), kernels.ROWS), dtype=np.uint16)
+    flat, limit = values.reshape(-1, CELLS), values.dtype.type(level)
+    in_threads(kernels.bits_above, flat, field.where, limit, field.shape, bits, threads=thread_count(threads))
     return bits
 
 
@@ -227,7 +232,7 @@ def raw_counts() -> NDArray[np.int8]:
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
     """Return the Euler number of the surface that the blocks would have if the cells `bits` were +1, all others -1."""
     places = _crossed(field.slots, field.shape)
-    masks = np.empty((len(places), BLOCK[0] * BLOCK[1], 3), dtype=np.uint16)
+    masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places), 3), dtype=np.int64)
     in_threads(

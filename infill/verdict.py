@@ -119,7 +119,7 @@ def _levels(found: Levelled, said: Callable[[float], float]) -> NDArray[np.float
 
 
 def _piece(field: SparseField, pieces: Bodies, number: int, size: tuple[float, ...]) -> dict[str, Any]:
-    """Return how large a piece is and where, mm along the axes of the grid from its lower corner."""
+    """Return how large a piece is and the middle of it, mm along the axes of the grid from its lower corner."""
     cells = cells_of(field, pieces, number)
     return {"voxels": len(cells), "at": ((cells.mean(axis=0) + 0.5) * size).tolist()}
 

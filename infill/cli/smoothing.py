@@ -176,6 +176,7 @@ def smooth(
         from infill.compiling import told_of_compiling
         from infill.outcome import field_volume
 
+        held = {} if fidelity is None else {"fidelity": fidelity}
         waiting = "compiling, the first time on this machine only: about 15 s"
         with told_of_compiling(lambda: None if quiet else say(waiting)):
             result = smooth_source(
@@ -183,9 +184,7 @@ def smooth(
                 resolution=resolution, voxel=voxel, shell=shell, threshold=threshold,
                 between=None if between is None else parse_numbers("range", between, (2,)),
                 label=tuple(label) if label else None, otsu=otsu, grey=grey,
-                smoothing=Smoothing(
-                    steps=steps, fidelity=0.01 if fidelity is None else fidelity, interface=interface
-                ),
+                smoothing=Smoothing(steps=steps, interface=interface, **held),
                 refine=refine,
                 level=parse_level(level),
                 despeckle=despeckle, allow_broken=allow_broken, tolerance=tolerance, max_triangles=max_triangles,
@@ -238,7 +237,7 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
         cost = report["simplified"]
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
-            f"volume {cost['volume_change']:+.4%}, {cost['components']} shell(s)"
+            f"volume {cost['volume_change']:+.4%}, {cost['shells']} shell(s)"
         )
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
