@@ -86,6 +86,7 @@ def smooth_inplace(
 
     u = _march(u, smoothing.steps, margin, advance)
     result: NDArray[np.float32] = u.reshape(field.shape)[interior] * np.float32(1 / scale)
+    np.clip(result, -1, 1, out=result)  # of which rounding leaves the last bit: what comes out is a phase field again
     return result if mask is None else np.where(mask, result, start).astype(np.float32)
 
 

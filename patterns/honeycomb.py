@@ -21,7 +21,7 @@ class Honeycomb(Pattern):
 
     >>> from shapely import box
     >>> len(Honeycomb(cell=6, frame=False).lines(box(-3.1, -3.6, 3.1, 3.6)).geoms)
-    10
+    12
     """
 
     name: ClassVar[str] = "honeycomb"

@@ -1,0 +1,1 @@
+"""Other smoothing methods, to be measured beside ours."""
