@@ -31,8 +31,9 @@ def render(
     elevation: float = math.radians(40),
     colour: tuple[int, int, int] = (240, 160, 60),
     background: tuple[int, int, int] = (255, 255, 255),
+    window: tuple[float, float, float, float] | None = None,
 ) -> Pixels:
-    """Return a picture of `surface`, fitted to the frame: (height, width, 3) uint8.
+    """Return a picture of `surface`: (height, width, 3) uint8.
 
     Parameters
     ----------
@@ -42,16 +43,19 @@ def render(
         Pixels.
     azimuth, elevation : float
         Where the eye is, seen from the middle of the mesh, in radians: around z from +x, and up.
+    window : (left, right, bottom, top), optional
+        What the frame shows, in the lengths of the mesh along the first two of `directions`; the mesh fitted to the
+        frame if left out.
     """
     columns, rows = width * SAMPLES, height * SAMPLES
-    right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
-    eye = np.array(
-        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
-    )
-    up = np.cross(eye, right)
+    right, up, eye = directions(azimuth, elevation)
     seen = surface.vertices @ np.stack([right, -up, eye], axis=1)  # column, row, nearness
-    low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
-    scale = 0.94 * min((columns, rows) / np.maximum(high - low, 1e-12))
+    if window is None:
+        low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+        scale = 0.94 * min((columns, rows) / np.maximum(high - low, 1e-12))
+    else:
+        low, high = np.array([window[0], -window[3]]), np.array([window[1], -window[2]])
+        scale = min((columns, rows) / (high - low))
     place = (seen[:, :2] - (low + high) / 2) * scale + np.array([columns, rows]) / 2
     corners = place[surface.faces].astype(np.float32)
     nearness = seen[:, 2][surface.faces].astype(np.float32)
@@ -83,6 +87,19 @@ def render(
     mixed = brightness * np.array(colour) + (1 - covered) * np.array(background)
     rounded: Pixels = mixed.clip(0, 255).astype(np.uint8)
     return rounded
+
+
+def directions(azimuth: float, elevation: float) -> NDArray[np.float64]:
+    """Return the unit vectors to the right, up and towards the eye, (3, 3) float64, from angles in radians.
+
+    >>> directions(math.radians(-90), 0).round(12).tolist()[0]
+    [1.0, 0.0, 0.0]
+    """
+    right = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+    eye = np.array(
+        [math.cos(elevation) * math.cos(azimuth), math.cos(elevation) * math.sin(azimuth), math.sin(elevation)]
+    )
+    return np.stack([right, np.cross(eye, right), eye])
 
 
 def _fragments(
