@@ -10,7 +10,7 @@ BIN = .venv/bin
 SOURCES = $(shell find infill patterns -name '*.py')
 
 .DELETE_ON_ERROR:
-.PHONY: demo test lint types check slicers bench pictures clean
+.PHONY: demo test lint types check slicers bench paper pictures clean
 
 demo: $(DESIGNS:%=$(DEMO)/%.stl) $(DESIGNS:%=$(DEMO)/%.png)
 	@echo "The paper's three designs, with a picture of each:"
@@ -40,6 +40,11 @@ bench: .venv/test
 	@$(BIN)/python -m benchmarks.smooth_speed
 	@$(BIN)/python -m benchmarks.smooth_quality
 	@$(BIN)/python -m benchmarks.smooth_files
+
+# Every figure and table of the paper, and docs/paper.md: some minutes. Models are taken from $INFILL_DATA.
+paper: .venv/test
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[bench]'
+	@$(BIN)/python -m examples.paper
 
 # The pictures of README and docs, made by the program itself.
 pictures: .venv/test

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 Points = NDArray[np.float64]
+STEP, STILL = 1e-4, 1e-3  # cells
 TURN = Rotation.from_euler("xyz", [20, 35, 10], degrees=True).as_matrix()
 
 
@@ -48,27 +49,32 @@ class Shape:
         solid = (value < 0) | (band & (np.random.default_rng(0).random(self.size) <= noise))
         return np.where(solid, np.float32(1), np.float32(-1))
 
-    def gradient(self, points: Points) -> Points:
-        """Return the unit gradient of the value."""
-        slope = np.stack([self.value(points + d) - self.value(points - d) for d in 1e-4 * np.eye(3)], axis=1)
-        return slope / np.linalg.norm(slope, axis=1, keepdims=True)
+    def slope(self, points: Points) -> Points:
+        """Return the gradient of the value."""
+        differences = [self.value(points + d) - self.value(points - d) for d in STEP * np.eye(3)]
+        return np.stack(differences, axis=1) / (2 * STEP)
 
     def foot(self, points: Points) -> tuple[NDArray[np.float64], Points]:
         """Return the signed distance of points near the surface, and the normal where they are nearest to it.
 
         A value that is no distance takes a projected Newton method: onto the surface along the normal,
-        then back under the point within the tangent plane.
+        then back under the point within the tangent plane, until no point moves by `STILL` cells.
         """
         if self.exact:
-            return self.value(points), self.gradient(points)
+            slope = self.slope(points)
+            return self.value(points), slope / np.linalg.norm(slope, axis=1, keepdims=True)
         at = points.copy()
         for _ in range(12):
-            normal = self.gradient(at)
-            slope = (self.value(at + 1e-3 * normal) - self.value(at - 1e-3 * normal)) / 2e-3
-            at = at - np.clip(self.value(at) / slope, -2, 2)[:, None] * normal
-            aside = points - at
-            at = at + 0.8 * (aside - (aside * normal).sum(axis=1, keepdims=True) * normal)
-        normal = self.gradient(at)
+            slope = self.slope(at)
+            steep = np.linalg.norm(slope, axis=1, keepdims=True)
+            normal = slope / steep
+            moved = at - np.clip(self.value(at)[:, None] / steep, -2, 2) * normal
+            aside = points - moved
+            moved += 0.8 * (aside - (aside * normal).sum(axis=1, keepdims=True) * normal)
+            still = np.abs(moved - at).max() < STILL
+            at = moved
+            if still:
+                break
         return ((points - at) * normal).sum(axis=1), normal
 
 

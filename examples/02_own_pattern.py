@@ -24,15 +24,13 @@ class Squares(Pattern):
     summary: ClassVar[str] = "lines along x and y"
     cell: float = parameter(5.0, "distance between neighbouring lines", low=0.1, high=100)
 
-    def lines(self, region: Polygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - the same at every height
-        """Return the lines inside the region, and its outline."""
+    def lines(self, region: Polygon, z: float = 0.0) -> MultiLineString:
         x0, y0, x1, y1 = region.bounds
         across = [[(x, y0), (x, y1)] for x in np.arange(x0 + self.cell, x1 - self.cell / 2, self.cell)]
         along = [[(x0, y), (x1, y)] for y in np.arange(y0 + self.cell, y1 - self.cell / 2, self.cell)]
         return framed(clip(linestrings(across + along), region), region)
 
-    def line_spacing(self, region: Polygon) -> float:  # noqa: ARG002 - the same everywhere
-        """Return the distance between neighbouring lines, mm."""
+    def line_spacing(self, region: Polygon) -> float:
         return self.cell
 
 

@@ -2,19 +2,44 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.util
+import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
+from examples.paper import models, page
+from examples.paper.entry import Entry, load
 from infill import check
 
-FOLDER = Path(__file__).resolve().parents[1] / "examples"
+ROOT = Path(__file__).resolve().parents[1]
+FOLDER = ROOT / "examples"
 GOLDEN = {
     "01_make": 1022.024,
     "02_own_pattern": 25,
     "03_before_the_slicer": 0.198714,
     "04_smooth_a_scan": 15430.8,
+}
+# Of the figures of the paper, on small grids.
+NUMBERS = {
+    "fig02": ("length at lambda 100", 1.007407),
+    "fig03": ("left", 0.1384175),
+    "fig04": ("width at m = 2", 4.118227),
+    "fig05": ("2 ours", 0.2263588),
+    "fig06": ("bunny ours", 0.2251349),
+    "fig07_08": ("sphere rms, level volume", 0.0277237),
+    "fig09_10": ("20% ours rms", 0.0975269),
+    "fig11": ("sponge level 0 rms", 0.3003055),
+    "fig12_13": ("pig changed", 2.268800),
+    "fig14": ("sphere, Choi: mse", 0.0688384),
+    "table1": ("sphere: mse, Choi", 0.0914380),
+    "table2": ("sphere, 20% noise, ours, 20 steps, sigma", 0.00204145),
+    "fig17_18": ("zigzag width", 1.199870),
+    "fig19": ("mandible rms", 0.626427),
+    "walls": ("width of a 3-cell wall after 10 steps", 2.830805),
 }
 
 
@@ -30,3 +55,84 @@ def test_the_example_gives_its_number(name: str, tmp_path: Path) -> None:
 
 def test_every_example_is_here() -> None:
     assert {path.stem for path in FOLDER.glob("*.py")} == set(GOLDEN)
+
+
+@pytest.mark.parametrize("name", GOLDEN)
+def test_what_a_newcomer_reads_is_short(name: str) -> None:
+    """Ten to thirty lines, without docstrings and blank lines."""
+    text = (FOLDER / f"{name}.py").read_text(encoding="utf-8")
+    code = re.sub(r'^\s*""".*?"""$', "", text, flags=re.M | re.S)
+    assert 10 <= len([line for line in code.splitlines() if line.strip()]) <= 30
+
+
+@pytest.fixture(params=page.SCRIPTS, ids=lambda script: script.entry)
+def script(request: pytest.FixtureRequest) -> page.Script:
+    """Each script of a figure or table, and the models where it takes them."""
+    if request.param.models:
+        try:
+            models.folder()
+        except models.MissingModels as error:
+            pytest.skip(str(error))
+    return request.param
+
+
+def main_of(script: page.Script) -> Callable[..., Entry]:
+    return importlib.import_module(f"examples.paper.{script.module}").main
+
+
+@pytest.mark.usefixtures("compiled")
+def test_the_figure_gives_its_number(script: page.Script, tmp_path: Path) -> None:
+    entry = main_of(script)(tmp_path, small=True)
+    which, value = NUMBERS[script.entry]
+    assert entry.numbers[which] == pytest.approx(value, rel=1e-3)
+    assert load(tmp_path, script.entry) == entry
+    assert entry.name == script.entry
+    assert {path.name for path in tmp_path.iterdir()} == {f"{entry.name}.png", f"{entry.name}.json"}
+    with Image.open(tmp_path / f"{entry.name}.png") as picture:
+        assert min(picture.size) > 200
+        assert len(picture.getcolors(maxcolors=256)) > 10  # not blank
+
+
+def test_every_script_is_on_the_page() -> None:
+    scripts = {path.stem for path in (FOLDER / "paper").glob("*.py") if path.stem.startswith(("fig", "table", "walls"))}
+    assert scripts == {script.module for script in page.SCRIPTS}
+    assert set(NUMBERS) == {script.entry for script in page.SCRIPTS}
+
+
+def test_the_page_has_every_figure_and_table() -> None:
+    """The one in the repository, as `make paper` left it."""
+    text = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+    for script in page.SCRIPTS:
+        entry = load(ROOT / "docs" / "paper", script.entry)
+        assert page.section(entry, script.module) in text
+        assert (ROOT / "docs" / "paper" / f"{entry.name}.png").is_file()
+    named = {int(number) for title in re.findall(r"^## (Figs?\..*?):", text, re.M) for number in numbers_in(title)}
+    assert named == {*range(2, 15), 17, 18, 19}
+    assert len(re.findall(r"^## Table [12]:", text, re.M)) == 2
+
+
+def numbers_in(title: str) -> list[int]:
+    """Return the figures that a title names.
+
+    >>> numbers_in("Figs. 7 and 8"), numbers_in("Figs. 2 to 4")
+    ([7, 8], [2, 3, 4])
+    """
+    found = [int(number) for number in re.findall(r"\d+", title)]
+    return list(range(found[0], found[-1] + 1)) if " to " in title else found
+
+
+def test_a_page_without_models_says_so(tmp_path: Path) -> None:
+    (tmp_path / "paper").mkdir()
+    main_of(page.SCRIPTS[0])(tmp_path / "paper", small=True)
+    text = page.write(tmp_path).read_text(encoding="utf-8")
+    assert "## Fig. 2: " in text
+    assert "## fig06\n\nNot run: " in text
+
+
+def test_missing_models_are_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("INFILL_DATA", str(tmp_path / "none"))
+    with pytest.raises(models.MissingModels, match="set INFILL_DATA"):
+        models.folder()
+    monkeypatch.setenv("INFILL_DATA", str(tmp_path))
+    with pytest.raises(models.MissingModels, match="there is no"):
+        models.voxels("pig", 20)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import shapely
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -110,6 +111,22 @@ def show_cells(
         ax.plot([], [], color=colour, lw=0.8, label=label)
 
 
+def show_outline(
+    ax: Axes, outline: shapely.Geometry, *, h: float, size: tuple[int, ...], colour: str = TRUTH, label: str = ""
+) -> None:
+    """Draw an outline that is given in cells of a grid of `size`, about the middle of that grid."""
+    for part in shapely.get_parts(shapely.boundary(outline)):
+        points = (shapely.get_coordinates(part) - np.array(size) / 2) * h
+        ax.plot(*points.T, color=colour, lw=1, ls="--")
+    if label:
+        ax.plot([], [], color=colour, lw=1, ls="--", label=label)
+
+
+def legend(figure: Figure, ax: Axes) -> None:
+    """Say below all panels what the lines of one of them are."""
+    figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=9, frameon=False)
+
+
 def named(ax: Axes, title: str, unit: str = "", names: tuple[str, str] = ("x", "y")) -> None:
     """Write title and axes, and give both axes the same scale."""
     ax.set_title(title, fontsize=10)
@@ -143,7 +160,7 @@ def show_solids(
     centre = (bounds[:, 0].min(axis=0) + bounds[:, 1].max(axis=0)) / 2 if middle is None else np.asarray(middle)
     if reach is None:
         reach = 1.04 * max(float(np.abs((s.vertices - centre) @ turned[:2].T).max()) for s in surfaces)
-    corner = {name: 0.14 * reach * np.array([right[i], up[i]]) for i, name in enumerate("xyz")}
+    corner = {name: 0.11 * reach * np.array([right[i], up[i]]) for i, name in enumerate("xyz")}
     for ax, surface, title in zip(axes, surfaces, titles, strict=True):
         moved = Surface(vertices=surface.vertices - centre, faces=surface.faces)
         window = (-reach, reach, -reach, reach)
@@ -154,8 +171,10 @@ def show_solids(
         named(ax, title, unit, ("across", "up"))
         for name, way in corner.items():
             ax.plot(
-                *zip((-0.8 * reach, -0.8 * reach), np.array([-0.8 * reach, -0.8 * reach]) + way, strict=True),
+                *zip((-0.88 * reach, -0.88 * reach), np.array([-0.88 * reach, -0.88 * reach]) + way, strict=True),
                 "k-",
                 lw=1,
             )
-            ax.text(*(np.array([-0.8 * reach, -0.8 * reach]) + 1.35 * way), name, fontsize=7, ha="center", va="center")
+            ax.text(
+                *(np.array([-0.88 * reach, -0.88 * reach]) + 1.35 * way), name, fontsize=7, ha="center", va="center"
+            )

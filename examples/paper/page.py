@@ -1,0 +1,114 @@
+"""The page docs/paper.md, from what the scripts wrote."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from examples.paper.entry import Entry, load
+
+HEAD = """# The paper, reproduced
+
+Wang, Li, Choi, Lee, Kim, *Fast and accurate smoothing method using a modified Allen–Cahn equation*, Computer-Aided
+Design 120 (2020) 102804, figure by figure: the paper's value, ours, and that of a peer where there is one. This page
+and its pictures are written by `make paper` (`python -m examples.paper`); each part is one script of
+[examples/paper](../examples/paper), and reading them in order is a course in the method. The mathematics is in
+[mathematics.md](mathematics.md), and more of quality and speed in [smoothing.md](smoothing.md).
+
+**How to read it.** Lengths have no unit and h is the cell size, as in the paper; Δt = h²/7. "Picture only" means that
+the paper shows this and prints no number for it, "–" that there is nothing to compare. Figs. 1, 15 and 16 show no
+result. *Choi* is Choi et al. 2017, the modified Cahn–Hilliard smoother that the paper compares itself with, as we
+built it from its description (`benchmarks/peers/cahn_hilliard.py`). Times are of one run on two cores.
+
+**Misprints and gaps in the text that we have, and how we read them.**
+
+* *The stepped pyramid's upper bounds* are printed as 1 − h(187.5 − 3m) and so on, which leaves every layer empty.
+  Read as −1 + h(…), which gives a pyramid.
+* *Eq. (16)*, the "MSE of volume", is missing. The mean of (φⁿ − f)² over all cells fits Table 1. Nothing fits Fig.
+  13; 100 · mean |sign φ − f| comes nearest.
+* *The Neumann rows in three dimensions* are read as the plain six faces.
+* *λ* has a unit: what acts is λh². λ = 100 is 0.01 at h = 0.01, 0.098 at h = 1/32 and 1 at h = 0.1.
+* *Table 1* prints times in proportion to the vertices of each shape, for both methods. A method that sweeps the whole
+  grid takes the same time for every shape, so either the grids differ or the time counts something else.
+* *Models, noisy meshes, fonts and scans* of the paper are not published; ours are named where they stand in for them.
+"""
+
+FOOT = """
+## Credits
+
+The pictures show models that are not part of this project: the bunny and the armadillo are from the Stanford 3D
+Scanning Repository, the horse from the Georgia Tech Large Geometric Models Archive, the pig from the CGAL demo data,
+the mandible from MyoSim (Apache-2.0), the bones of the foot from BodyParts3D, © The Database Center for Life Science
+(CC BY-SA 2.1 Japan), the skull from OpenForge (CC BY-SA 3.0). The pictures of the foot and the skull (`fig19.png`)
+are under CC BY-SA 3.0.
+"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Script:
+    """A script of this folder, the entry it writes, and whether it takes the models."""
+
+    entry: str
+    module: str
+    models: bool = False
+
+
+SCRIPTS = (
+    Script(entry="fig02", module="fig02_fidelity"),
+    Script(entry="fig03", module="fig03_from_another_shape"),
+    Script(entry="fig04", module="fig04_interface"),
+    Script(entry="fig05", module="fig05_digits"),
+    Script(entry="fig06", module="fig06_silhouettes", models=True),
+    Script(entry="fig07_08", module="fig07_08_solids"),
+    Script(entry="fig09_10", module="fig09_10_noise"),
+    Script(entry="fig11", module="fig11_morphologies"),
+    Script(entry="fig12_13", module="fig12_13_models", models=True),
+    Script(entry="fig14", module="fig14_cahn_hilliard", models=True),
+    Script(entry="table1", module="table1_cost", models=True),
+    Script(entry="table2", module="table2_mesh_filters"),
+    Script(entry="fig17_18", module="fig17_18_patterns"),
+    Script(entry="fig19", module="fig19_bones", models=True),
+    Script(entry="walls", module="walls"),
+)
+
+
+def write(docs: Path) -> Path:
+    """Write paper.md from the entries in docs/paper, and return its path."""
+    parts = [HEAD]
+    for script in SCRIPTS:
+        if (docs / "paper" / f"{script.entry}.json").is_file():
+            parts.append(section(load(docs / "paper", script.entry), script.module))
+        else:
+            parts.append(f"\n## {script.entry}\n\nNot run: it takes models that were not there.\n")
+    page = docs / "paper.md"
+    page.write_text("".join(parts) + FOOT, encoding="utf-8")
+    return page
+
+
+def section(entry: Entry, module: str) -> str:
+    """Return the part of the page that shows an entry."""
+    lines = "\n".join(
+        f"| {bars(row.what)} | {bars(row.paper)} | {bars(row.ours)} | {bars(row.peer)} |" for row in entry.rows
+    )
+    return f"""
+## {entry.title}
+
+{entry.setting} ([script](../examples/paper/{module}.py))
+
+![{entry.title}](paper/{entry.name}.png)
+
+| | paper | ours | peer |
+|---|---|---|---|
+{lines}
+
+{entry.sentence}
+"""
+
+
+def bars(text: str) -> str:
+    r"""Return text for a cell of a table.
+
+    >>> bars("|φ − f|")
+    '\\|φ − f\\|'
+    """
+    return text.replace("|", r"\|")
