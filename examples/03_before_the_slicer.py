@@ -1,12 +1,16 @@
-"""A script in front of a slicer: try cells until the block has the density that was asked for.
+"""A script in front of a slicer: try cells until the block has the density that was asked for, then slice it.
 
 python examples/03_before_the_slicer.py [folder]
 """
 
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
 from infill import make
+
+SETTINGS = {"perimeters": 2, "fill-density": "0%", "top-solid-layers": 0, "bottom-solid-layers": 0, "layer-height": 0.3}
 
 
 def main(folder: Path, density: float = 0.2) -> float:
@@ -17,5 +21,15 @@ def main(folder: Path, density: float = 0.2) -> float:
     return float(best.report["density"])
 
 
+def slice_it(slicer: str, part: Path) -> None:
+    """Write the G-code beside a part; `thin-walls` lets the slicer draw walls that are one line wide."""
+    options = [f"--{name}={value}" for name, value in SETTINGS.items()]
+    command = [slicer, "--export-gcode", "--thin-walls", *options, "--output", part.with_suffix(".gcode"), part]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
 if __name__ == "__main__":
-    print(f"{main(Path(sys.argv[1] if len(sys.argv) > 1 else '.')):.1%}")
+    where = Path(sys.argv[1] if len(sys.argv) > 1 else ".")
+    print(f"{main(where):.1%}")
+    if found := shutil.which("prusa-slicer"):
+        slice_it(found, where / "block.stl")

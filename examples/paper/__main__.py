@@ -38,7 +38,7 @@ def main() -> int:
                 continue
         started = time.perf_counter()
         command = [sys.executable, "-m", f"examples.paper.{script.module}", str(folder), *["--small"] * options.small]
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)  # noqa: S603 - our own scripts
+        done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
         if done.returncode:
             print(f"error: {script.module} ended with {done.returncode}", file=sys.stderr)
             return 1
