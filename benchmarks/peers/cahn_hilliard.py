@@ -58,8 +58,8 @@ def smooth(
     squared = wave_numbers(data.shape).astype(kind)
     scale = kind(1) / (1 + kind(settings.dt) * (squared * (2 + kind(settings.eps**2) * squared) + settings.fidelity))
     across = kind(settings.dt) * squared * scale
-    phi, held = data, fft.rfftn(data, workers=threads) * kind(settings.dt * settings.fidelity) * scale
-    spectrum = fft.rfftn(phi, workers=threads)
+    phi, spectrum = data, fft.rfftn(data, workers=threads)
+    held = spectrum * kind(settings.dt * settings.fidelity) * scale
     for _ in range(settings.steps):
         spectrum = spectrum * scale - across * fft.rfftn(phi * (phi * phi - 3), workers=threads) + held
         phi = fft.irfftn(spectrum, s=data.shape, axes=axes, workers=threads)

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+
+from infill import InfillError
 
 PICTURE_ONLY = "picture only"
 NOT_GIVEN = "–"
@@ -64,6 +67,10 @@ class Entry:
         return self
 
 
+class MissingModels(FileNotFoundError):  # noqa: N818 - said of a folder
+    """The models are not there."""
+
+
 def load(folder: Path, name: str) -> Entry:
     """Return what `Entry.save` wrote."""
     told = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
@@ -77,7 +84,10 @@ def run(main: Callable[..., Entry]) -> None:
     parser.add_argument("--small", action="store_true", help="coarser grids, as the tests take them")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    entry = main(options.folder, small=options.small)
+    try:
+        entry = main(options.folder, small=options.small)
+    except (MissingModels, InfillError) as error:
+        sys.exit(f"error: {error}")
     print(entry.title)
     for row in entry.rows:
         print(f"  {row.what}: {row.ours}   (paper: {row.paper}; peer: {row.peer})")

@@ -45,8 +45,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         setting=f"{n} × {n} cells, h = {H}, ε₂, {STEPS} steps, a disc of {radius:g} cells radius.",
         rows=tuple(rows),
         sentence=(
-            f"Small λ rounds the disc and takes {-large[10]:.0%} of it away, large λ keeps the mosaic, as there; "
-            "what decides is λh², so the same λ means something else on another grid."
+            f"Small λ rounds the disc and takes {-large[10]:.0%} of it away, large λ keeps the mosaic, as in the "
+            "paper; what decides is λh², so the same λ means something else on another grid."
         ),
         numbers={f"length at lambda {lam}": long[lam] for lam in LAMBDAS},
     ).save(folder)

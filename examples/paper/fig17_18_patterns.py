@@ -38,13 +38,12 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         rows += [
             Row(
                 what=f"{name}: width of the walls over the line width, mean (5 to 95 %)",
-                ours="{mean:.3f} ({p5:.3f} to {p95:.3f})".format(**relative(width)),
-                peer="ours, exact stamp: {mean:.3f} ({p5:.3f} to {p95:.3f})".format(**relative(other)),
+                ours="{mean:.3f} ({p5:.3f} to {p95:.3f})".format(**relative(width))
+                + "; exact stamp {mean:.3f} ({p5:.3f} to {p95:.3f})".format(**relative(other)),
             ),
             Row(
                 what=f"{name}: turning of the contour, rad/mm",
-                ours=f"{bend['smoothed']:.2f} (stamp {bend['stamp']:.2f})",
-                peer=f"ours, exact stamp: {bend['exact']:.2f}",
+                ours=f"{bend['smoothed']:.2f} (stamp {bend['stamp']:.2f}); exact stamp {bend['exact']:.2f}",
             ),
             Row(
                 what=f"{name}: closed, bodies, holes", ours=f"{'closed' if report['closed'] else 'OPEN'}, "

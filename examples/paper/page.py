@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -93,7 +94,7 @@ def section(entry: Entry, module: str) -> str:
     return f"""
 ## {entry.title}
 
-{entry.setting} ([script](../examples/paper/{module}.py))
+{wrapped(f"{entry.setting} ([script](../examples/paper/{module}.py))")}
 
 ![{entry.title}](paper/{entry.name}.png)
 
@@ -101,8 +102,13 @@ def section(entry: Entry, module: str) -> str:
 |---|---|---|---|
 {lines}
 
-{entry.sentence}
+{wrapped(entry.sentence)}
 """
+
+
+def wrapped(text: str) -> str:
+    """Return text in lines of the width of the other pages."""
+    return textwrap.fill(text, width=118, break_long_words=False, break_on_hyphens=False)
 
 
 def bars(text: str) -> str:

@@ -9,14 +9,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
-from matplotlib.collections import LineCollection
-from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from PIL import Image
 
 from infill.render import directions, render
 from infill.surface import Surface
+
+try:
+    from matplotlib.collections import LineCollection
+    from matplotlib.colors import LinearSegmentedColormap
+    from matplotlib.figure import Figure
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError("pictures take matplotlib: pip install 'phasefill[plot]'", name=error.name) from None
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

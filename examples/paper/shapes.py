@@ -124,8 +124,8 @@ def noisy(f: Field, chance: float, rng: np.random.Generator, reach: float = 2.0)
     from scipy.ndimage import distance_transform_edt
 
     solid = f > 0
-    distance = np.where(solid, distance_transform_edt(solid), distance_transform_edt(~solid)) - 0.5
-    return binary(solid | ((distance <= reach) & (rng.random(f.shape) <= chance)))
+    near = distance_transform_edt(~solid) - 0.5 <= reach
+    return binary(solid | (near & (rng.random(f.shape) <= chance)))
 
 
 def spinodal(n: int, rng: np.random.Generator) -> Shape:

@@ -157,8 +157,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     ends = {fidelity: gone(each) for fidelity, each in after.items()}
     rows = [
         Row(
-            what=f"a wall of 1, 2, 3, 4, 5, 6 cells at fidelity {fidelity:g} is gone after",
-            ours=", ".join("never" if end is None else str(end) for end in ends[fidelity]) + " steps",
+            what=f"steps until a wall of 1, 2, 3, 4, 5, 6 cells is gone, fidelity {fidelity:g}",
+            ours=", ".join("never" if end is None else str(end) for end in ends[fidelity]),
             paper=NOT_GIVEN,
         )
         for fidelity in FIDELITIES
