@@ -33,3 +33,4 @@ if __name__ == "__main__":
     print(f"{main(where):.1%}")
     if found := shutil.which("prusa-slicer"):
         slice_it(found, where / "block.stl")
+    print(f"sliced by {found}" if found else "not sliced: there is no prusa-slicer on the path")

@@ -484,11 +484,18 @@ def test_how_thick_a_wall_must_be_to_last() -> None:
     assert f"{e / math.sqrt(2):.2f}" == "0.68"
     assert f"{e / math.sqrt(2) * math.log(10):.1f}" == "1.6"
     for fidelity, goes, stays in ((0.01, 6, 6.5), (0.1, 4.5, 5), (1, 1.5, 2.5)):
-        end = walls.left(walls.bars([goes, stays], [(place,) for place in walls.PLACES]), fidelity, 1500)[:, -1]
+        end = walls.left(
+            walls.bars([goes, stays], [(place,) for place in walls.PLACES]), np.array([goes, stays]), fidelity, 1500
+        )[:, -1]
         assert end[0] == 0
         assert end[1] > 0.8
     end = walls.history(walls.bars([2], [(0,), (0.5,)]), 1, 1000)[0, :, -1]
     assert [f"{size:.2f}" for size in end] == ["0.03", "1.32"]
+
+
+def test_where_the_grid_holds_a_wall() -> None:
+    widths = walls.history(walls.bars([7.5], [(place,) for place in walls.PLACES]), 0.01, 300)[0, :, -1]
+    assert [f"{width:.2f}" for width in widths] == ["7.18", "7.48", "7.79"]
 
 
 @cache
@@ -510,7 +517,7 @@ def test_the_table_of_pins() -> None:
     told = table("pin, cells")
     f = walls.bars([int(row[0]) for row in told], [(0, 0), (0, 0.5), (0.5, 0.5)])
     for column, fidelity in enumerate((0.01, 0.1, 1), start=1):
-        ends = walls.gone(walls.left(f, fidelity, walls.STEPS))
+        ends = walls.gone(walls.left(f, np.array([float(row[0]) for row in told]), fidelity, walls.STEPS))
         assert [row[column] for row in told] == [NEVER if end is None else str(end) for end in ends]
 
 

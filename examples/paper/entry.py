@@ -9,10 +9,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from examples.paper.models import MissingModels
 from infill import InfillError
 
 PICTURE_ONLY = "picture only"
 NOT_GIVEN = "–"
+LEFT_OUT = 3  # the exit status where models are missing
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,7 +33,7 @@ class Row:
 
     what: str
     ours: str
-    paper: str = PICTURE_ONLY
+    paper: str = NOT_GIVEN
     peer: str = NOT_GIVEN
 
 
@@ -67,10 +69,6 @@ class Entry:
         return self
 
 
-class MissingModels(FileNotFoundError):  # noqa: N818 - said of a folder
-    """The models are not there."""
-
-
 def load(folder: Path, name: str) -> Entry:
     """Return what `Entry.save` wrote."""
     told = json.loads((folder / f"{name}.json").read_text(encoding="utf-8"))
@@ -86,7 +84,10 @@ def run(main: Callable[..., Entry]) -> None:
     options.folder.mkdir(parents=True, exist_ok=True)
     try:
         entry = main(options.folder, small=options.small)
-    except (MissingModels, InfillError) as error:
+    except MissingModels as error:
+        print(f"error: {error}", file=sys.stderr)
+        sys.exit(LEFT_OUT)
+    except InfillError as error:
         sys.exit(f"error: {error}")
     print(entry.title)
     for row in entry.rows:

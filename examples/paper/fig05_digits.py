@@ -21,7 +21,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         name="fig05",
         title="Fig. 5: digits",
         setting=(
-            f"DejaVu Sans Bold (the paper's is not known), {n} × {n} cells, h = {h:g}, λ = {LAM}, ε₂, {STEPS} steps."
+            f"DejaVu Sans Bold (the paper's is not known), {n} × {n} cells, h = {h:g}, λ = {LAM}, ε₂, {STEPS} steps. "
+            "Choi: dt = 100 h², λh² = 1, ε = h, 10 steps."
         ),
         rows=rows,
         sentence=told(numbers, digits),

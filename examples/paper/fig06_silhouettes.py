@@ -32,7 +32,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         title="Fig. 6: silhouettes",
         setting=(
             f"Projections of scanned models at {FINE}² pixels, on {n} × {n} cells, h = {h:g}, λ = {LAM}, ε₂, "
-            f"{STEPS} steps; the paper's own pictures are not published."
+            f"{STEPS} steps; Choi: dt = 100 h², λh² = 1, ε = h, 10 steps. The paper's own pictures are not published."
         ),
         rows=rows,
         sentence=told(numbers, names),

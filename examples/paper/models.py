@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from examples.paper.entry import MissingModels
 from examples.paper.shapes import Field, binary, embedded
 from infill import Surface, read_mesh
 from infill.voxels import voxelise
@@ -25,6 +24,10 @@ FILES = {
     "skull": "medical/skull_d.stl",
 }
 UPRIGHT = {"bunny", "armadillo"}  # stored with y upwards
+
+
+class MissingModels(FileNotFoundError):  # noqa: N818 - said of a folder
+    """The models are not there."""
 
 
 def folder() -> Path:

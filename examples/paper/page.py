@@ -16,21 +16,25 @@ and its pictures are written by `make paper` (`python -m examples.paper`); each 
 [examples/paper](../examples/paper), and reading them in order is a course in the method. The mathematics is in
 [mathematics.md](mathematics.md), and more of quality and speed in [smoothing.md](smoothing.md).
 
-**How to read it.** Lengths have no unit and h is the cell size, as in the paper; Δt = h²/7. "Picture only" means that
-the paper shows this and prints no number for it, "–" that there is nothing to compare. Figs. 1, 15 and 16 show no
-result. *Choi* is Choi et al. 2017, the modified Cahn–Hilliard smoother that the paper compares itself with, as we
-built it from its description (`benchmarks/peers/cahn_hilliard.py`). Times are of one run on two cores.
+**How to read it.** Lengths have no unit and h is the cell size, as in the paper; Δt = h²/7. "Picture only": the paper
+shows this and prints no number; "–": it has nothing of the kind that we know of, or there is no peer. Figs. 1, 15 and
+16 show no result. "Across" and "up" in pictures of solids are lengths in the plane of the picture. *Choi* is Choi et
+al. 2017, the modified Cahn–Hilliard smoother that the paper compares itself with. Of that paper we had the abstract:
+a linearly stable splitting, solved by a Fourier spectral method. We built the standard one of that name
+(`benchmarks/peers/cahn_hilliard.py`). Times are of one run.
 
 **Misprints and gaps in the text that we have, and how we read them.**
 
 * *The stepped pyramid's upper bounds* are printed as 1 − h(187.5 − 3m) and so on, which leaves every layer empty.
   Read as −1 + h(…), which gives a pyramid.
-* *Eq. (16)*, the "MSE of volume", is missing. The mean of (φⁿ − f)² over all cells fits Table 1. Nothing fits Fig.
-  13; 100 · mean |sign φ − f| comes nearest.
+* *Eq. (16)*, the "MSE of volume", is missing. The mean of (φⁿ − f)² over all cells comes near the two values of Table
+  1 that we have, and is in proportion to the vertices, as all six printed values are. No reading gives the values of
+  Fig. 13, which are some forty times larger; three are compared there.
 * *The Neumann rows in three dimensions* are read as the plain six faces.
 * *λ* has a unit: what acts is λh². λ = 100 is 0.01 at h = 0.01, 0.098 at h = 1/32 and 1 at h = 0.1.
 * *Table 1* prints times in proportion to the vertices of each shape, for both methods. A method that sweeps the whole
-  grid takes the same time for every shape, so either the grids differ or the time counts something else.
+  grid takes the same time for every shape, so either the grids differ or the time counts something else. Of its rows
+  we have the quotients by the number of vertices, and two values of the MSE.
 * *Models, noisy meshes, fonts and scans* of the paper are not published; ours are named where they stand in for them.
 """
 
@@ -47,11 +51,10 @@ are under CC BY-SA 3.0.
 
 @dataclass(frozen=True, kw_only=True)
 class Script:
-    """A script of this folder, the entry it writes, and whether it takes the models."""
+    """A script of this folder, and the entry it writes."""
 
     entry: str
     module: str
-    models: bool = False
 
 
 SCRIPTS = (
@@ -59,16 +62,16 @@ SCRIPTS = (
     Script(entry="fig03", module="fig03_from_another_shape"),
     Script(entry="fig04", module="fig04_interface"),
     Script(entry="fig05", module="fig05_digits"),
-    Script(entry="fig06", module="fig06_silhouettes", models=True),
+    Script(entry="fig06", module="fig06_silhouettes"),
     Script(entry="fig07_08", module="fig07_08_solids"),
     Script(entry="fig09_10", module="fig09_10_noise"),
     Script(entry="fig11", module="fig11_morphologies"),
-    Script(entry="fig12_13", module="fig12_13_models", models=True),
-    Script(entry="fig14", module="fig14_cahn_hilliard", models=True),
-    Script(entry="table1", module="table1_cost", models=True),
+    Script(entry="fig12_13", module="fig12_13_models"),
+    Script(entry="fig14", module="fig14_cahn_hilliard"),
+    Script(entry="table1", module="table1_cost"),
     Script(entry="table2", module="table2_mesh_filters"),
     Script(entry="fig17_18", module="fig17_18_patterns"),
-    Script(entry="fig19", module="fig19_bones", models=True),
+    Script(entry="fig19", module="fig19_bones"),
     Script(entry="walls", module="walls"),
 )
 

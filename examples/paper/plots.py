@@ -128,6 +128,7 @@ def show_outline(
 
 def legend(figure: Figure, ax: Axes) -> None:
     """Say below all panels what the lines of one of them are."""
+    figure.set_figheight(figure.get_figheight() + 0.35)
     figure.legend(*ax.get_legend_handles_labels(), loc="outside lower center", ncols=6, fontsize=9, frameon=False)
 
 

@@ -23,7 +23,7 @@ from infill.sparse import smooth_blocks
 from infill.surface import extract
 from infill.threads import thread_count
 
-STEPS, NOISE = 10, 0.2
+STEPS, NOISE, ROUNDS = 10, 0.2, 3
 OURS, PEER = Smoothing.paper(steps=STEPS), cahn_hilliard.CahnHilliard(steps=STEPS)
 FEW = 4  # steps of the specification that are timed: they cost the same each, and nothing comes before them
 SIZES, FITTED = (32, 48, 64, 96, 128, 160, 200, 256), 96
@@ -64,13 +64,18 @@ PRINTED = {
 
 @dataclass(frozen=True, kw_only=True)
 class Cost:
-    """What was measured of one solid; seconds a step, by method."""
+    """What was measured of one solid; seconds a step of every round, by method."""
 
     cells: int
     vertices: int
     mse: float
     peer_mse: float
-    seconds: Mapping[str, float]
+    times: Mapping[str, list[float]]
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """The median of the rounds."""
+        return {method: median(taken) for method, taken in self.times.items()}
 
 
 def main(folder: Path, *, small: bool = False) -> Entry:
@@ -78,7 +83,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     in_turn(methods(shapes.sphere(16).voxels()), rounds=1)  # compiles
     costs = {name: measured(f, small=small) for name, f in solids(small=small)}
     sizes = SIZES[:3] if small else SIZES
-    curve = {n: growth(n, rounds=2 if small else max(2, min(7, 10**7 // n**3))) for n in sizes}
+    curve = {n: growth(n, rounds=2 if small else max(ROUNDS, min(9, 10**7 // n**3))) for n in sizes}
     fitted = [n for n in sizes if small or n >= FITTED]
     powers = {name: exponent(curve, name, fitted) for name in FITS}
     draw(folder / "table1.png", curve, fitted)
@@ -89,6 +94,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         numbers |= {f"{name}: vertices": cost.vertices, f"{name}: mse": cost.mse, f"{name}: mse, Choi": cost.peer_mse}
         numbers |= {f"{name}: seconds, {method}": taken for method, taken in cost.seconds.items()}
     numbers |= {f"exponent, {name}": power for name, power in powers.items()}
+    numbers |= {f"seconds at n = {n}, {name}": taken for n, each in curve.items() for name, taken in each.items()}
     numbers |= {f"Choi over {name} at n = {sizes[-1]}": largest[CHOI] / largest[name] for name in (DENSE, SPARSE)}
     absent = [name for name in PRINTED if name not in costs]
     rows = [row for name, cost in costs.items() for row in rows_of(name, cost)]
@@ -96,7 +102,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         told = f"{power:.2f}; {largest[name] / sizes[-1] ** 3 * 1e9:.3g} ns"
         rows.append(Row(
             what=f"{name}: exponent of N, n = {fitted[0]} … {fitted[-1]}; time a cell and step at n = {sizes[-1]}",
-            ours=NOT_GIVEN if name in THEIRS else told, paper=NOT_GIVEN, peer=told if name in THEIRS else NOT_GIVEN,
+            ours=NOT_GIVEN if name in THEIRS else told, peer=told if name in THEIRS else NOT_GIVEN,
         ))  # fmt: skip
     return Entry(
         name="table1",
@@ -104,10 +110,12 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         setting=(
             f"h = 0.01, λ = 100, ε₂, {STEPS} steps; Choi: dt = 0.01, λ = 1e4, ε = h. {len(costs)} solids on {n}³ "
             f"cells, the ellipsoid on {2 * n} × {n} × {n}, with {NOISE:.0%} noise within 2 cells of the surface. "
-            "Rows 1 to 3 of the printed table are read as sphere, ellipsoid and pyramid, and MSE as the mean of "
-            f"(φ − f)² over all cells. A step is a {STEPS}th of a whole call, what is compiled and loaded left out: in "
-            f"CPU time on one thread, in wall time on all {thread_count()}. Time over N: clean spheres of 0.8 of the "
-            "half side on n³ cells." + (f" Left out here: {', '.join(absent)}." if absent else "")
+            "Rows 1 to 3 of the printed table are read as sphere, ellipsoid and pyramid, and MSE as the mean of (φ "
+            f"− f)² over all cells. A step is a {STEPS}th of a whole call, set-up included, what is compiled and "
+            f"loaded left out, median of {ROUNDS}: in CPU time on one thread, in wall time on all {thread_count()}, "
+            "of which Choi's transforms take all and its arithmetic, in NumPy, one. Time over N: clean spheres of "
+            "0.8 of the half "
+            "side on n³ cells." + (f" Left out here: {', '.join(absent)}." if absent else "")
         ),
         rows=tuple(rows),
         sentence=f"{of_table(costs)} {of_curve(curve, fitted, powers)}",
@@ -160,16 +168,17 @@ def methods(f: shapes.Field) -> dict[str, Callable[[], Any]]:
 
 
 def transforms(f: shapes.Field) -> shapes.Field:
-    """Do what a step cannot do without if it works on waves: there and back again."""
-    return fft.irfftn(fft.rfftn(f, workers=-1), s=f.shape, axes=(0, 1, 2), workers=-1)
+    """Do what steps cannot do without if they work on waves: there and back again."""
+    for _ in range(STEPS):
+        f = fft.irfftn(fft.rfftn(f, workers=-1), s=f.shape, axes=(0, 1, 2), workers=-1)
+    return f
 
 
-def in_turn(works: Mapping[str, Callable[[], Any]], rounds: int) -> tuple[dict[str, float], dict[str, Any]]:
-    """Return the median seconds a step of each and what it returned.
+def in_turn(works: Mapping[str, Callable[[], Any]], rounds: int) -> tuple[dict[str, list[float]], dict[str, Any]]:
+    """Return the seconds a step of each, round by round, and what it returned.
 
     They are taken in turn, so that a drift of the machine's speed falls on all; CPU time where there is one thread.
     """
-    steps = {PLAIN: FEW, TRANSFORMS: 1}
     times: dict[str, list[float]] = {name: [] for name in works}
     results = {}
     for _ in range(rounds):
@@ -177,29 +186,30 @@ def in_turn(works: Mapping[str, Callable[[], Any]], rounds: int) -> tuple[dict[s
             clock = time.process_time if name in (PLAIN, CHOI_PLAIN) else time.perf_counter
             begin = clock()
             results[name] = work()
-            times[name].append(clock() - begin)
-    return {name: median(taken) / steps.get(name, STEPS) for name, taken in times.items()}, results
+            times[name].append((clock() - begin) / (FEW if name == PLAIN else STEPS))
+    return times, results
 
 
 def measured(f: shapes.Field, *, small: bool) -> Cost:
-    """Return what both methods cost on one solid; the slow pair on one thread runs once."""
+    """Return what both methods cost on one solid."""
     works = methods(f)
     fast = {name: works[name] for name in (SPARSE, DENSE, CHOI)}
     slow = {name: works[name] for name in (PLAIN, CHOI_PLAIN)}
-    seconds, found = in_turn(fast, rounds=1 if small else max(2, 24_000_000 // f.size))
+    seconds, found = in_turn(fast, rounds=1 if small else ROUNDS)
     return Cost(
         cells=f.size,
         vertices=len(extract(f, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0)).vertices),
         mse=mse(found[DENSE], f),
         peer_mse=mse(found[CHOI], f),
-        seconds=seconds | in_turn(slow, rounds=1)[0],
+        times=seconds | in_turn(slow, rounds=1 if small else ROUNDS)[0],
     )
 
 
 def growth(n: int, rounds: int) -> dict[str, float]:
-    """Return the seconds a step on a sphere of n³ cells, by method."""
+    """Return the median seconds a step on a sphere of n³ cells, by method, after a round that does not count."""
     works = methods(shapes.sphere(n).voxels())
-    return in_turn({name: works[name] for name in FITS}, rounds)[0]
+    times, _ = in_turn({name: works[name] for name in FITS}, rounds + 1)
+    return {name: median(taken[1:]) for name, taken in times.items()}
 
 
 def exponent(curve: Mapping[int, Mapping[str, float]], name: str, sizes: list[int]) -> float:
@@ -210,7 +220,7 @@ def exponent(curve: Mapping[int, Mapping[str, float]], name: str, sizes: list[in
 def rows_of(name: str, cost: Cost) -> Iterator[Row]:
     """Give the rows of one solid."""
     known, taken = PRINTED[name], cost.seconds
-    told = f"≈ {known.whole_mse / known.mse * 1e8:,.0f}, MSE over MSE a vertex" if known.whole_mse else NOT_GIVEN
+    told = f"≈ {round(known.whole_mse / known.mse * 1e8, -4):,.0f}, from the MSE" if known.whole_mse else NOT_GIVEN
     yield Row(what=f"{name}: vertices of the noisy surface (squares a vertex)", ours=(
         f"{cost.vertices:,} ({cost.mse * cost.cells / cost.vertices:.2f})"
     ), paper=f"{told} ({known.mse * 0.08:.2f} on 200³)")  # fmt: skip
@@ -222,19 +232,23 @@ def rows_of(name: str, cost: Cost) -> Iterator[Row]:
     )
     yield Row(
         what=f"{name}: ms a step, float64 on one thread, CPU",
-        ours=f"{taken[PLAIN] * 1e3:.3g}",
+        ours=in_ms(cost.times[PLAIN]),
         paper=f"Choi {known.peer_cpu / known.cpu:.2f} × ours",
-        peer=f"Choi {taken[CHOI_PLAIN] * 1e3:.3g}, {taken[CHOI_PLAIN] / taken[PLAIN]:.2f} × ours",
+        peer=f"Choi {in_ms(cost.times[CHOI_PLAIN])}, {taken[CHOI_PLAIN] / taken[PLAIN]:.2f} × ours",
     )
     yield Row(
         what=f"{name}: ms a step, float32 on all threads, wall",
         ours=f"{taken[SPARSE] * 1e3:.2g} in blocks, {taken[DENSE] * 1e3:.2g} every cell",
-        paper=NOT_GIVEN,
         peer=(
             f"Choi {taken[CHOI] * 1e3:.3g}, {taken[CHOI] / taken[SPARSE]:.0f} × blocks, "
             f"{taken[CHOI] / taken[DENSE]:.0f} × every cell"
         ),
     )
+
+
+def in_ms(times: list[float]) -> str:
+    """Return "median (least to most)"."""
+    return f"{median(times) * 1e3:.0f} ({span_of((each * 1e3 for each in times), '.0f')})"
 
 
 def span_of(values: Iterable[float], digits: str) -> str:
@@ -257,64 +271,48 @@ def of_table(costs: Mapping[str, Cost]) -> str:
     compiled = [cost.seconds[CHOI] / cost.seconds[DENSE] for cost in costs.values()]
     blocks = [cost.seconds[CHOI] / cost.seconds[SPARSE] for cost in costs.values()]
     printed = [row.peer_cpu / row.cpu for row in known]
-    out = [
-        f"In plain float64 on one thread Choi's step takes {span_of(plain, '.2f')} times as long as ours, in the "
-        f"middle {median(plain):.2f}; printed are {span_of(printed, '.2f')}. In float32 on all threads it takes "
-        f"{span_of(compiled, '.0f')} times as long as our sweep of every cell and {span_of(blocks, '.0f')} times as "
-        "long as our blocks at the surface."
-    ]
     flat = max(swing(row.cpu for row in known), swing(row.peer_cpu for row in known))
-    same = [cost for cost in costs.values() if cost.cells == costs["sphere"].cells]
-    out.append(
-        f"The printed times cannot all be those of one grid: a vertex costs the same in every row to {flat - 1:.0%}, "
-        "for both methods, although both work on every cell whatever the solid"
-        + (
-            f"; here, on equal grids, the times differ by {swing(cost.seconds[PLAIN] for cost in same) - 1:.0%} (ours) "
-            f"and {swing(cost.seconds[CHOI_PLAIN] for cost in same) - 1:.0%} (Choi) between solids whose vertices "
-            f"differ by {swing(cost.vertices for cost in same) - 1:.0%}."
-            if len(same) > 1
-            else "."
-        )
-    )
     moved = [cost.peer_mse / cost.mse for cost in costs.values()]
     claimed = [row.peer_mse / row.mse for row in known]
-    out.append(
-        f"Choi's MSE is {span_of(moved, '.2f')} times ours, printed {span_of(claimed, '.2f')}"
+    return (
+        f"In plain float64 on one thread Choi's step takes {span_of(plain, '.2f')} times as long as ours, in the "
+        f"middle {median(plain):.2f}; printed are {span_of(printed, '.2f')}. Compiled, in float32 on all threads, "
+        f"ours is {span_of(compiled, '.0f')} times as fast as Choi's where it sweeps every cell and "
+        f"{span_of(blocks, '.0f')} times where it takes the blocks at the surface. The printed times follow the "
+        f"vertices of the solid, to {flat - 1:.0%} for both methods, which no sweep of one grid does: the grids "
+        f"differ, or the time counts something else. Choi's MSE is {span_of(moved, '.2f')} times ours, printed "
+        f"{span_of(claimed, '.2f')}"
         + (
-            "; so if MSE is read rightly, the printed runs of Choi were not of this equation with these numbers."
-            if max(moved) < min(claimed)
+            ": either MSE is read wrongly, or the printed runs were not of this equation."
+            if unlike(moved, claimed)
             else "."
         )
     )
-    return " ".join(out)
+
+
+def unlike(found: list[float], claimed: list[float]) -> bool:
+    """Return whether no number is among those claimed."""
+    return max(found) < min(claimed) or min(found) > max(claimed)
 
 
 def of_curve(curve: Mapping[int, Mapping[str, float]], sizes: list[int], powers: Mapping[str, float]) -> str:
     """Say whether the curve tells O(N) from O(N log N)."""
     first, last = sizes[0], sizes[-1]
     logarithm = np.log(last) / np.log(first) - 1
-
-    def rise(name: str) -> float:
-        return round(curve[last][name] / last**3 / (curve[first][name] / first**3) - 1, 2) + 0.0  # no -0 %
-
-    level = {name: swing(curve[n][name] / n**3 for n in sizes) - 1 for name in (PLAIN, DENSE)}
-    if max(level.values()) >= logarithm / 2:
-        told = "whether arrays fit the caches matters as much, and the logarithm is not to be told from that"
-    elif logarithm / 2 < rise(TRANSFORMS) < 2 * logarithm:
-        told = "the logarithm can be seen"
-    else:
-        told = "a logarithm is not what the transforms' time shows"
+    a_cell = {name: [curve[n][name] / n**3 for n in sizes] for name in FITS}
+    rise = a_cell[TRANSFORMS][-1] / a_cell[TRANSFORMS][0] - 1
+    level = swing(a_cell[DENSE]) - 1
+    seen = level < logarithm / 2 and logarithm / 2 < rise < 2 * logarithm
+    told = "so the logarithm shows" if seen else "so the logarithm does not stand out from what caches do"
     largest = curve[last]
-    surface = f"the exponent of N is {powers[SPARSE]:.2f} with the blocks at the surface"
+    surface = f"the exponent of N is {powers[SPARSE]:.2f} with the blocks"
     if powers[SPARSE] < 0.8 < min(powers[name] for name in FITS if name != SPARSE):
-        surface = f"only the blocks at the surface change the power of N, to {powers[SPARSE]:.2f}"
+        surface = f"only the blocks change the power of N, to {powers[SPARSE]:.2f}"
     return (
-        f"From n = {first} to {last} log N grows by {logarithm:.0%}; the time a cell of Choi's transforms changes by "
-        f"{rise(TRANSFORMS):+.0%} and of its whole step by {rise(CHOI):+.0%}, while those of the specification and of "
-        f"the compiled sweep, which have no logarithm, swing by {level[PLAIN]:.0%} and {level[DENSE]:.0%}: {told}. At "
-        f"n = {last} Choi takes {largest[CHOI] / largest[DENSE]:.0f} times as long as the compiled sweep and "
-        f"{largest[CHOI] / largest[SPARSE]:.0f} times as long as the blocks, its transforms alone "
-        f"{largest[TRANSFORMS] / largest[DENSE]:.0f} and {largest[TRANSFORMS] / largest[SPARSE]:.0f} times; {surface}."
+        f"O(N) against O(N log N): from n = {first} to {last} log N grows by {logarithm:.0%}, the time a cell of "
+        f"Choi's transforms changes by {rise:+.0%} and that of our sweep of every cell varies by {level:.0%}, "
+        f"{told}. At n = {last} Choi takes {largest[CHOI] / largest[DENSE]:.0f} times as long as the sweep, its "
+        f"transforms alone {largest[TRANSFORMS] / largest[DENSE]:.0f} times, and {surface}."
     )
 
 

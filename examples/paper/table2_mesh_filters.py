@@ -29,11 +29,12 @@ METHODS: dict[str, Callable[[Field], Surface]] = {
     "Taubin (trimesh)": partial(relaxed, which="taubin"),
     "Laplace (trimesh)": partial(relaxed, which="laplacian"),
     "Humphrey (trimesh)": partial(relaxed, which="humphrey"),
-    "windowed sinc (VTK)": partial(windowed_sinc, passes=50, band=0.02),
-    "majority vote, windowed sinc (VTK)": partial(majority_sinc, passes=100, band=0.003),
+    "windowed sinc 15/0.001 (VTK's recipe)": partial(windowed_sinc, passes=15, band=0.001),
+    "windowed sinc 50/0.02 (VTK)": partial(windowed_sinc, passes=50, band=0.02),
+    "majority vote, windowed sinc 100/0.003 (VTK)": partial(majority_sinc, passes=100, band=0.003),
     "surface nets (VTK)": surface_nets,
 }
-SHOWN = ("data", "ours, 20 steps", "windowed sinc (VTK)", "Taubin (trimesh)")
+SHOWN = ("data", "ours, 20 steps", "windowed sinc 50/0.02 (VTK)", "Taubin (trimesh)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,14 +46,15 @@ class Found:
     largest: float
     mean: float
     normal: float
+    volume: float
     pieces: int
     seconds: float
 
     def __str__(self) -> str:
         """Return a cell of the table."""
         return (
-            f"{self.sigma:.4f} / {self.largest:.4f} / {self.mean:.4f} / {self.normal:.1f}° / {self.pieces} / "
-            f"{self.seconds:.1f} s"
+            f"{self.sigma:.4f} / {self.largest:.4f} / {self.mean:.4f} / {self.normal:.1f}° / {self.volume:+.2f} % / "
+            f"{self.pieces} / {self.seconds:.1f} s"
         )
 
 
@@ -65,7 +67,7 @@ def judged(method: Callable[[Field], Surface], f: Field, shape: Shape, h: float)
     quality = measured(surface, shape, shape.volume or 1.0, seconds)
     return Found(
         surface=surface, sigma=float(distance.std()), largest=float(distance.max()), mean=float(distance.mean()),
-        normal=float(quality.normal), pieces=quality.parts, seconds=seconds,
+        normal=float(quality.normal), volume=float(quality.volume), pieces=quality.parts, seconds=seconds,
     )  # fmt: skip
 
 
@@ -81,6 +83,9 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         for name, shape in solids.items()
         for noise in (NOISE, 0.0)
     }
+    for work in METHODS.values():  # once before it counts: loading takes longer than some of the work
+        with suppress(ModuleNotFoundError):
+            work(shapes.sphere(20).voxels())
     figure, axes = plots.panels(len(SHOWN), len(cases))
     rows, numbers, nearest, torn = [], {}, [], set()
     for (case, (shape, f)), line in zip(cases.items(), axes, strict=True):
@@ -110,13 +115,17 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         title="Table 2: against mesh filters",
         setting=(
             f"{n}³ cells, h = {h:g}; standard deviation / largest / mean distance from the true surface in the "
-            "paper's lengths / mean error of the normals / pieces / CPU seconds. The noisy sphere of the paper was "
-            "given to its authors and is not published, nor is its bell: this is a sphere with the noise of Fig. 9, "
-            "a bell of our own, and both without noise. Filters at the settings they recommend, the nearest in the "
-            "mean first."
+            "paper's lengths / mean error of the normals / volume / pieces / CPU seconds. The noisy sphere of the "
+            "paper was given to its authors and is not published, nor is its bell: this is a sphere with the noise "
+            "of Fig. 9, a bell of our own, and both without noise. Filters at the settings they recommend, the "
+            "nearest in the mean first."
         ),
         rows=tuple(rows),
-        sentence=f"Nearest among those that give one piece: {'; '.join(nearest)}. {loose if torn else 'None is torn'}.",
+        sentence=(
+            f"Nearest in the mean among those that give one piece: {'; '.join(nearest)}. "
+            f"{loose if torn else 'None is torn'}. Where noise only adds, as here, our 20 steps at φ = 0 gain by "
+            "shrinking; the level of the volume and a vote of the majority keep what it added."
+        ),
         numbers=numbers,
     ).save(folder)
 
