@@ -71,7 +71,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         title="Figs. 9 and 10: noise of 10 to 40 %",
         setting=(
             f"{n}³ cells, r = 0.8, h = {h:g}, λ = 100 at h = 0.01, ε₂, {STEPS} steps, level φ = 0; f = 1 with the "
-            "given chance where |r − 0.8| ≤ 2 h."
+            "given chance where |r − 0.8| ≤ 2 h. Choi: dt = 0.01, λ = 1e4, ε = h, 10 steps."
         ),
         rows=tuple(rows),
         sentence=(

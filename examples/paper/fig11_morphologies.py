@@ -66,7 +66,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         setting=(
             f"{n}³ cells, λ = 100 at h = 0.01, ε₂, {STEPS} steps. The paper's shapes are not published; these are a "
             "sum of 24 random waves of one length, a Schwarz P surface and a foam of 40 random pores, each cut by a "
-            "ball."
+            "ball. Refined: 20 steps, level of the volume; surface nets: 16 iterations."
         ),
         rows=tuple(rows),
         sentence=(

@@ -28,8 +28,8 @@ a linearly stable splitting, solved by a Fourier spectral method. We built the s
 * *The stepped pyramid's upper bounds* are printed as 1 − h(187.5 − 3m) and so on, which leaves every layer empty.
   Read as −1 + h(…), which gives a pyramid.
 * *Eq. (16)*, the "MSE of volume", is missing. The mean of (φⁿ − f)² over all cells comes near the two values of Table
-  1 that we have, and is in proportion to the vertices, as all six printed values are. No reading gives the values of
-  Fig. 13, which are some forty times larger; three are compared there.
+  1 that we have, and is nearly in proportion to the vertices, as all six printed values are. No reading gives the
+  values of Fig. 13, which are far larger; three are compared there.
 * *The Neumann rows in three dimensions* are read as the plain six faces.
 * *λ* has a unit: what acts is λh². λ = 100 is 0.01 at h = 0.01, 0.098 at h = 1/32 and 1 at h = 0.1.
 * *Table 1* prints times in proportion to the vertices of each shape, for both methods. A method that sweeps the whole

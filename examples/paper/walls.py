@@ -179,8 +179,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         ),
         rows=tuple(rows),
         sentence=(
-            f"Along the grid, at fidelity 0.01, a wall of 4 cells keeps {after[0.01][3, 9] / 4:.1%} of its thickness for "
-            f"ten steps and one of 5 {after[0.01][4, 29] / 5:.1%} for thirty; one of 3 is gone after "
+            f"Along the grid, at fidelity 0.01, a wall of 4 cells keeps {after[0.01][3, 9] / 4:.1%} of its thickness "
+            f"for ten steps and one of 5 {after[0.01][4, 29] / 5:.1%} for thirty; one of 3 is gone after "
             f"{ends[0.01][2]}. A pin must be far thicker: its surface is curved."
         ),
         numbers={
