@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any
+
+LOG = logging.getLogger("infill")
+_WATCHED = ContextVar("watched", default=False)
 
 
 def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401 - hands on
@@ -21,8 +26,14 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
 
 
 @contextmanager
-def told_of_compiling(tell: Callable[[], None]) -> Iterator[None]:
-    """Call `tell` as soon as something inside is compiled, and not found compiled on disk."""
+def told_of_compiling(what: str) -> Iterator[None]:
+    """Tell the log "infill" as soon as something inside is compiled, and not found compiled on disk.
+
+    Once, by the outermost of several; also a decorator.
+    """
+    if _WATCHED.get():
+        yield
+        return
     from numba.core import event
 
     class Listener(event.Listener):
@@ -31,10 +42,14 @@ def told_of_compiling(tell: Callable[[], None]) -> Iterator[None]:
         def on_start(self, event: object) -> None:  # noqa: ARG002 - what is compiled does not matter
             if not self.told:
                 self.told = True
-                tell()
+                LOG.warning("compiling %s, the first time on this machine only", what)
 
         def on_end(self, event: object) -> None:
             pass
 
-    with event.install_listener("numba:run_pass", Listener()):
-        yield
+    token = _WATCHED.set(True)
+    try:
+        with event.install_listener("numba:run_pass", Listener()):
+            yield
+    finally:
+        _WATCHED.reset(token)

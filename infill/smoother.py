@@ -18,6 +18,7 @@ from infill import __version__
 from infill.allen_cahn import Smoothing
 from infill.capping import capped
 from infill.checks import within
+from infill.compiling import told_of_compiling
 from infill.distance import distances
 from infill.errors import GeometryError, ParameterError
 from infill.export import surface_of
@@ -206,6 +207,7 @@ def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None
     return _smoothed(solid, {"source": "points", "points": len(cloud), "shell": shell}, None, **options)
 
 
+@told_of_compiling("for about 15 s")
 def _smoothed(
     data: Volume,
     source: dict[str, Any],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable
 from typing import Any, Literal
 
@@ -15,7 +14,6 @@ from infill.inplace import smooth_inplace
 
 Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
 Kernel = Callable[..., NDArray[np.floating]]
-LOG = logging.getLogger("infill")
 COMPILED = ("dense", "sparse")
 COMPILED_AXES = 3
 WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, as long as compiling takes
@@ -107,7 +105,7 @@ def smooth(
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
     from infill.compiling import told_of_compiling
 
-    with told_of_compiling(lambda: LOG.warning("compiling the %s kernel, the first time on this machine only", chosen)):
+    with told_of_compiling(f"the {chosen} kernel"):
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
 
 

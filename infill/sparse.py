@@ -22,6 +22,7 @@ from infill import sparse_kernels as kernels
 from infill import transfer_kernels
 from infill.allen_cahn import Smoothing
 from infill.compiled import Data, Field, Numbers, numbers_of, on_three_axes
+from infill.compiling import told_of_compiling
 from infill.sparse_kernels import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
 from infill.threads import in_threads, thread_count
 
@@ -74,6 +75,7 @@ def smooth_sparse(
     return smooth_blocks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
 
+@told_of_compiling("the blocks' kernels")
 def smooth_blocks(
     f: NDArray[np.generic],
     smoothing: Smoothing,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 import os
 import subprocess
@@ -17,6 +18,7 @@ from shapes import assert_printable
 from test_command_line import one_line_error, plain, run
 
 from infill import Volume, read_mesh, read_volume
+from infill.cli.console import log_said
 from infill.fields import write_field
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
@@ -434,3 +436,14 @@ def test_names_that_a_console_cannot_show(folder: Path) -> None:
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert read_mesh(folder / "网.stl").closed
+
+
+def test_the_log_is_said(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    log = logging.getLogger("infill")
+    monkeypatch.setattr(log, "disabled", False)  # which the fixture that is silent of the compiler sets
+    for shown in (True, False):
+        with log_said(shown=shown):
+            log.warning("compiling %s", "it")
+    assert capsys.readouterr().err == "compiling it\n"
+    assert log.propagate
+    assert not log.handlers

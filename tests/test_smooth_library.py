@@ -26,7 +26,10 @@ from infill import (
     smooth_mesh,
     smooth_points,
     smooth_volume,
+    smoother,
 )
+from infill.compiling import told_of_compiling
+from infill.sparse import smooth_blocks
 
 Solid = NDArray[np.bool_]
 
@@ -765,3 +768,33 @@ def test_what_was_lost_is_told_where_it_was_in_space() -> None:
     assert 2 < fin["at"][1] < 9  # beyond the ball, which ends at y = 2
     assert fin["at"][2] == pytest.approx(3 + 15, abs=0.5)
     assert any("1 wall vanished" in problem for problem in report["problems"])
+
+
+def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture) -> None:
+    """What is compiled inside of what is compiled is not told again; a decorator tells every time it has to."""
+    import numba
+
+    @told_of_compiling("all")
+    def work() -> int:
+        with told_of_compiling("a part"):
+            return numba.njit(lambda x: x + 1)(1) + numba.njit(lambda x: x * 2.5)(1)
+
+    assert work() == work() == 4.5
+    assert caplog.messages == ["compiling all, the first time on this machine only"] * 2
+
+
+@pytest.mark.parametrize("function", [smoother._smoothed, smooth_blocks])
+def test_nobody_waits_for_a_compiler_untold(function: Any, caplog: pytest.LogCaptureFixture) -> None:
+    """What takes seconds to compile is watched: here something that needs compiling is passed in as its progress."""
+    import numba
+
+    def progress(*_: object) -> None:
+        numba.njit(lambda x: x + 1)(1)
+
+    ball = np.sum((np.indices((12, 12, 12)) - 5.5) ** 2, axis=0) < 9
+    if function is smooth_blocks:
+        smooth_blocks(ball, Smoothing(steps=1), progress=progress)
+    else:
+        smooth_volume(ball, smoothing=Smoothing(steps=1), progress=progress)
+    assert len(caplog.messages) == 1
+    assert caplog.messages[0].startswith("compiling ")

@@ -3,41 +3,22 @@
 python -m examples.paper.table1_cost [folder] [--small]
 """
 
-import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
-from matplotlib.ticker import LogLocator
-from scipy import fft
 
-from benchmarks.peers import cahn_hilliard
-from examples.paper import models, plots, shapes
+from examples.paper import models, shapes
+from examples.paper.complexity import FITS, FITTED, SIZES, THEIRS, draw, exponent, growth, of_curve
 from examples.paper.entry import NOT_GIVEN, Entry, Row, run
 from examples.paper.measures import mse
-from infill import Smoothing, smooth
-from infill.sparse import smooth_blocks
+from examples.paper.timing import CHOI, CHOI_PLAIN, DENSE, PLAIN, ROUNDS, SPARSE, STEPS, in_turn, methods, swing
 from infill.surface import extract
 from infill.threads import thread_count
 
-STEPS, NOISE, ROUNDS = 10, 0.2, 3
-OURS, PEER = Smoothing.paper(steps=STEPS), cahn_hilliard.CahnHilliard(steps=STEPS)
-FEW = 4  # steps of the specification that are timed: they cost the same each, and nothing comes before them
-SIZES, FITTED = (32, 48, 64, 96, 128, 160, 200, 256), 96
-PLAIN, DENSE, SPARSE = "ours, NumPy float64, 1 thread", "ours, every cell", "ours, blocks at the surface"
-CHOI, CHOI_PLAIN, TRANSFORMS = "Choi", "Choi, float64, 1 thread", "Choi, its two transforms alone"
-THEIRS = (CHOI, TRANSFORMS)
-FITS = (PLAIN, DENSE, SPARSE, *THEIRS)
-LOOKS = {
-    PLAIN: (plots.RAW, "-", "o"),
-    DENSE: (plots.TRUTH, "-", "s"),
-    SPARSE: (plots.SMOOTH, "-", "D"),
-    CHOI: (plots.PEER, "-", "^"),
-    TRANSFORMS: (plots.PEER, ":", "v"),
-}
+NOISE = 0.2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,7 +64,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     in_turn(methods(shapes.sphere(16).voxels()), rounds=1)  # compiles
     costs = {name: measured(f, small=small) for name, f in solids(small=small)}
     sizes = SIZES[:3] if small else SIZES
-    curve = {n: growth(n, rounds=2 if small else max(ROUNDS, min(9, 10**7 // n**3))) for n in sizes}
+    curve = {n: growth(n, small=small) for n in sizes}
     fitted = [n for n in sizes if small or n >= FITTED]
     powers = {name: exponent(curve, name, fitted) for name in FITS}
     draw(folder / "table1.png", curve, fitted)
@@ -153,43 +134,6 @@ def with_noise(f: shapes.Field) -> shapes.Field:
     return shapes.noisy(f, NOISE, np.random.default_rng(0))
 
 
-def methods(f: shapes.Field) -> dict[str, Callable[[], Any]]:
-    """Return what is timed, each on data of the type it takes best; the first three in float32 with all threads."""
-    solid, double = f > 0, f.astype(np.float64)
-    few = Smoothing.paper(steps=FEW)
-    return {
-        SPARSE: lambda: smooth_blocks(solid, OURS),
-        DENSE: lambda: smooth(f, OURS, method="dense"),
-        CHOI: lambda: cahn_hilliard.smooth(f, PEER),
-        PLAIN: lambda: smooth(double, few, method="numpy"),
-        CHOI_PLAIN: lambda: cahn_hilliard.smooth(double, PEER, kind=np.float64, threads=1),
-        TRANSFORMS: lambda: transforms(f),
-    }
-
-
-def transforms(f: shapes.Field) -> shapes.Field:
-    """Do what steps cannot do without if they work on waves: there and back again."""
-    for _ in range(STEPS):
-        f = fft.irfftn(fft.rfftn(f, workers=-1), s=f.shape, axes=(0, 1, 2), workers=-1)
-    return f
-
-
-def in_turn(works: Mapping[str, Callable[[], Any]], rounds: int) -> tuple[dict[str, list[float]], dict[str, Any]]:
-    """Return the seconds a step of each, round by round, and what it returned.
-
-    They are taken in turn, so that a drift of the machine's speed falls on all; CPU time where there is one thread.
-    """
-    times: dict[str, list[float]] = {name: [] for name in works}
-    results = {}
-    for _ in range(rounds):
-        for name, work in works.items():
-            clock = time.process_time if name in (PLAIN, CHOI_PLAIN) else time.perf_counter
-            begin = clock()
-            results[name] = work()
-            times[name].append((clock() - begin) / (FEW if name == PLAIN else STEPS))
-    return times, results
-
-
 def measured(f: shapes.Field, *, small: bool) -> Cost:
     """Return what both methods cost on one solid."""
     works = methods(f)
@@ -203,18 +147,6 @@ def measured(f: shapes.Field, *, small: bool) -> Cost:
         peer_mse=mse(found[CHOI], f),
         times=seconds | in_turn(slow, rounds=1 if small else ROUNDS)[0],
     )
-
-
-def growth(n: int, rounds: int) -> dict[str, float]:
-    """Return the median seconds a step on a sphere of n³ cells, by method, after a round that does not count."""
-    works = methods(shapes.sphere(n).voxels())
-    times, _ = in_turn({name: works[name] for name in FITS}, rounds + 1)
-    return {name: median(taken[1:]) for name, taken in times.items()}
-
-
-def exponent(curve: Mapping[int, Mapping[str, float]], name: str, sizes: list[int]) -> float:
-    """Return p of the time N^p that fits best, by least squares of the logarithms."""
-    return float(np.polyfit(np.log([n**3 for n in sizes]), np.log([curve[n][name] for n in sizes]), 1)[0])
 
 
 def rows_of(name: str, cost: Cost) -> Iterator[Row]:
@@ -258,12 +190,6 @@ def span_of(values: Iterable[float], digits: str) -> str:
     return least if least == most else f"{least} to {most}"
 
 
-def swing(values: Iterable[float]) -> float:
-    """Return the largest over the smallest."""
-    found = list(values)
-    return max(found) / min(found)
-
-
 def of_table(costs: Mapping[str, Cost]) -> str:
     """Say what the measured table has to do with the printed one."""
     known = [PRINTED[name] for name in costs]
@@ -293,63 +219,6 @@ def of_table(costs: Mapping[str, Cost]) -> str:
 def unlike(found: list[float], claimed: list[float]) -> bool:
     """Return whether no number is among those claimed."""
     return max(found) < min(claimed) or min(found) > max(claimed)
-
-
-def of_curve(curve: Mapping[int, Mapping[str, float]], sizes: list[int], powers: Mapping[str, float]) -> str:
-    """Say whether the curve tells O(N) from O(N log N)."""
-    first, last = sizes[0], sizes[-1]
-    logarithm = np.log(last) / np.log(first) - 1
-    a_cell = {name: [curve[n][name] / n**3 for n in sizes] for name in FITS}
-    rise = a_cell[TRANSFORMS][-1] / a_cell[TRANSFORMS][0] - 1
-    level = swing(a_cell[DENSE]) - 1
-    seen = level < logarithm / 2 and logarithm / 2 < rise < 2 * logarithm
-    told = "so the logarithm shows" if seen else "so the logarithm does not stand out from what caches do"
-    largest = curve[last]
-    surface = f"the exponent of N is {powers[SPARSE]:.2f} with the blocks"
-    if powers[SPARSE] < 0.8 < min(powers[name] for name in FITS if name != SPARSE):
-        surface = f"only the blocks change the power of N, to {powers[SPARSE]:.2f}"
-    return (
-        f"O(N) against O(N log N): from n = {first} to {last} log N grows by {logarithm:.0%}, the time a cell of "
-        f"Choi's transforms changes by {rise:+.0%} and that of our sweep of every cell varies by {level:.0%}, "
-        f"{told}. At n = {last} Choi takes {largest[CHOI] / largest[DENSE]:.0f} times as long as the sweep, its "
-        f"transforms alone {largest[TRANSFORMS] / largest[DENSE]:.0f} times, and {surface}."
-    )
-
-
-def draw(path: Path, curve: Mapping[int, Mapping[str, float]], fitted: list[int]) -> None:
-    """Draw time over N with guides, and time a cell over N."""
-    figure, axes = plots.panels(2, width=5.4, height=4.8)
-    left, right = axes[0]
-    sizes = list(curve)
-    cells = np.array(sizes, dtype=np.float64) ** 3
-    for name, (colour, style, mark) in LOOKS.items():
-        taken = np.array([curve[n][name] for n in sizes])
-        for ax, values in ((left, taken * 1e3), (right, taken / cells * 1e9)):
-            ax.plot(cells, values, color=colour, ls=style, marker=mark, ms=4, lw=1.4, label=name)
-    guides = {
-        "∝ N": (DENSE, cells, (0, (6, 3))),
-        "∝ N log N": (CHOI, cells * np.log(cells), (0, (2, 2))),
-        "∝ N^(2/3)": (SPARSE, cells ** (2 / 3), (0, (1, 1))),
-    }
-    part = np.array([n in fitted for n in sizes])
-    for label, (name, law, style) in guides.items():
-        scale = np.exp(
-            np.mean([np.log(curve[n][name] / value) for n, value in zip(sizes, law, strict=True) if n in fitted])
-        )
-        for ax, values in ((left, law * scale * 1e3), (right, law * scale / cells * 1e9)):
-            ax.plot(cells[part], values[part], color="0.6", lw=2.5, ls=style, zorder=0, label=label)
-    for ax, title, unit in ((left, "time a step", "ms"), (right, "time a cell and step", "ns")):
-        ax.set(xscale="log", yscale="log")
-        ax.set_title(title, fontsize=10)
-        ax.set_xlabel("cells N", fontsize=9)
-        ax.set_ylabel(f"time [{unit}]", fontsize=9)
-        ax.set_xticks(cells, [f"{n}³" for n in sizes], fontsize=8)
-        ax.yaxis.set(major_locator=LogLocator(subs=(1, 3)), major_formatter="{x:g}")
-        ax.minorticks_off()
-        ax.tick_params(labelsize=8)
-        ax.grid(color="0.92")
-    figure.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=9, frameon=False)
-    plots.save(figure, path)
 
 
 if __name__ == "__main__":

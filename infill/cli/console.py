@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import json
+import logging
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TextIO, TypeVar
@@ -64,6 +65,29 @@ def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=1.0)
         yield lambda stage, share: bar.update(task, description=stage, completed=share)
+
+
+@contextlib.contextmanager
+def log_said(*, shown: bool) -> Iterator[None]:
+    """Say what the library tells its log, or nothing of it."""
+    log = logging.getLogger("infill")
+    told = _Said() if shown else logging.NullHandler()
+    spreads = log.propagate
+    log.addHandler(told)
+    log.propagate = False
+    try:
+        yield
+    finally:
+        log.removeHandler(told)
+        log.propagate = spreads
+
+
+class _Said(logging.Handler):
+    """A handler that says every record on stderr."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Say one record."""
+        say(record.getMessage())
 
 
 def table(rows: Mapping[str, str], title: str = "") -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import typer
 
-from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
 
 if TYPE_CHECKING:
     from infill.pipeline import Result
@@ -173,12 +173,10 @@ def smooth(
             source, kind=kind, units=units, array=array, series=series,
             spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
         )  # fmt: skip
-        from infill.compiling import told_of_compiling
         from infill.outcome import field_volume
 
         held = {} if fidelity is None else {"fidelity": fidelity}
-        waiting = "compiling, the first time on this machine only: about 15 s"
-        with told_of_compiling(lambda: None if quiet else say(waiting)):
+        with log_said(shown=not quiet):
             result = smooth_source(
                 given,
                 resolution=resolution, voxel=voxel, shell=shell, threshold=threshold,
