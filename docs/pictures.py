@@ -15,10 +15,10 @@ FOLDER = Path(__file__).parent / "pictures"
 
 
 def main() -> None:
-    """Write the four stages of each design, and its mesh."""
+    """Write the four stages of a design, the mesh of each, both stamps, and a solid before and after."""
     FOLDER.mkdir(exist_ok=True)
+    save_preview(make("honeycomb"), FOLDER / "honeycomb.png")
     for name in ("honeycomb", "zigzag", "concentric-heart"):
-        save_preview(make(name), FOLDER / f"{name}.png")
         block = make(name, size=40, height=8, stamp="exact")
         picture = Image.fromarray(render(block.surface, width=360, height=240))
         picture.save(FOLDER / f"{name}-mesh.png", optimize=True)

@@ -1,0 +1,57 @@
+"""What the documents point to is there, and they name every command."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from infill.cli.app import build
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
+
+
+def links(text: str) -> list[str]:
+    """Return what a page links to, within the repository.
+
+    >>> links("[a](b.md#c) ![d](e.png) [f](https://g)")
+    ['b.md#c', 'e.png']
+    """
+    return [link for link in re.findall(r"\]\(([^)\s]+)\)", text) if not link.startswith("http")]
+
+
+def anchors(text: str) -> set[str]:
+    """Return the anchors of a page, as a forge makes them of its headings.
+
+    >>> anchors("# When thin walls die")
+    {'when-thin-walls-die'}
+    """
+    headings = re.findall(r"^#+ (.*)$", text, re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for link in links(page.read_text(encoding="utf-8")):
+        name, _, anchor = link.partition("#")
+        target = (page.parent / name).resolve() if name else page
+        assert target.exists(), f"{page.name} links to {link}"
+        assert target.is_relative_to(ROOT)
+        if anchor:
+            assert anchor in anchors(target.read_text(encoding="utf-8")), f"{page.name} links to {link}"
+
+
+def test_the_readme_names_every_command() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    names = [command.name or command.callback.__name__ for command in build(plugins=False).registered_commands]
+    assert len(names) >= 4
+    for name in names:
+        assert f"infill {name}" in text
+
+
+def test_every_picture_is_shown() -> None:
+    shown = {(page.parent / link).resolve() for page in PAGES for link in links(page.read_text(encoding="utf-8"))}
+    for picture in ROOT.glob("docs/**/*.png"):
+        assert picture in shown, f"no page shows {picture.name}"
