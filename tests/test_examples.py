@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -88,6 +89,23 @@ def test_the_figure_gives_its_number(script: page.Script, tmp_path: Path) -> Non
     with Image.open(tmp_path / f"{entry.name}.png") as picture:
         assert min(picture.size) > 200
         assert len(picture.getcolors(maxcolors=256)) > 10  # not blank
+
+
+def test_pictures_draw_cells_and_contours_where_they_are() -> None:
+    """Solid cells 1 and 2 along x of a grid that begins at 10: from 10.5 to 11.5; the contour runs half way to the next."""
+    plots = importlib.import_module("examples.paper.plots")
+    f = np.full((4, 3), -1.0)
+    f[1:3, 1] = 1
+    _, axes = plots.panels(1)
+    plots.show_cells(axes[0, 0], f, h=0.5, origin=(10, 20))
+    edges = np.concatenate([np.array(lines.get_segments()).reshape(-1, 2) for lines in axes[0, 0].collections])
+    assert edges.min(axis=0).tolist() == [10.5, 20.5]
+    assert edges.max(axis=0).tolist() == [11.5, 21.0]
+    assert len(edges) == 2 * 6  # six edges of cells
+    _, axes = plots.panels(1)
+    plots.show_contour(axes[0, 0], f, h=0.5, origin=(10, 20))
+    (contour,) = axes[0, 0].collections
+    assert contour.get_paths()[0].get_extents().bounds == pytest.approx((10.5, 20.5, 1.0, 0.5))
 
 
 def test_every_script_is_on_the_page() -> None:

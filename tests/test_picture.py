@@ -81,3 +81,13 @@ def test_y_points_up() -> None:
 def test_only_png_is_written(name: str, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"ends in \.png"):
         save_preview(make("honeycomb", size=20), tmp_path / name)
+
+
+def test_a_window_shows_lengths_where_they_are() -> None:
+    """A box seen along y: from -0.5 to 0.25 across and 0 to 0.5 up, in a frame of -1 to 1."""
+    box = trimesh.creation.box(bounds=[(-0.5, -1, 0), (0.25, 1, 0.5)])
+    surface = Surface(vertices=np.asarray(box.vertices), faces=np.asarray(box.faces))
+    picture = render(surface, width=80, height=80, azimuth=math.radians(-90), elevation=0, window=(-1, 1, -1, 1))
+    rows, columns = np.nonzero(picture.min(axis=2) < 255)
+    assert (columns.min(), columns.max()) == (20, 49)  # pixels of 1/40
+    assert (rows.min(), rows.max()) == (20, 39)  # row 0 is at the top

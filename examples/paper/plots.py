@@ -65,7 +65,7 @@ def show_field(
     title: str = "",
     unit: str = "",
 ) -> None:
-    """Draw a field [x, y], from the colour of void at -1 to that of solid at +1."""  # fmt: skip
+    """Draw a field [x, y], from the colour of void at -1 to that of solid at +1."""
     ax.imshow(phi.T, origin="lower", extent=edges(phi, h, origin), cmap=FIELD, vmin=-1, vmax=1, interpolation="nearest")
     named(ax, title, unit)
 
@@ -81,7 +81,7 @@ def show_contour(
     width: float = 1.4,
     style: str = "-",
 ) -> None:
-    """Draw the zero contour of a field [x, y]."""  # fmt: skip
+    """Draw the zero contour of a field [x, y]."""
     left, right, bottom, top = edges(phi, h, origin)
     x, y = (
         np.linspace(left + h / 2, right - h / 2, phi.shape[0]),
@@ -101,7 +101,7 @@ def show_cells(
     colour: str = RAW,
     label: str = "",
 ) -> None:
-    """Draw the outline of the solid cells of a binary field [x, y], along the edges of cells."""  # fmt: skip
+    """Draw the outline of the solid cells of a binary field [x, y], along the edges of cells."""
     left, _, bottom, _ = edges(f, h, origin)
     solid = np.pad(f > 0, 1)
     for axis, (a, b) in enumerate(((left, bottom), (bottom, left))):
@@ -148,38 +148,23 @@ def show_solids(
     *,
     unit: str = "",
     view: tuple[float, float] = VIEW,
-    middle: Sequence[float] | None = None,
-    reach: float | None = None,
 ) -> None:
-    """Draw surfaces from the same side and at the same scale; lengths are those in the plane of the picture.
+    """Draw surfaces from the same side and at the same scale.
 
-    Parameters
-    ----------
-    middle : (x, y, z), optional
-        What the picture is centred on, and lengths are measured from: the middle of all if left out.
-    reach : float, optional
-        Half of what a picture shows: everything if left out.
-    """  # fmt: skip
+    Lengths are those in the plane of the picture, from the middle of all surfaces; `view` is azimuth and elevation.
+    """
     right, up, _ = turned = directions(*view)
     bounds = np.array([surface.bounds for surface in surfaces])
-    centre = (bounds[:, 0].min(axis=0) + bounds[:, 1].max(axis=0)) / 2 if middle is None else np.asarray(middle)
-    if reach is None:
-        reach = 1.04 * max(float(np.abs((s.vertices - centre) @ turned[:2].T).max()) for s in surfaces)
-    corner = {name: 0.11 * reach * np.array([right[i], up[i]]) for i, name in enumerate("xyz")}
+    centre = (bounds[:, 0].min(axis=0) + bounds[:, 1].max(axis=0)) / 2
+    reach = 1.04 * max(float(np.abs((surface.vertices - centre) @ turned[:2].T).max()) for surface in surfaces)
+    foot = np.full(2, -0.88 * reach)  # of the little axes in the corner
+    window = (-reach, reach, -reach, reach)
     for ax, surface, title in zip(axes, surfaces, titles, strict=True):
         moved = Surface(vertices=surface.vertices - centre, faces=surface.faces)
-        window = (-reach, reach, -reach, reach)
-        picture = render(
-            moved, width=PIXELS, height=PIXELS, azimuth=view[0], elevation=view[1], window=window,
-        )  # fmt: skip
+        picture = render(moved, width=PIXELS, height=PIXELS, azimuth=view[0], elevation=view[1], window=window)
         ax.imshow(picture, extent=window, interpolation="antialiased")
         named(ax, title, unit, ("across", "up"))
-        for name, way in corner.items():
-            ax.plot(
-                *zip((-0.88 * reach, -0.88 * reach), np.array([-0.88 * reach, -0.88 * reach]) + way, strict=True),
-                "k-",
-                lw=1,
-            )
-            ax.text(
-                *(np.array([-0.88 * reach, -0.88 * reach]) + 1.35 * way), name, fontsize=7, ha="center", va="center"
-            )
+        for i, name in enumerate("xyz"):
+            way = 0.11 * reach * np.array([right[i], up[i]])
+            ax.plot(*np.stack([foot, foot + way], axis=1), "k-", lw=1)
+            ax.text(*(foot + 1.35 * way), name, fontsize=7, ha="center", va="center")
