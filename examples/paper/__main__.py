@@ -12,7 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-from examples.paper.entry import LEFT_OUT
+from examples.paper.entry import LEFT_OUT, STOPPED
 from examples.paper.page import SCRIPTS, write
 
 
@@ -32,7 +32,10 @@ def main() -> int:
     for script in (script for script in SCRIPTS if script.entry in asked):
         started = time.perf_counter()
         command = [sys.executable, "-m", f"examples.paper.{script.module}", str(folder), *["--small"] * options.small]
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+        try:
+            done = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+        except KeyboardInterrupt:
+            return STOPPED
         if done.returncode == LEFT_OUT:
             print(f"{script.entry}: left out", file=sys.stderr)
             continue

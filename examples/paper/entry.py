@@ -11,10 +11,11 @@ from pathlib import Path
 
 from examples.paper.models import MissingModels
 from infill import InfillError
+from infill.output import whole_file
 
 PICTURE_ONLY = "picture only"
 NOT_GIVEN = "–"
-LEFT_OUT = 3  # the exit status where models are missing
+LEFT_OUT, STOPPED = 3, 130  # exit statuses: models are missing, Ctrl-C
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +66,8 @@ class Entry:
 
     def save(self, folder: Path) -> Entry:
         """Write name.json."""
-        (folder / f"{self.name}.json").write_text(json.dumps(asdict(self), indent=1) + "\n", encoding="utf-8")
+        with whole_file(folder / f"{self.name}.json") as file:
+            file.write((json.dumps(asdict(self), indent=1) + "\n").encode())
         return self
 
 
@@ -89,6 +91,8 @@ def run(main: Callable[..., Entry]) -> None:
         sys.exit(LEFT_OUT)
     except InfillError as error:
         sys.exit(f"error: {error}")
+    except KeyboardInterrupt:
+        sys.exit(STOPPED)
     print(entry.title)
     for row in entry.rows:
         print(f"  {row.what}: {row.ours}   (paper: {row.paper}; peer: {row.peer})")

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from examples.paper.entry import Entry, load
+from infill.output import whole_file
 
 HEAD = """# The paper, reproduced
 
@@ -85,7 +86,8 @@ def write(docs: Path) -> Path:
         else:
             parts.append(f"\n## {script.entry}\n\nNot run: it takes models that were not there.\n")
     page = docs / "paper.md"
-    page.write_text("".join(parts) + FOOT, encoding="utf-8")
+    with whole_file(page) as file:
+        file.write(("".join(parts) + FOOT).encode())
     return page
 
 

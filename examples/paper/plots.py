@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
+from infill.output import whole_file
 from infill.render import directions, render
 from infill.surface import Surface
 
@@ -43,10 +45,10 @@ def panels(
 
 def save(figure: Figure, path: Path) -> None:
     """Write the picture with 256 colours, which is a third of the size."""
-    figure.savefig(path, dpi=100)
-    with Image.open(path) as picture:
-        small = picture.convert("RGB").quantize(256)
-    small.save(path, optimize=True)
+    drawn = BytesIO()
+    figure.savefig(drawn, dpi=100)
+    with Image.open(drawn) as picture, whole_file(path) as file:
+        picture.convert("RGB").quantize(256).save(file, format="PNG", optimize=True)
 
 
 def edges(phi: NDArray[np.floating], h: float, origin: Sequence[float] | None) -> tuple[float, float, float, float]:
