@@ -36,14 +36,14 @@ check: lint types test
 
 bench: .venv/test
 	@$(BIN)/python -m benchmarks.make
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[bench]'
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
 	@$(BIN)/python -m benchmarks.smooth_speed
 	@$(BIN)/python -m benchmarks.smooth_quality
 	@$(BIN)/python -m benchmarks.smooth_files
 
 # Every figure and table of the paper, and docs/paper.md: some minutes. Models are taken from $INFILL_DATA.
 paper: .venv/test
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check '.[bench]'
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
 	@$(BIN)/python -m examples.paper
 
 # The pictures of README and docs, made by the program itself.

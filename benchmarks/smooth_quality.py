@@ -76,6 +76,7 @@ class Quality:
     """What is measured; distances from the vertices, in cells; the angle is weighted by area, in degrees."""
 
     rms: float
+    mean: float
     largest: float
     normal: float
     volume: float
@@ -104,6 +105,7 @@ def measured(surface: Surface, shape: Shape, volume: float, seconds: float, *, s
     angle = np.degrees(np.arccos(np.clip(cosine, -1, 1))) @ doubled / doubled.sum()
     return Quality(
         rms=np.sqrt((distance**2).mean()),
+        mean=np.abs(distance).mean(),
         largest=np.abs(distance).max(),
         normal=angle,
         volume=100 * (surface.volume / volume - 1),

@@ -78,16 +78,17 @@ class Shape:
         return ((points - at) * normal).sum(axis=1), normal
 
 
-def sphere() -> Shape:
-    """Return a sphere of radius 80."""
-    return Shape(size=(200,) * 3, value=lambda p: np.linalg.norm(p, axis=1) - 80, volume=4 / 3 * math.pi * 80**3)
+def sphere(n: int = 200) -> Shape:
+    """Return a sphere of 0.8 of the half side on n³ cells."""
+    radius = 0.4 * n
+    return Shape(size=(n,) * 3, value=lambda p: np.linalg.norm(p, axis=1) - radius, volume=4 / 3 * math.pi * radius**3)
 
 
-def ellipsoid() -> Shape:
-    """Return an ellipsoid with half axes 160, 80 and 80."""
-    axes = np.array([160.0, 80, 80])
-    value, volume = (lambda p: (np.linalg.norm(p / axes, axis=1) - 1) * 80), 4 / 3 * math.pi * axes.prod()
-    return Shape(size=(400, 200, 200), value=value, exact=False, volume=volume)
+def ellipsoid(n: int = 200) -> Shape:
+    """Return an ellipsoid with half axes 0.8 n, 0.4 n and 0.4 n on 2n x n x n cells."""
+    axes = 0.4 * n * np.array([2.0, 1, 1])
+    value, volume = (lambda p: (np.linalg.norm(p / axes, axis=1) - 1) * axes[1]), 4 / 3 * math.pi * axes.prod()
+    return Shape(size=(2 * n, n, n), value=value, exact=False, volume=volume)
 
 
 def torus() -> Shape:

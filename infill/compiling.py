@@ -29,7 +29,7 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
 def told_of_compiling(what: str) -> Iterator[None]:
     """Tell the log "infill" as soon as something inside is compiled, and not found compiled on disk.
 
-    Once, by the outermost of several; also a decorator.
+    Once, by the outermost of several; also a decorator. `what` stands after "compiling".
     """
     if _WATCHED.get():
         yield

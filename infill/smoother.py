@@ -207,7 +207,7 @@ def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None
     return _smoothed(solid, {"source": "points", "points": len(cloud), "shell": shell}, None, **options)
 
 
-@told_of_compiling("for about 15 s")
+@told_of_compiling("the smoother, about 15 s")
 def _smoothed(
     data: Volume,
     source: dict[str, Any],

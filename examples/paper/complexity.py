@@ -7,7 +7,8 @@ from statistics import median
 import numpy as np
 from matplotlib.ticker import LogLocator
 
-from examples.paper import plots, shapes
+from benchmarks.solids import sphere
+from examples.paper import plots
 from examples.paper.timing import CHOI, DENSE, PLAIN, ROUNDS, SPARSE, TRANSFORMS, in_turn, methods, swing
 
 SIZES, FITTED = (32, 48, 64, 96, 128, 160, 200, 256), 96
@@ -25,7 +26,7 @@ LOOKS = {
 def growth(n: int, *, small: bool) -> dict[str, float]:
     """Return the median seconds a step on a sphere of n³ cells, by method, after a round that does not count."""
     rounds = 2 if small else max(ROUNDS, min(9, 10**7 // n**3))
-    works = methods(shapes.sphere(n).voxels())
+    works = methods(sphere(n).voxels())
     times, _ = in_turn({name: works[name] for name in FITS}, rounds + 1)
     return {name: median(taken[1:]) for name, taken in times.items()}
 

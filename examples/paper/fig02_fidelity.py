@@ -27,9 +27,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     for ax, (title, phi) in zip(
         axes[0], {"data f": f, **{f"λ = {lam}": smoothed[lam] for lam in LAMBDAS}}.items(), strict=True
     ):
-        plots.show_field(ax, phi, h=H, title=title)
-        plots.show_cells(ax, f, h=H, label="edge of the data")
-        plots.show_contour(ax, phi, h=H, label="φ = 0")
+        plots.show_smoothed(ax, phi, f, title, h=H)
     plots.legend(figure, axes[0, 0])
     plots.save(figure, folder / "fig02.png")
 

@@ -24,10 +24,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     crossed = left = math.nan
     for step in range(SHOWN[-1] + 1):
         if step in SHOWN:
-            ax = axes[0, SHOWN.index(step)]
-            plots.show_field(ax, phi, h=H, title=f"{step} steps")
-            plots.show_cells(ax, data, h=H, label="edge of the data")
-            plots.show_contour(ax, phi, h=H, label="φ = 0")
+            plots.show_smoothed(axes[0, SHOWN.index(step)], phi, data, f"{step} steps", h=H)
         if math.isnan(crossed) and ((phi > 0) == (data > 0)).all():
             crossed = step
         left = abs(phi - data)[differs].max()

@@ -39,9 +39,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     for ax, m in zip(axes[0], WIDTHS, strict=False):
         phi = smooth(f, Smoothing.paper(lam=LAM, h=H, m=m, steps=STEPS), method="numpy")
         held[m] = width(phi[n // 2 :, n // 2])
-        plots.show_field(ax, phi, h=H, title=f"m = {m:g}")
-        plots.show_cells(ax, f, h=H, label="edge of the data")
-        plots.show_contour(ax, phi, h=H, label="φ = 0")
+        plots.show_smoothed(ax, phi, f, f"m = {m:g}", h=H)
     for m, phi in fronts.items():
         at = np.arange(len(phi)) + 0.5 - len(phi) / 2
         (line,) = axes[0, -1].plot(at, phi, "o", ms=3, label=f"m = {m:g}")

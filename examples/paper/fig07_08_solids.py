@@ -11,10 +11,11 @@ import numpy as np
 from benchmarks.peers import cahn_hilliard
 from benchmarks.peers.meshers import surface_of, windowed_sinc
 from benchmarks.smooth_quality import measured, ours
+from benchmarks.solids import ellipsoid, sphere
 from examples.paper import plots, shapes
 from examples.paper.entry import PICTURE_ONLY, Entry, Row, run
 from examples.paper.measures import mse
-from infill import Smoothing, Surface, smooth
+from infill import Smoothing, smooth
 
 SHOWN, STEPS = 20, (1, 2, 5, 10, 15, 20, 30, 40)
 LINES = {"0": (plots.SMOOTH, "level φ = 0"), "volume": (plots.PEER, "level of the volume")}
@@ -24,7 +25,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     """Smooth the three solids and follow their volume."""
     n = 60 if small else 200
     h, steps = 2 / n, (10, 20) if small else STEPS
-    round_ones = {"sphere": shapes.sphere(n), "ellipsoid": shapes.ellipsoid(n)}
+    round_ones = {"sphere": sphere(n), "ellipsoid": ellipsoid(n)}
     solids = {name: shape.voxels() for name, shape in round_ones.items()}
     if not small:
         solids["pyramid"] = shapes.pyramid()
@@ -41,19 +42,16 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         line[3].set_title(f"{name}: volume", fontsize=10)
         line[3].legend(fontsize=8)
         line[3].grid(alpha=0.3)
-        smoothed = ours(f, SHOWN, "0")
+        smoothed, kept = ours(f, SHOWN, "0"), ours(f, SHOWN, "volume")
         phi = smooth(f, Smoothing(steps=SHOWN), method="sparse")
-        both = [in_lengths(ours(f, 0, "0"), h), in_lengths(smoothed, h)]
-        plots.show_solids(line[:2], both, (f"{name}: data", f"{name}: {SHOWN} steps"))
-        middle = f.shape[1] // 2
-        plots.show_field(line[2], phi[:, middle], h=h)
-        plots.show_cells(line[2], f[:, middle], h=h, label="edge of the data")
-        plots.show_contour(line[2], phi[:, middle], h=h, label="φ = 0")
-        plots.named(line[2], "close up, slice at y = 0", names=("x", "z"))
+        titles, middle = (f"{name}: data", f"{name}: {SHOWN} steps"), f.shape[1] // 2
+        plots.show_solids(line[:2], (ours(f, 0, "0"), smoothed), titles, h=h)
+        slices = phi[:, middle], f[:, middle]
+        plots.show_smoothed(line[2], *slices, "close up, slice at y = 0", h=h, names=("x", "z"))
         line[2].legend(fontsize=7, loc="upper left")
         corner = 0.2 * f.shape[0] * h if name != "pyramid" else -0.9
         line[2].set(xlim=(corner, corner + 0.4), ylim=(0.45, 0.85) if name != "pyramid" else (-0.9, -0.5))
-        spread = {count: mse(smooth(f, Smoothing(steps=count), method="sparse"), f) for count in (10, SHOWN)}
+        spread = {10: mse(smooth(f, Smoothing(steps=10), method="sparse"), f), SHOWN: mse(phi, f)}
         waves = cahn_hilliard.smooth(f)
         others = {"Choi": surface_of(np.clip(waves, -1, 1))}
         with suppress(ModuleNotFoundError):
@@ -74,7 +72,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             numbers[f"{name} volume kept at {count}"] = change["volume"][count]
             numbers[f"{name} mse at {count}"] = spread[count]
         if name in round_ones:
-            found = {"level 0": smoothed, "level volume": ours(f, SHOWN, "volume"), **others}
+            found = {"level 0": smoothed, "level volume": kept, **others}
             near = {
                 which: float(measured(surface, round_ones[name], cells, 0.0, samples=20_000).rms)
                 for which, surface in found.items()
@@ -87,7 +85,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             ))  # fmt: skip
     plots.save(figure, folder / "fig07_08.png")
     lost = min(numbers[f"{name} volume at {SHOWN}"] for name in solids)
-    kept = max(abs(numbers[f"{name} volume kept at {SHOWN}"]) for name in solids)
+    most = max(abs(numbers[f"{name} volume kept at {SHOWN}"]) for name in solids)
     return Entry(
         name="fig07_08",
         title="Figs. 7 and 8: sphere, ellipsoid, stepped pyramid; volume against steps",
@@ -100,15 +98,10 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         rows=tuple(rows),
         sentence=(
             f"Smooth and round, as in the paper, but the scheme shrinks what is convex, by up to {-lost:.2%} in "
-            f"{SHOWN} steps; cut at the level of the volume instead of φ = 0 the same fields keep it to {kept:.4%}."
+            f"{SHOWN} steps; cut at the level of the volume instead of φ = 0 the same fields keep it to {most:.4%}."
         ),
         numbers=numbers,
     ).save(folder)
-
-
-def in_lengths(surface: Surface, h: float) -> Surface:
-    """Return a surface that is given in cells about the middle, in lengths."""
-    return Surface(vertices=surface.vertices * h, faces=surface.faces)
 
 
 if __name__ == "__main__":

@@ -11,9 +11,9 @@ from scipy.ndimage import gaussian_filter
 from benchmarks.peers import cahn_hilliard
 from benchmarks.peers.meshers import surface_of
 from benchmarks.smooth_quality import measured, ours
-from examples.paper import plots, shapes
+from benchmarks.solids import sphere
+from examples.paper import plots
 from examples.paper.entry import PICTURE_ONLY, Entry, Row, run
-from examples.paper.fig07_08_solids import in_lengths
 from examples.paper.measures import mse
 from infill import Smoothing, smooth
 
@@ -23,7 +23,7 @@ STEPS = 20
 def main(folder: Path, *, small: bool = False) -> Entry:
     """Smooth noisy spheres and measure their distance from the sphere without noise."""
     n = 60 if small else 200
-    h, shape = 2 / n, shapes.sphere(n)
+    h, shape = 2 / n, sphere(n)
     chances = (0.2,) if small else (0.1, 0.2, 0.3, 0.4)
     figure, axes = plots.panels(3, len(chances))
     rows, numbers = [], {}
@@ -40,10 +40,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             for name, surface in {"data": raw, "ours": smoothed, **peers}.items()
         }
         titles = (f"{chance:.0%} noise: data", f"{STEPS} steps")
-        plots.show_solids(line[:2], [in_lengths(raw, h), in_lengths(smoothed, h)], titles)
-        plots.show_field(line[2], phi[:, :, n // 2], h=h, title="close up, slice at z = 0")
-        plots.show_cells(line[2], f[:, :, n // 2], h=h, label="edge of the data")
-        plots.show_contour(line[2], phi[:, :, n // 2], h=h, label="φ = 0")
+        plots.show_solids(line[:2], (raw, smoothed), titles, h=h)
+        plots.show_smoothed(line[2], phi[:, :, n // 2], f[:, :, n // 2], "close up, slice at z = 0", h=h)
         angle = np.linspace(0, np.pi / 2, 200)
         line[2].plot(0.8 * np.cos(angle), 0.8 * np.sin(angle), "--", color=plots.TRUTH, lw=1, label="sphere")
         line[2].set(xlim=(0.4, 0.9), ylim=(0.2, 0.7))

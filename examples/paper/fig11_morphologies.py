@@ -12,7 +12,6 @@ from benchmarks.peers.meshers import surface_nets
 from benchmarks.smooth_quality import measured, ours
 from examples.paper import plots, shapes
 from examples.paper.entry import PICTURE_ONLY, Entry, Row, run
-from examples.paper.fig07_08_solids import in_lengths
 from infill import Smoothing, smooth
 
 STEPS = 10
@@ -34,12 +33,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         with suppress(ModuleNotFoundError):
             found["VTK surface nets"] = surface_nets(f)
         phi = smooth(f, Smoothing(steps=STEPS), method="dense")
-        plots.show_solids(
-            line[:2], [in_lengths(raw, h), in_lengths(found["level 0"], h)], (f"{name}: data", f"{STEPS} steps")
-        )
-        plots.show_field(line[2], phi[:, :, n // 2], h=h, title="slice at z = 0")
-        plots.show_cells(line[2], f[:, :, n // 2], h=h, label="edge of the data")
-        plots.show_contour(line[2], phi[:, :, n // 2], h=h, label="φ = 0")
+        plots.show_solids(line[:2], (raw, found["level 0"]), (f"{name}: data", f"{STEPS} steps"), h=h)
+        plots.show_smoothed(line[2], phi[:, :, n // 2], f[:, :, n // 2], "slice at z = 0", h=h)
         quality = {
             which: measured(surface, shape, volume, 0.0, samples=5000)
             for which, surface in {"data": raw, **found}.items()

@@ -10,12 +10,11 @@ import numpy as np
 
 from benchmarks.peers import cahn_hilliard
 from benchmarks.peers.meshers import surface_of
-from benchmarks.smooth_quality import ours
 from examples.paper import models, plots
 from examples.paper.entry import Entry, Row, run
-from examples.paper.fig07_08_solids import in_lengths
 from examples.paper.measures import mse
 from infill import Smoothing, smooth, smooth_volume
+from infill.outcome import staircase
 
 STEPS = 20
 PRINTED = {"pig": 0.78, "bunny": 0.45, "armadillo": 0.52}
@@ -38,36 +37,31 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     for name, line in zip(names, axes, strict=True):
         f = models.voxels(name, cells)
         phi = smooth(f, Smoothing(steps=STEPS), method="sparse")
-        raw, level, kept = ours(f, 0, "0"), ours(f, STEPS, "0"), ours(f, STEPS, "volume")
-        solid = float((f > 0).sum())
-        change, held = level.volume / solid - 1, kept.volume / solid - 1
+        plain, kept, refined = (
+            smooth_volume(
+                f > 0, spacing=h, smoothing=Smoothing(steps=STEPS), level=level, refine=refine, allow_broken=True
+            )
+            for level, refine in ((0, False), ("volume", False), ("volume", True))
+        )
+        raw, solid = staircase(plain), f > 0
+        change, held = (result.report["volume_change"] for result in (plain, kept))
+        found = [result.report["problems"] for result in (plain, refined)]
         readings = {
             "all cells": mse(phi, f),
-            "solid cells": mse(phi[f > 0], f[f > 0]),
+            "solid cells": mse(phi[solid], f[solid]),
             "changed": 100 * float(np.abs(np.sign(phi) - f).mean()),
             "interface": mse(phi[np.abs(phi) < 0.9], f[np.abs(phi) < 0.9]),
             "a vertex": mse(phi, f) * f.size / len(raw.vertices),
         }
-        refined = ours(f, STEPS, "volume", refine=True)
         plots.show_solids(
-            line[:3], [in_lengths(surface, h) for surface in (raw, level, refined)],
-            (f"{name}: data", f"{STEPS} steps, φ = 0", "refined"), view=(math.radians(VIEWS[name]), plots.VIEW[1]),
+            line[:3], (raw, plain.surface, refined.surface), (f"{name}: data", f"{STEPS} steps, φ = 0", "refined"),
+            view=(math.radians(VIEWS[name]), plots.VIEW[1]),
         )  # fmt: skip
-        found = {
-            refine: smooth_volume(
-                f > 0, smoothing=Smoothing(steps=STEPS), refine=refine, allow_broken=True,
-                level="volume" if refine else 0,
-            ).report["problems"]
-            for refine in (False, True)
-        }  # fmt: skip
         axis = SLICES[name]
         flat = [np.take(field, field.shape[axis] // 2, axis=axis) for field in (phi, f)]
-        plots.show_field(line[3], flat[0], h=h, title="slice through the middle")
-        plots.show_cells(line[3], flat[1], h=h, label="edge of the data")
-        plots.show_contour(line[3], flat[0], h=h, label="φ = 0")
-        plots.named(line[3], "slice through the middle", names=("y" if axis == 0 else "x", "z"))
+        plots.show_smoothed(line[3], *flat, "slice through the middle", h=h, names=("y" if axis == 0 else "x", "z"))
         waves = cahn_hilliard.smooth(f)  # ten steps, as in Table 1
-        choi = surface_of(np.clip(waves, -1, 1)).volume / solid - 1
+        choi = surface_of(np.clip(waves, -1, 1)).volume / solid.sum() - 1
         rows += [
             Row(
                 what=f"{name}: {' / '.join(READINGS.values())}", paper=f"{PRINTED[name]:.2f} (Eq. 16, not defined)",
@@ -76,7 +70,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             Row(
                 what=f"{name}: mean (φ − f)², all cells / solid cells",
                 ours=f"{readings['all cells']:.4f} / {readings['solid cells']:.3f}",
-                peer=f"Choi {mse(waves, f):.4f} / {mse(waves[f > 0], f[f > 0]):.3f}",
+                peer=f"Choi {mse(waves, f):.4f} / {mse(waves[solid], f[solid]):.3f}",
             ),
             Row(
                 what=f"{name}: volume, change",
@@ -84,12 +78,12 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             ),
             Row(
                 what=f"{name}: what broke or vanished",
-                ours=f"{'; '.join(found[False]) or 'nothing'}; refined: {'; '.join(found[True]) or 'nothing'}",
+                ours=f"{'; '.join(found[0]) or 'nothing'}; refined: {'; '.join(found[1]) or 'nothing'}",
             ),
         ]  # fmt: skip
         numbers |= {f"{name} {which}": value for which, value in readings.items()}
         numbers |= {f"{name} volume": change, f"{name} volume kept": held}
-        numbers |= {f"{name} problems": len(found[False]), f"{name} problems, refined": len(found[True])}
+        numbers |= {f"{name} problems": len(found[0]), f"{name} problems, refined": len(found[1])}
     plots.legend(figure, axes[0, 3])
     plots.save(figure, folder / "fig12_13.png")
     broken = [name for name in names if numbers[f"{name} problems"]]

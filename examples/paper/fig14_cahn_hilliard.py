@@ -16,9 +16,9 @@ from scipy.ndimage import gaussian_filter, label
 
 from benchmarks.peers import cahn_hilliard
 from benchmarks.peers.meshers import surface_of
+from benchmarks.solids import sphere
 from examples.paper import models, plots, shapes
 from examples.paper.entry import NOT_GIVEN, Entry, Row, run
-from examples.paper.fig07_08_solids import in_lengths
 from examples.paper.measures import mse
 from infill import Smoothing, Surface, smooth
 from infill.threads import thread_count
@@ -48,7 +48,7 @@ class Smoothed:
 
 def main(folder: Path, *, small: bool = False) -> Entry:
     """Smooth the noisy models for ten steps by both methods."""
-    solids = {"sphere": shapes.sphere(60).voxels()} if small else {name: models.voxels(name) for name in PAPER_MSE}
+    solids = {"sphere": sphere(60).voxels()} if small else {name: models.voxels(name) for name in PAPER_MSE}
     figure, axes = plots.panels(4, len(solids))
     rows: list[Row] = []
     numbers: dict[str, float] = {}
@@ -142,8 +142,8 @@ def draw(line: "Sequence[Axes]", name: str, f: shapes.Field, clean: shapes.Field
     n, middle = len(f), len(f) // 2
     h, half = 2 / n, round(CLOSE_UP * n / 2)
     titles = (f"{name}, {NOISE:.0%} noise", f"ours, {STEPS} steps", f"Choi, {STEPS} steps")
-    surfaces = [in_lengths(one.surface, h) for one in found.values()]
-    plots.show_solids(line[:3], surfaces, titles, view=VIEWS.get(name, plots.VIEW))
+    surfaces = [one.surface for one in found.values()]
+    plots.show_solids(line[:3], surfaces, titles, h=h, view=VIEWS.get(name, plots.VIEW))
     ours, theirs = (found[which].phi[:, middle] for which in ("ours", "Choi"))
     apart = gaussian_filter(((ours > 0) != (theirs > 0)).astype(np.float32), half / 2)
     spot = np.clip(np.unravel_index(np.argmax(apart), apart.shape), half, n - half)

@@ -51,10 +51,17 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         axis = int(np.argmin(data.values.shape[:2]))
         flat = [np.take(field, field.shape[axis] // 2, axis=axis) for field in (phi, np.where(data.values, 1.0, -1.0))]
         corner = [data.origin[i] for i in range(3) if i != axis]
-        plots.show_field(line[2], flat[0].clip(-1, 1), h=voxel, origin=corner)
-        plots.show_cells(line[2], flat[1], h=voxel, origin=corner, label="edge of the narrow volume")
-        plots.show_contour(line[2], flat[0], h=voxel, origin=corner, label="surface")
-        plots.named(line[2], "slice through the middle", unit, tuple("xyz".replace("xyz"[axis], "")))
+        names_of_axes = tuple("xyz".replace("xyz"[axis], ""))
+        plots.show_smoothed(
+            line[2],
+            *flat,
+            "slice through the middle",
+            h=voxel,
+            origin=corner,
+            unit=unit,
+            names=names_of_axes,
+            label="surface",
+        )
         spread = {which: float(np.sqrt(np.mean((each - WIDTH / 2) ** 2))) for which, each in off.items()}
         spreads[name] = spread
         rows += [
@@ -87,7 +94,6 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     broken = [name for name in names if numbers[f"{name} problems"]]
     lost = f"What broke in {', '.join(broken)} is told as an error" if broken else "No wall broke"
     voids = ", ".join(f"{count} in the {name}" for name, count in closed_up.items())
-
     told = [
         f"{label} {min(values):.2f} to {max(values):.2f}"
         for which, label in (

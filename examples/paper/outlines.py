@@ -38,11 +38,10 @@ def compare(
     for (name, (outline, f)), column in zip(outlines.items(), axes.T, strict=True):
         phi = smooth(f, Smoothing.paper(lam=LAM, h=h, steps=STEPS), method="numpy")
         titles = (f"{name}: data", f"{name}: {STEPS} steps", "close up")
-        for ax, field, title in zip(column, (f, phi, phi), titles, strict=True):
-            plots.show_field(ax, field, h=h, title=title)
-            plots.show_cells(ax, f, h=h, label="edge of the data")
-            if field is phi:
-                plots.show_contour(ax, phi, h=h, label="φ = 0")
+        plots.show_field(column[0], f, h=h, title=titles[0])
+        plots.show_cells(column[0], f, h=h)
+        for ax, title in zip(column[1:], titles[1:], strict=True):
+            plots.show_smoothed(ax, phi, f, title, h=h)
         plots.show_outline(column[2], outline, h=h, size=f.shape, label="true outline")
         left, bottom = CLOSE.get(name, (-0.75, 0.2))
         column[2].set(xlim=(left, left + 0.5), ylim=(bottom, bottom + 0.5))

@@ -117,6 +117,25 @@ def show_cells(
         ax.plot([], [], color=colour, lw=0.8, label=label)
 
 
+def show_smoothed(
+    ax: Axes,
+    phi: NDArray[np.floating],
+    f: NDArray[np.floating],
+    title: str,
+    *,
+    h: float = 1.0,
+    origin: Sequence[float] | None = None,
+    unit: str = "",
+    names: tuple[str, str] = ("x", "y"),
+    label: str = "φ = 0",
+) -> None:
+    """Draw a plane field [x, y] with its zero contour, and the edge of the data it came from."""
+    show_field(ax, phi, h=h, origin=origin)
+    show_cells(ax, f, h=h, origin=origin, label="edge of the data")
+    show_contour(ax, phi, h=h, origin=origin, label=label)
+    named(ax, title, unit, names)
+
+
 def show_outline(
     ax: Axes, outline: shapely.Geometry, *, h: float, size: tuple[int, ...], colour: str = TRUTH, label: str = ""
 ) -> None:
@@ -148,21 +167,22 @@ def show_solids(
     surfaces: Sequence[Surface],
     titles: Sequence[str],
     *,
+    h: float = 1.0,
     unit: str = "",
     view: tuple[float, float] = VIEW,
 ) -> None:
-    """Draw surfaces from the same side and at the same scale.
+    """Draw surfaces, whose lengths are times h, from the same side and at the same scale.
 
     Lengths are those in the plane of the picture, from the middle of all surfaces; `view` is azimuth and elevation.
     """
     right, up, _ = turned = directions(*view)
-    bounds = np.array([surface.bounds for surface in surfaces])
+    bounds = np.array([surface.bounds for surface in surfaces]) * h
     centre = (bounds[:, 0].min(axis=0) + bounds[:, 1].max(axis=0)) / 2
-    reach = 1.04 * max(float(np.abs((surface.vertices - centre) @ turned[:2].T).max()) for surface in surfaces)
+    reach = 1.04 * max(float(np.abs((surface.vertices * h - centre) @ turned[:2].T).max()) for surface in surfaces)
     foot = np.full(2, -0.88 * reach)  # of the little axes in the corner
     window = (-reach, reach, -reach, reach)
     for ax, surface, title in zip(axes, surfaces, titles, strict=True):
-        moved = Surface(vertices=surface.vertices - centre, faces=surface.faces)
+        moved = Surface(vertices=surface.vertices * h - centre, faces=surface.faces)
         picture = render(moved, width=PIXELS, height=PIXELS, azimuth=view[0], elevation=view[1], window=window)
         ax.imshow(picture, extent=window, interpolation="antialiased")
         named(ax, title, unit, ("across", "up"))

@@ -55,32 +55,15 @@ def glyph(character: str, n: int, share: float = 0.8) -> shapely.Geometry:
     return shapely.transform(outline, lambda points: (points - (low + high) / 2) * scale + n / 2)
 
 
-def sphere(n: int) -> Shape:
-    """Return a sphere of 0.8 of the half side on n³ cells: r = 0.8 on (-1, 1)³."""
-    radius = 0.4 * n
-    return Shape(
-        size=(n,) * 3, value=lambda p: np.linalg.norm(p, axis=1) - radius, volume=4 / 3 * np.pi * radius**3
-    )  # fmt: skip
-
-
-def ellipsoid(n: int) -> Shape:
-    """Return an ellipsoid with half axes 1.6, 0.8 and 0.8 on (-2, 2) x (-1, 1)², n cells across."""
-    axes = 0.4 * n * np.array([2.0, 1, 1])
-    return Shape(
-        size=(2 * n, n, n), value=lambda p: (np.linalg.norm(p / axes, axis=1) - 1) * axes[1], exact=False,
-        volume=4 / 3 * np.pi * float(axes.prod()),
-    )  # fmt: skip
-
-
-def pyramid(layers: int = 27) -> Field:
-    """Return the stepped pyramid on 200³ cells, or its first layers.
+def pyramid() -> Field:
+    """Return the stepped pyramid on 200³ cells.
 
     The text gives x, y in [-1 + h (3 m + 21.5), 1 - h (187.5 - 3 m)], which is empty for every m = 1 ... 27. Read with
     -1 + h (...) for the upper bounds too it is a pyramid; z in [-1 + h (6 m + 13.5), -1 + h (6 m + 19.5)]. All
     bounds fall on centres of cells, which count as inside: cell i has its centre at -1 + h (i + 1/2).
     """
     f = np.full((200, 200, 200), np.float32(-1))
-    for m in range(1, layers + 1):
+    for m in range(1, 28):
         across, up = slice(3 * m + 21, 188 - 3 * m), slice(6 * m + 13, 6 * m + 20)
         f[across, across, up] = 1
     return f

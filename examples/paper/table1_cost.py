@@ -10,6 +10,7 @@ from statistics import median
 
 import numpy as np
 
+from benchmarks.solids import ellipsoid, sphere
 from examples.paper import models, shapes
 from examples.paper.complexity import FITS, FITTED, SIZES, THEIRS, draw, exponent, growth, of_curve
 from examples.paper.entry import NOT_GIVEN, Entry, Row, run
@@ -61,7 +62,7 @@ class Cost:
 
 def main(folder: Path, *, small: bool = False) -> Entry:
     """Smooth the six noisy solids and spheres of growing size by both methods."""
-    in_turn(methods(shapes.sphere(16).voxels()), rounds=1)  # compiles
+    in_turn(methods(sphere(16).voxels()), rounds=1)  # compiles
     costs = {name: measured(f, small=small) for name, f in solids(small=small)}
     sizes = SIZES[:3] if small else SIZES
     curve = {n: growth(n, small=small) for n in sizes}
@@ -111,8 +112,8 @@ def solids(*, small: bool) -> Iterator[tuple[str, shapes.Field]]:
     cells from cells, which reaches a little further.
     """
     n = across(small=small)
-    yield "sphere", shapes.sphere(n).voxels(NOISE)
-    yield "ellipsoid", with_noise(shapes.ellipsoid(n).voxels())
+    yield "sphere", sphere(n).voxels(NOISE)
+    yield "ellipsoid", with_noise(ellipsoid(n).voxels())
     if small:
         return
     yield "pyramid", with_noise(shapes.pyramid())

@@ -3,21 +3,18 @@
 python -m examples.paper.table2_mesh_filters [folder] [--small]
 """
 
+import math
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-import numpy as np
-
 from benchmarks.peers.meshers import Field, majority_sinc, relaxed, surface_nets, windowed_sinc
-from benchmarks.smooth_quality import measured, ours
-from benchmarks.solids import Shape
+from benchmarks.smooth_quality import Quality, measured, ours
+from benchmarks.solids import Shape, sphere
 from examples.paper import plots, shapes
-from examples.paper.entry import Entry, Row, run
-from examples.paper.fig07_08_solids import in_lengths
+from examples.paper.entry import NOT_GIVEN, Entry, Row, run
 from infill.surface import Surface
 
 NOISE = 0.2
@@ -37,45 +34,30 @@ METHODS: dict[str, Callable[[Field], Surface]] = {
 SHOWN = ("data", "ours, 20 steps", "windowed sinc 50/0.02 (VTK)", "Taubin (trimesh)")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Found:
-    """A surface, and its distances from the true one in the paper's lengths."""
-
-    surface: Surface
-    sigma: float
-    largest: float
-    mean: float
-    normal: float
-    volume: float
-    pieces: int
-    seconds: float
-
-    def __str__(self) -> str:
-        """Return a cell of the table."""
-        return (
-            f"{self.sigma:.4f} / {self.largest:.4f} / {self.mean:.4f} / {self.normal:.1f}° / {self.volume:+.2f} % / "
-            f"{self.pieces} / {self.seconds:.1f} s"
-        )
-
-
-def judged(method: Callable[[Field], Surface], f: Field, shape: Shape, h: float) -> Found:
-    """Return what a method makes of a field."""
+def judged(method: Callable[[Field], Surface], f: Field, shape: Shape) -> tuple[Surface, Quality]:
+    """Return what a method makes of a field, and how good it is."""
     begin = time.process_time()
     surface = method(f)
     seconds = time.process_time() - begin
-    distance = np.abs(shape.foot(surface.vertices.astype(np.float64))[0]) * h
-    quality = measured(surface, shape, shape.volume or 1.0, seconds)
-    return Found(
-        surface=surface, sigma=float(distance.std()), largest=float(distance.max()), mean=float(distance.mean()),
-        normal=float(quality.normal), volume=float(quality.volume), pieces=quality.parts, seconds=seconds,
-    )  # fmt: skip
+    return surface, measured(surface, shape, shape.volume, seconds)
+
+
+def lengths(q: Quality, h: float) -> dict[str, float]:
+    """Return standard deviation, largest and mean of the distance in the paper's lengths."""
+    return {"sigma": math.sqrt(q.rms**2 - q.mean**2) * h, "largest": q.largest * h, "mean": q.mean * h}
+
+
+def told(q: Quality, h: float) -> str:
+    """Return a cell of the table."""
+    distances = " / ".join(f"{length:.4f}" for length in lengths(q, h).values())
+    return f"{distances} / {q.normal:.1f}° / {q.volume:+.2f} % / {q.parts} / {q.seconds:.1f} s"
 
 
 def main(folder: Path, *, small: bool = False) -> Entry:
     """Measure the distance of every method from the true surface."""
     n = 40 if small else 200
     h = 2 / n
-    solids: dict[str, Shape] = {"sphere": shapes.sphere(n), "bell": shapes.bell(n)}
+    solids: dict[str, Shape] = {"sphere": sphere(n), "bell": shapes.bell(n)}
     if small:
         del solids["bell"]
     cases = {
@@ -85,27 +67,25 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     }
     for work in METHODS.values():  # once before it counts: loading takes longer than some of the work
         with suppress(ModuleNotFoundError):
-            work(shapes.sphere(20).voxels())
+            work(sphere(20).voxels())
     figure, axes = plots.panels(len(SHOWN), len(cases))
     rows, numbers, nearest, torn = [], {}, [], set()
     for (case, (shape, f)), line in zip(cases.items(), axes, strict=True):
-        found: dict[str, Found] = {}
+        found: dict[str, tuple[Surface, Quality]] = {}
         for method, work in METHODS.items():
             with suppress(ModuleNotFoundError):
-                found[method] = judged(work, f, shape, h)
-        for method, each in sorted(found.items(), key=lambda item: item[1].mean):
-            own = method.startswith(("ours", "data"))
-            rows.append(Row(
-                what=f"{case}: {method}", ours=str(each) if own else "–", peer="–" if own else str(each),
-                paper=PRINTED if (case, method) == ("sphere, 20% noise", "ours, 20 steps") else "–",
-            ))  # fmt: skip
-            numbers |= {f"{case}, {method}, {what}": getattr(each, what) for what in ("sigma", "largest", "mean")}
-        whole = [method for method, each in found.items() if each.pieces == 1 and method != "data"]
-        nearest.append(f"{case}: {min(whole, key=lambda method: found[method].mean)}")
-        torn |= {method for method, each in found.items() if each.pieces > 1} - {"data"}
+                found[method] = judged(work, f, shape)
+        for method, (_, q) in sorted(found.items(), key=lambda item: item[1][1].mean):
+            ours_or_theirs = {"ours" if method.startswith(("ours", "data")) else "peer": told(q, h)}
+            printed = PRINTED if (case, method) == ("sphere, 20% noise", "ours, 20 steps") else NOT_GIVEN
+            rows.append(Row(what=f"{case}: {method}", paper=printed, **{"ours": NOT_GIVEN, **ours_or_theirs}))
+            numbers |= {f"{case}, {method}, {what}": length for what, length in lengths(q, h).items()}
+        whole = [method for method, (_, q) in found.items() if q.parts == 1 and method != "data"]
+        nearest.append(f"{case}: {min(whole, key=lambda method: found[method][1].mean)}")
+        torn |= {method for method, (_, q) in found.items() if q.parts > 1} - {"data"}
         shown = [method for method in SHOWN if method in found]
-        surfaces = [in_lengths(found[method].surface, h) for method in shown]
-        plots.show_solids(line[: len(shown)], surfaces, [f"{case}: {shown[0]}", *shown[1:]])
+        surfaces = [found[method][0] for method in shown]
+        plots.show_solids(line[: len(shown)], surfaces, [f"{case}: {shown[0]}", *shown[1:]], h=h)
     plots.save(figure, folder / "table2.png")
     loose = (
         f"{', '.join(sorted(torn))} leave loose pieces, since they move vertices and cannot join what noise has torn"
