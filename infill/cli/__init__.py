@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import signal
 import sys
 from types import FrameType
@@ -27,13 +28,25 @@ def main() -> None:
         _run()
         sys.stdout.flush()
     except KeyboardInterrupt:
-        sys.exit(INTERRUPTED)
+        _leave(INTERRUPTED)
+    except SystemExit as end:
+        if end.code in (INTERRUPTED, TERMINATED):
+            _leave(end.code)
+        raise
     except OSError as error:  # stdout or stderr is full or gone; files have errors of their own
         with contextlib.suppress(OSError):
             sys.stderr.write(f"error: cannot write the report: {error.strerror or error}\n")
         # What is still held back for stdout would fail again when Python ends.
         sys.stdout = None
         sys.exit(1)
+
+
+def _leave(code: int) -> None:
+    """End at once. Files are removed by now; a thread may wait for ever for a lock that the interrupt left taken."""
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(code)
 
 
 def _run() -> None:
