@@ -12,10 +12,10 @@ from typing import IO, TYPE_CHECKING, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import __version__
 from infill.errors import FormatError, GeometryError
 from infill.output import whole_file
 from infill.surface import Surface
+from infill.version import __version__
 
 if TYPE_CHECKING:
     import trimesh

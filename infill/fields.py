@@ -22,10 +22,10 @@ import numpy as np
 from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
-from infill import __version__
 from infill.errors import FormatError, InfillError, ParameterError
 from infill.machine import require_memory
 from infill.output import whole_file
+from infill.version import __version__
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"

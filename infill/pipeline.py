@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import shapely
 
-from infill import __version__
 from infill.allen_cahn import Smoothing
 from infill.errors import GeometryError
 from infill.export import save
@@ -32,6 +31,7 @@ from infill.stamping import stamp as stamp_points
 from infill.stamping import stamp_lines
 from infill.surface import Surface
 from infill.topology import Changes, Regions, changes, regions, solid_area
+from infill.version import __version__
 from infill.width import WallWidth, wall_width
 from patterns import Pattern
 from patterns.linework import bodies

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill import __version__
 from infill.allen_cahn import Smoothing
 from infill.capping import capped
 from infill.checks import within
@@ -33,6 +32,7 @@ from infill.segmentation import threshold as segment
 from infill.simplification import simplified
 from infill.surface import Surface
 from infill.verdict import verdict
+from infill.version import __version__
 from infill.volume import Volume
 from infill.voxels import Repairs, voxelise_reported
 

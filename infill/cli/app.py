@@ -9,11 +9,11 @@ from typing import Annotated
 
 import typer
 
-from infill import __version__
 from infill.cli.checking import check
 from infill.cli.listing import list_patterns
 from infill.cli.making import make_command
 from infill.cli.smoothing import smooth
+from infill.version import __version__
 from patterns import PATTERNS
 
 
