@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import bodies_kernels as kernels
+from infill.kernels import components as kernels
+from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
+from infill.kernels.sparse_marching import ROWS, volumes
+from infill.kernels.threads import in_threads, thread_count
 from infill.sparse import SparseField
-from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
 from infill.sparse_surface import rows_above
-from infill.sparse_surface_kernels import ROWS, volumes
 from infill.surface import Surface
-from infill.threads import in_threads, thread_count
 
 LARGE = 100  # cells: two such bodies that run together are told
 SMALLEST_PART = 8  # cells: what comes off a body and is smaller is a crumb, no part of it

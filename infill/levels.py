@@ -15,14 +15,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import bodies_kernels, transfer_kernels
 from infill.bodies import Bodies, Shells, bodies, data_bits, face_sums, shells
 from infill.errors import GeometryError
+from infill.kernels import components as bodies_kernels
+from infill.kernels import transfer as transfer_kernels
+from infill.kernels.sparse import BLOCK, CELLS
+from infill.kernels.threads import in_threads, thread_count
 from infill.sparse import SparseField
-from infill.sparse_kernels import BLOCK, CELLS
 from infill.sparse_surface import Level, extract_level, measured
 from infill.surface import Surface
-from infill.threads import in_threads, thread_count
 
 STEEPEST = 0.9999  # of phi: beyond, distance is cut off
 SCALE = math.atanh(STEEPEST)

@@ -33,16 +33,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from infill import levels, transfer_kernels
-from infill import refining_kernels as kernels
+from infill import levels
 from infill.allen_cahn import STEEPNESS, Smoothing, laplacian
 from infill.compiled import Field, Numbers, numbers_of, on_three_axes
 from infill.errors import ParameterError
 from infill.grid import spacing_of
+from infill.kernels import refining as kernels
+from infill.kernels import transfer as transfer_kernels
+from infill.kernels.sparse import BLOCK, CELLS
+from infill.kernels.threads import in_threads, thread_count
 from infill.levels import Levelled
 from infill.sparse import MORE, SparseField, _Blocks, _states_of
-from infill.sparse_kernels import BLOCK, CELLS
-from infill.threads import in_threads, thread_count
 
 QUARTERS = (1, 2, 3, 5, 7, 13)  # the steps of which something is kept, in quarters of `Smoothing.steps`
 FILTERS = ((0, 1), (2, 3, 4), (4, 5))  # which of those go into the mild, the middle and the strong filter
@@ -165,7 +166,7 @@ def refine_blocks(
     spacing : float or one per axis, mm
         Averages are taken over cells, distances in the smallest side of one.
     threads : int, optional
-        See `infill.threads.thread_count`.
+        See `infill.kernels.threads.thread_count`.
     progress : callable, optional
         Called before each step with the share of steps done.
 

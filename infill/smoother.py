@@ -17,11 +17,11 @@ from numpy.typing import ArrayLike, NDArray
 from infill.allen_cahn import Smoothing
 from infill.capping import capped
 from infill.checks import within
-from infill.compiling import told_of_compiling
 from infill.distance import distances
 from infill.errors import GeometryError, ParameterError
 from infill.export import surface_of
 from infill.grid import spacing_of
+from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
 from infill.outcome import as_float, moved, placed, some, summary
 from infill.pipeline import Clock, Progress, Result

@@ -103,7 +103,7 @@ def smooth(
     chosen = _chosen(np.asarray(f), smoothing) if method == "auto" else method
     if chosen not in COMPILED:
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
-    from infill.compiling import told_of_compiling
+    from infill.kernels.compiling import told_of_compiling
 
     with told_of_compiling(f"the {chosen} kernel"):
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)

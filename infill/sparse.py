@@ -18,13 +18,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import sparse_kernels as kernels
-from infill import transfer_kernels
 from infill.allen_cahn import Smoothing
 from infill.compiled import Data, Field, Numbers, numbers_of, on_three_axes
-from infill.compiling import told_of_compiling
-from infill.sparse_kernels import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
-from infill.threads import in_threads, thread_count
+from infill.kernels import sparse as kernels
+from infill.kernels import transfer as transfer_kernels
+from infill.kernels.compiling import told_of_compiling
+from infill.kernels.sparse import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
+from infill.kernels.threads import in_threads, thread_count
 
 ROOM, MORE = 3.0, 1.5  # blocks to make room for over those there are, at first and when it is used up
 
@@ -95,7 +95,7 @@ def smooth_blocks(
     smoothing, spacing, initial, mask
         As in `infill.smooth`.
     threads : int, optional
-        See `infill.threads.thread_count`.
+        See `infill.kernels.threads.thread_count`.
     progress : callable, optional
         Called before each step with the share of steps done.
     """

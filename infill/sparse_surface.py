@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill import sparse_surface_kernels as kernels
 from infill.errors import GeometryError
+from infill.kernels import sparse_marching as kernels
+from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK
+from infill.kernels.threads import in_threads, thread_count
 from infill.sparse import SparseField
-from infill.sparse_kernels import BLOCK, CELLS, SOLID_BLOCK
 from infill.surface import CLEARANCE, TIE, Surface
-from infill.threads import in_threads, thread_count
 
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
 EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]

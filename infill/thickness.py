@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.kernels.sparse import BLOCK, SOLID_BLOCK
 from infill.sparse import SparseField
-from infill.sparse_kernels import BLOCK, SOLID_BLOCK
 from infill.surface import Surface
 
 SAMPLES = 4000

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.bodies import Bodies, bodies, cells_of, cores, data_bits, fate, grown, opened, solid_bits, with_thickness
+from infill.kernels.threads import thread_count
 from infill.levels import Levelled, phase_level
 from infill.sparse import SparseField
 from infill.sparse_surface import euler_number_of_bits
 from infill.thickness import thinnest_walls
-from infill.threads import thread_count
 
 WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
 NAMED = 5  # of the lost walls are told of

@@ -167,8 +167,8 @@ def test_the_parts_of_one_are_one(decay: float) -> None:
 
 def test_far_from_the_surface_nothing_is_kept() -> None:
     """A half space of 200 cells: ten steps reach two blocks of eight on either side of the surface at most."""
+    from infill.kernels.sparse import SOLID_BLOCK, VOID_BLOCK
     from infill.sparse import smooth_blocks
-    from infill.sparse_kernels import SOLID_BLOCK, VOID_BLOCK
 
     f = -np.ones((200, 14, 30), dtype=np.int8)
     f[100:] = 1

@@ -28,7 +28,7 @@ from infill import (
     smooth_volume,
     smoother,
 )
-from infill.compiling import told_of_compiling
+from infill.kernels.compiling import told_of_compiling
 from infill.sparse import smooth_blocks
 
 Solid = NDArray[np.bool_]

@@ -10,6 +10,7 @@ from scipy.spatial import cKDTree
 
 from infill import GeometryError, Smoothing
 from infill.bodies import data_bits
+from infill.kernels.sparse_marching import UNDECIDED
 from infill.levels import volume_of
 from infill.sparse import SparseField, smooth_blocks
 from infill.sparse_surface import (
@@ -20,7 +21,6 @@ from infill.sparse_surface import (
     measured,
     raw_counts,
 )
-from infill.sparse_surface_kernels import UNDECIDED
 from infill.surface import Surface, extract
 
 UNIT = (1.0, 1.0, 1.0)

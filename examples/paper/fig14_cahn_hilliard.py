@@ -21,7 +21,7 @@ from examples.paper import models, plots, shapes
 from examples.paper.entry import NOT_GIVEN, Entry, Row, run
 from examples.paper.measures import mse
 from infill import Smoothing, Surface, smooth
-from infill.threads import thread_count
+from infill.kernels.threads import thread_count
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

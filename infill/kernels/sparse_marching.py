@@ -10,8 +10,8 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from infill.compiling import njit
-from infill.sparse_kernels import B0, B1, B2, OUTSIDE, SOLID_BLOCK
+from infill.kernels.compiling import njit
+from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BLOCK
 
 ROWS = B0 * B1
 TRUE = ir.Constant(ir.IntType(1), 1)

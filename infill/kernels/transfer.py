@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from infill.compiling import njit
-from infill.sparse_kernels import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BLOCK
+from infill.kernels.compiling import njit
+from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BLOCK
 
 
 @njit(nogil=True, cache=True)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from infill.compiling import njit
-from infill.sparse_kernels import B0, B1, B2, CELLS, OUTSIDE, VOID_BLOCK
-from infill.sparse_surface_kernels import FULL, ROWS, lowest, ones, within
+from infill.kernels.compiling import njit
+from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BLOCK
+from infill.kernels.sparse_marching import FULL, ROWS, lowest, ones, within
 
 
 @njit(cache=True)

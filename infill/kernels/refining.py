@@ -13,8 +13,8 @@ import math
 
 import numpy as np
 
-from infill.compiling import njit
-from infill.sparse_kernels import B0, B1, B2, CELLS, PLANE, emit, repeat_edges, surround, unmoved
+from infill.kernels.compiling import njit
+from infill.kernels.sparse import B0, B1, B2, CELLS, PLANE, emit, repeat_edges, surround, unmoved
 
 SUMS = 3  # w, w r, w r²
 # Twice (3, 10, 3) / 16. Together with the coarse cell's own breadth, size²/12, and that of the interpolation,
@@ -40,7 +40,7 @@ def step(
     thread,
     threads,
 ):  # pragma: no cover
-    """Do one step of all blocks in place, as `infill.sparse_kernels.step`, and leave the old values in `before`."""
+    """Do one step of all blocks in place, as `infill.kernels.sparse.step`, and leave the old values in `before`."""
     w0, w1, w2, decay, rest, _ = numbers
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, back, after = (

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from infill.compiled import advanced
-from infill.compiling import njit
+from infill.kernels.compiling import njit
+from infill.kernels.dense import advanced
 
 BLOCK = (8, 8, 16)  # cells; the last axis is contiguous
 B0, B1, B2 = BLOCK
