@@ -29,8 +29,8 @@ from benchmarks.solids import Shape, ellipsoid, gyroid, honeycomb, rbox, sphere,
 from infill import Smoothing
 from infill.bodies import bodies, data_bits
 from infill.levels import at_volume, straightened
-from infill.refining import refine_blocks
-from infill.sparse import smooth_blocks
+from infill.phasefield.refining import refine_blocks
+from infill.phasefield.sparse import smooth_blocks
 from infill.sparse_surface import extract_blocks
 from infill.surface import Surface
 

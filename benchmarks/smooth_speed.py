@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from benchmarks.pairs import row
 from infill import Smoothing
 from infill.levels import at_volume, counted
-from infill.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_blocks
 from infill.sparse_surface import extract_blocks
 
 SMOOTHING = Smoothing(steps=10)

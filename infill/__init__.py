@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 from infill.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from infill.allen_cahn import Smoothing, rescale
     from infill.errors import (
         FormatError,
         GeometryError,
@@ -27,12 +26,13 @@ if TYPE_CHECKING:
     from infill.export import save
     from infill.grid import Grid
     from infill.inspection import check
+    from infill.phasefield.allen_cahn import Smoothing, rescale
+    from infill.phasefield.methods import smooth
     from infill.pipeline import Result, make
     from infill.point_files import read_points
     from infill.reading import read_mesh
     from infill.scans import read_volume
     from infill.smoother import smooth_mesh, smooth_points, smooth_volume
-    from infill.smoothing import smooth
     from infill.stacking import extrude, stack
     from infill.stamping import stamp, stamp_lines
     from infill.surface import Surface, isosurface
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from infill.width import wall_width
 
 _HOMES = {
-    "allen_cahn": ("Smoothing", "rescale"),
+    "phasefield.allen_cahn": ("Smoothing", "rescale"),
     "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
     "export": ("save",),
     "grid": ("Grid",),
@@ -49,7 +49,7 @@ _HOMES = {
     "point_files": ("read_points",),
     "reading": ("read_mesh",),
     "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
-    "smoothing": ("smooth",),
+    "phasefield.methods": ("smooth",),
     "stacking": ("extrude", "stack"),
     "stamping": ("stamp", "stamp_lines"),
     "scans": ("read_volume",),

@@ -16,7 +16,7 @@ from infill.kernels import components as kernels
 from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
 from infill.kernels.sparse_marching import ROWS, volumes
 from infill.kernels.threads import in_threads, thread_count
-from infill.sparse import SparseField
+from infill.phasefield.sparse import SparseField
 from infill.sparse_surface import rows_above
 from infill.surface import Surface
 

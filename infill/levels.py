@@ -18,15 +18,13 @@ from numpy.typing import NDArray
 from infill.bodies import Bodies, Shells, bodies, data_bits, face_sums, shells
 from infill.errors import GeometryError
 from infill.kernels import components as bodies_kernels
-from infill.kernels import transfer as transfer_kernels
 from infill.kernels.sparse import BLOCK, CELLS
 from infill.kernels.threads import in_threads, thread_count
-from infill.sparse import SparseField
+from infill.phasefield.profile import REFINED, STRAIGHT
+from infill.phasefield.sparse import SparseField
 from infill.sparse_surface import Level, extract_level, measured
 from infill.surface import Surface
 
-STEEPEST = 0.9999  # of phi: beyond, distance is cut off
-SCALE = math.atanh(STEEPEST)
 LIMIT = 0.98  # levels lie between minus and plus this
 TOLERANCE = 5e-5  # of the volume
 BODY_TOLERANCE = 2e-4  # of the volume of one body among several
@@ -71,22 +69,14 @@ class Levelled:
 def straightened(
     field: SparseField, *, out: NDArray[np.float32] | None = None, threads: int | None = None
 ) -> SparseField:
-    """Return the field as a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values.
-
-    Across the surface phi is tanh of the distance, and marching cubes would draw a straight line through two
-    points of it. Through artanh phi the line is straight, which halves the error of the normals.
-    """
-    out = np.empty_like(field.values) if out is None else out
-    in_threads(
-        transfer_kernels.straighten, field.values.reshape(-1, CELLS), np.float32(STEEPEST), np.float32(SCALE),
-        out.reshape(-1, CELLS), threads=thread_count(threads),
-    )  # fmt: skip
-    return replace(field, values=out)
+    """Return the field as a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values."""
+    return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
 
 
-def phase_level(level: float) -> float:
-    """Return the level of phi that a level of the straightened field stands for."""
-    return math.tanh(level * SCALE)
+def as_straightened(found: Levelled) -> Levelled:
+    """Return a surface of a refined field with its levels as they would be named on a straightened one."""
+    share = REFINED.scale / STRAIGHT.scale
+    return replace(found, common=found.common * share, levels=found.levels * share)
 
 
 def volume_of(found: Level, threads: int) -> tuple[float, float]:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from infill.distance import distances
 from infill.machine import require_memory
+from infill.phasefield.sparse import SparseField
 from infill.pipeline import Result
-from infill.sparse import SparseField
 from infill.sparse_surface import extract_blocks
 from infill.surface import Surface
 from infill.volume import Volume

@@ -20,12 +20,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import shapely
 
-from infill.allen_cahn import Smoothing
 from infill.errors import GeometryError
 from infill.export import save
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.methods import smooth
 from infill.plan import Block, StampMethod, plan
 from infill.settings import in_degrees
-from infill.smoothing import smooth
 from infill.stacking import extruded
 from infill.stamping import stamp as stamp_points
 from infill.stamping import stamp_lines

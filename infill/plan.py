@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import shapely
 
-from infill.allen_cahn import Smoothing
 from infill.checks import length, whole
 from infill.errors import ParameterError
 from infill.grid import Grid
 from infill.machine import require_memory
+from infill.phasefield.allen_cahn import Smoothing
 from infill.stacking import layer_count
 from patterns import PATTERNS, Pattern, PatternError, lacking
 

@@ -63,7 +63,7 @@ class MakeSettings:
         return kind(**{name: math.radians(v) if name in angles else v for name, v in self.parameters.items()})
 
     def _request(self) -> dict[str, Any]:
-        from infill.allen_cahn import Smoothing
+        from infill.phasefield.allen_cahn import Smoothing
 
         smoothing = Smoothing(steps=self.steps, fidelity=self.fidelity, interface=self.interface, alpha=self.alpha)
         return {

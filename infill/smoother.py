@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.allen_cahn import Smoothing
 from infill.capping import capped
 from infill.checks import within
 from infill.distance import distances
@@ -24,6 +23,8 @@ from infill.grid import spacing_of
 from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
 from infill.outcome import as_float, moved, placed, some, summary
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.profile import REFINED
 from infill.pipeline import Clock, Progress, Result
 from infill.points import voxelise_points
 from infill.reading import closed_or_merged
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
     import trimesh
 
     from infill.bodies import Bodies
-    from infill.sparse import SparseField
+    from infill.phasefield.sparse import SparseField
 
 LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
@@ -97,7 +98,7 @@ def smooth_volume(
     smoothing : Smoothing
         20 steps if left out, as the paper takes for complex models; 30 for medical data.
     refine : bool
-        Keep edges, curvature and thin walls better: see `infill.refining`. Smoothing takes five times as long, the
+        Keep edges, curvature and thin walls better: see `infill.phasefield.refining`. Smoothing takes five times as long, the
         whole twice. For clean data: specks are kept too, so despeckle. It takes 4 steps or more, and no fidelity.
     level : "volume" or float
         "volume" puts the surface where every body has the volume it has in the data; 0 is the paper's surface.
@@ -227,9 +228,9 @@ def _smoothed(
 ) -> Result:
     """Do what the three functions have in common."""
     from infill.bodies import bodies, data_bits, shell_names
-    from infill.levels import at_level, at_volume, counted
-    from infill.refining import as_straightened, distance_level, refine_blocks
-    from infill.sparse import smooth_blocks
+    from infill.levels import as_straightened, at_level, at_volume, counted
+    from infill.phasefield.refining import refine_blocks
+    from infill.phasefield.sparse import smooth_blocks
 
     if isinstance(level, str) and level != "volume":
         raise ParameterError(f"there is no level {level!r}; give volume, or a number between -1 and 1")
@@ -262,7 +263,7 @@ def _smoothed(
         else:
             most = 0.99 if refine else 0.999
             height = within("level", float(level), -most, most)
-            cut = distance_level(height) if refine else height
+            cut = REFINED.distance_level(height) if refine else height
             found = replace(
                 at_level(field, before, spacing=size, level=cut, threads=threads),
                 common=height, levels=np.full(before.count, height),
@@ -348,7 +349,7 @@ def _require(data: Volume, limit: int | None, each: int) -> None:
 def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
     """Return the data without bodies up to a volume, mm³, and how many those were."""
     from infill.bodies import bodies, data_bits, without
-    from infill.sparse import smooth_blocks
+    from infill.phasefield.sparse import smooth_blocks
 
     field = smooth_blocks(data.values, Smoothing(steps=0), threads=threads)
     every = bodies(field, data_bits(field, threads=threads))

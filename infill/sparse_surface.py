@@ -19,7 +19,7 @@ from infill.errors import GeometryError
 from infill.kernels import sparse_marching as kernels
 from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK
 from infill.kernels.threads import in_threads, thread_count
-from infill.sparse import SparseField
+from infill.phasefield.sparse import SparseField
 from infill.surface import CLEARANCE, TIE, Surface
 
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.sparse import BLOCK, SOLID_BLOCK
-from infill.sparse import SparseField
+from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
 SAMPLES = 4000

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from infill.bodies import Bodies, bodies, cells_of, cores, data_bits, fate, grown, opened, solid_bits, with_thickness
 from infill.kernels.threads import thread_count
-from infill.levels import Levelled, phase_level
-from infill.sparse import SparseField
+from infill.levels import Levelled
+from infill.phasefield.profile import STRAIGHT
+from infill.phasefield.sparse import SparseField
 from infill.sparse_surface import euler_number_of_bits
 from infill.thickness import thinnest_walls
 
@@ -52,7 +53,7 @@ def verdict(
     threads: int | None,
 ) -> dict[str, Any]:
     """Return what smoothing did, with the problems in plain words."""
-    said = phase_level if level == "volume" else float
+    said = STRAIGHT.phase_level if level == "volume" else float
     field, total = found.against, float(targets.sum())
     raw, now = data_bits(field, threads=threads), solid_bits(field, level=found.height, threads=threads)
     core = cores(field, raw, threads=threads)

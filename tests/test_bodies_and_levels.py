@@ -10,8 +10,9 @@ from scipy import ndimage
 
 from infill import Smoothing
 from infill.bodies import bodies, cores, data_bits, fate, opened, shells, solid_bits, without
-from infill.levels import at_level, at_volume, phase_level, straightened
-from infill.sparse import smooth_blocks
+from infill.levels import at_level, at_volume, straightened
+from infill.phasefield.profile import STRAIGHT
+from infill.phasefield.sparse import smooth_blocks
 from infill.sparse_surface import extract_level
 from infill.verdict import verdict
 
@@ -130,7 +131,7 @@ def test_the_straight_profile_has_the_same_zero_and_sign() -> None:
     inner = np.abs(field.values) < 0.9999
     assert np.abs(straight.values - wanted)[inner].max() < 2e-6
     assert (np.abs(straight.values[~inner]) == 1).all()
-    assert phase_level(0.0) == 0
+    assert STRAIGHT.phase_level(0.0) == 0
 
 
 def test_erasing_bodies() -> None:

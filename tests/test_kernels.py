@@ -18,9 +18,9 @@ from scipy import ndimage
 from shapes import smooth_noise
 
 from infill import ParameterError, Smoothing, rescale, smooth
-from infill.allen_cahn import laplacian
-from infill.compiled import parts_of_one
-from infill.smoothing import KERNELS
+from infill.phasefield.allen_cahn import laplacian
+from infill.phasefield.dense import parts_of_one
+from infill.phasefield.methods import KERNELS
 
 FAST = 2e-5  # what the issue allows a float32 kernel over 30 steps
 EXACT = 1e-10
@@ -168,7 +168,7 @@ def test_the_parts_of_one_are_one(decay: float) -> None:
 def test_far_from_the_surface_nothing_is_kept() -> None:
     """A half space of 200 cells: ten steps reach two blocks of eight on either side of the surface at most."""
     from infill.kernels.sparse import SOLID_BLOCK, VOID_BLOCK
-    from infill.sparse import smooth_blocks
+    from infill.phasefield.sparse import smooth_blocks
 
     f = -np.ones((200, 14, 30), dtype=np.int8)
     f[100:] = 1
@@ -182,14 +182,14 @@ def test_far_from_the_surface_nothing_is_kept() -> None:
 def test_threads_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch, rng: np.random.Generator) -> None:
     f = smooth_noise(rng, (90, 70))
     alone = smooth(f, Smoothing(steps=7), method="inplace")
-    monkeypatch.setattr("infill.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.inplace.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 3)
     assert np.array_equal(smooth(f, Smoothing(steps=7), method="inplace"), alone)
 
 
 def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("infill.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.inplace.usable_cores", lambda: 2)
+    monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 2)
     real = np.sqrt
     calls = []
 
@@ -199,7 +199,7 @@ def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
             raise MemoryError
         return real(*args, **options)
 
-    monkeypatch.setattr("infill.inplace.np.sqrt", failing)
+    monkeypatch.setattr("infill.phasefield.inplace.np.sqrt", failing)
     with pytest.raises(MemoryError):
         smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")
 
@@ -425,8 +425,8 @@ def test_settings_are_plain_numbers() -> None:
 
 def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the main thread comes out as such, not as the failure of another thread."""
-    monkeypatch.setattr("infill.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.inplace.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
+    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 3)
     real, main = np.sqrt, threading.main_thread()
 
     def interrupted(*args: Any, **options: Any) -> Any:
@@ -434,7 +434,7 @@ def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
             raise KeyboardInterrupt
         return real(*args, **options)
 
-    monkeypatch.setattr("infill.inplace.np.sqrt", interrupted)
+    monkeypatch.setattr("infill.phasefield.inplace.np.sqrt", interrupted)
     with pytest.raises(KeyboardInterrupt):
         smooth(np.ones((80, 80)), Smoothing(steps=50), method="inplace")
 

@@ -18,7 +18,7 @@ from scipy import integrate, ndimage
 from skimage.measure import find_contours
 
 from infill import Smoothing
-from infill.allen_cahn import STEEPNESS, diffused, held, laplacian, reacted, smooth_reference, step
+from infill.phasefield.allen_cahn import STEEPNESS, diffused, held, laplacian, reacted, smooth_reference, step
 
 walls = pytest.importorskip("examples.paper.walls", reason="the extra `plot` is not installed")
 

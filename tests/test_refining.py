@@ -9,26 +9,24 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from infill import ParameterError, Smoothing, smooth_volume
-from infill.allen_cahn import STEEPNESS
 from infill.bodies import bodies, data_bits
 from infill.levels import at_volume, straightened
 from infill.outcome import field_volume
-from infill.refining import (
+from infill.phasefield.allen_cahn import STEEPNESS
+from infill.phasefield.profile import REFINED
+from infill.phasefield.refining import (
     FILTERS,
-    SCALE,
     Schedule,
-    distance_level,
     filtered_blocks,
     filtered_reference,
-    phase,
     refine_blocks,
     refine_reference,
 )
-from infill.sparse import SparseField, smooth_blocks
+from infill.phasefield.sparse import SparseField, smooth_blocks
 from infill.surface import Surface
 
 TWENTY = Smoothing(steps=20)
-CELLS = SCALE * 2 / STEEPNESS  # what a refined distance of 1 stands for
+CELLS = REFINED.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for
 
 
 def blobs(shape: tuple[int, ...], seed: int = 1, width: float = 3) -> np.ndarray:
@@ -219,7 +217,9 @@ def test_levels_and_fields_of_a_result_are_those_of_phi() -> None:
 
 def test_phase_and_distance_are_inverse() -> None:
     for level in (-0.9, 0.0, 0.3):
-        assert phase(np.array([distance_level(level)], dtype=np.float32))[0] == pytest.approx(level, abs=1e-6)
+        assert REFINED.phase(np.array([REFINED.distance_level(level)], dtype=np.float32))[0] == pytest.approx(
+            level, abs=1e-6
+        )
 
 
 def test_despeckle_goes_with_refining() -> None:

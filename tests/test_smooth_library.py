@@ -29,7 +29,7 @@ from infill import (
     smoother,
 )
 from infill.kernels.compiling import told_of_compiling
-from infill.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_blocks
 
 Solid = NDArray[np.bool_]
 

@@ -12,7 +12,7 @@ from infill import GeometryError, Smoothing
 from infill.bodies import data_bits
 from infill.kernels.sparse_marching import UNDECIDED
 from infill.levels import volume_of
-from infill.sparse import SparseField, smooth_blocks
+from infill.phasefield.sparse import SparseField, smooth_blocks
 from infill.sparse_surface import (
     cube_table,
     euler_number_of_bits,

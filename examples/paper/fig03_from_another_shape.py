@@ -9,7 +9,7 @@ from pathlib import Path
 from examples.paper import plots, shapes
 from examples.paper.entry import PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing
-from infill.allen_cahn import held
+from infill.phasefield.allen_cahn import held
 
 H, LAM, SHOWN = 0.1, 100, (0, 3, 6, 20)
 

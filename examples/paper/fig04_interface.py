@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from examples.paper import plots, shapes
 from examples.paper.entry import PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing, smooth
-from infill.allen_cahn import STEEPNESS
+from infill.phasefield.allen_cahn import STEEPNESS
 
 H, LAM, STEPS, WIDTHS = 0.1, 100, 100, (8, 2, 0.4)
 

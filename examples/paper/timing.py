@@ -10,7 +10,7 @@ from scipy import fft
 from benchmarks.peers import cahn_hilliard
 from examples.paper import shapes
 from infill import Smoothing, smooth
-from infill.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_blocks
 
 STEPS, ROUNDS = 10, 3
 OURS, PEER = Smoothing.paper(steps=STEPS), cahn_hilliard.CahnHilliard(steps=STEPS)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from examples.paper import plots
 from examples.paper.entry import Entry, Row, run
-from infill.allen_cahn import Smoothing, step
+from infill.phasefield.allen_cahn import Smoothing, step
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

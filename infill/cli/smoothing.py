@@ -164,7 +164,7 @@ def smooth(
         check_preview(preview)
     check_targets(filter(None, (*outputs, preview)), overwrite=force)
     with progress_bar(shown=not quiet) as progress:
-        from infill.allen_cahn import Smoothing
+        from infill.phasefield.allen_cahn import Smoothing
         from infill.sources import read_source, smooth_source
 
         if progress is not None:

@@ -1,4 +1,4 @@
-"""What `infill.refining` does to blocks, compiled. Loops run over whole blocks, so that they become vector code.
+"""What `infill.phasefield.refining` does to blocks, compiled. Loops run over whole blocks, so that they become vector code.
 
 The averages of a gate live on coarse cells of `size` cells along each axis, (n, 3, 8/size, 8/size, 16/size): the
 mean weight w, and those of w r and w r². Where no block is kept they are 0.
@@ -157,7 +157,7 @@ def between(cell, size):  # pragma: no cover
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, threads):  # pragma: no cover
-    """Move `low` towards `high` as far as the gate lets it: see `infill.refining.gate`."""
+    """Move `low` towards `high` as far as the gate lets it: see `infill.phasefield.refining.gate`."""
     _, _, n0, n1, n2 = sums.shape
     size = B0 // n0
     whole = np.empty((SUMS, n0 + 2, n1 + 2, n2 + 2), dtype=np.float32)

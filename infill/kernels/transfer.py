@@ -1,4 +1,4 @@
-"""Between a whole field and its blocks, compiled: see `infill.sparse`."""
+"""Between a whole field and its blocks, compiled: see `infill.phasefield.sparse`."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.

@@ -25,7 +25,6 @@ This is the package's own extension of the scheme of Wang et al., Computer-Aided
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -33,24 +32,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from infill import levels
-from infill.allen_cahn import STEEPNESS, Smoothing, laplacian
-from infill.compiled import Field, Numbers, numbers_of, on_three_axes
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.kernels import refining as kernels
-from infill.kernels import transfer as transfer_kernels
 from infill.kernels.sparse import BLOCK, CELLS
 from infill.kernels.threads import in_threads, thread_count
-from infill.levels import Levelled
-from infill.sparse import MORE, SparseField, _Blocks, _states_of
+from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, laplacian
+from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
+from infill.phasefield.profile import REFINED
+from infill.phasefield.sparse import MORE, Blocks, SparseField, states_of
 
 QUARTERS = (1, 2, 3, 5, 7, 13)  # the steps of which something is kept, in quarters of `Smoothing.steps`
 FILTERS = ((0, 1), (2, 3, 4), (4, 5))  # which of those go into the mild, the middle and the strong filter
 MOMENTUM = 0.5  # after half of `Smoothing.steps`
 FEWEST = 4  # steps: with fewer, two of the six would be the same
-STEEPEST = 0.995  # of phi: beyond, distance is cut off
-SCALE = math.atanh(STEEPEST)
 TINY = 1e-6  # of a weight: where there is no surface near, the means are 0
 
 
@@ -173,7 +168,7 @@ def refine_blocks(
     Returns
     -------
     SparseField
-        Of distances, artanh phi / artanh 0.995, not of phi: `phase` makes phi of them.
+        Of distances, artanh phi / artanh 0.995, not of phi: `profile.REFINED` makes phi of them.
 
     Raises
     ------
@@ -185,34 +180,14 @@ def refine_blocks(
     The averages of the gates are taken on a coarse lattice within the blocks, with the variance of the Gaussians of
     `refine_reference`; so results differ from it by about 0.01 cells rms where the data are rough, and half
     as much between one placement of the data on the lattice and another. While it works, blocks take about three
-    times the memory of `infill.sparse.smooth_blocks`.
+    times the memory of `infill.phasefield.sparse.smooth_blocks`.
     """
     threads = thread_count(threads)
     mild, middle, strong = filtered_blocks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
-    result, unit = replace(strong, values=_distance(strong.values, threads)), _unit(smoothing)
+    result, unit = replace(strong, values=REFINED.distance(strong.values, threads=threads)), _unit(smoothing)
     for milder, limits in ((middle, OUTER), (mild, INNER)):
         _blend(result, milder.values, limits, unit, threads)
     return result
-
-
-def phase(distance: Field) -> Field:
-    """Return phi of refined distances.
-
-    >>> phase(np.array([-1, 0, 1], dtype=np.float32)).tolist()
-    [-1.0, 0.0, 1.0]
-    """
-    return np.where(np.abs(distance) < 1, np.tanh(distance * np.float32(SCALE)), np.sign(distance))
-
-
-def distance_level(level: float) -> float:
-    """Return the level of refined distance that a level of phi, within 0.995, stands for."""
-    return math.atanh(level) / SCALE
-
-
-def as_straightened(found: Levelled) -> Levelled:
-    """Return a surface of a refined field with its levels as they would be named on a straightened one."""
-    share = SCALE / levels.SCALE
-    return replace(found, common=found.common * share, levels=found.levels * share)
 
 
 def filtered_blocks(
@@ -227,8 +202,8 @@ def filtered_blocks(
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
     numbers = numbers_of(smoothing, spacing, f.ndim)
-    data, state = _states_of(on_three_axes(f), threads)
-    blocks = _Blocks.around(state, data, threads)
+    data, state = states_of(on_three_axes(f), threads)
+    blocks = Blocks.around(state, data, threads)
     blocks.gather(data, data)
     before, known = blocks.phi[: blocks.count].copy(), blocks.count
     sums = [_Sum(weights) for weights in schedule.weights]
@@ -257,18 +232,18 @@ class _Sum:
         self.weights, self.so_far = weights, 0.0
         self.total: Field = np.empty((0, CELLS), dtype=np.float32)
 
-    def add(self, blocks: _Blocks, step: int) -> None:
+    def add(self, blocks: Blocks, step: int) -> None:
         """Add the field, if the sum takes that of this step."""
         if step in self.weights:
             self._add(blocks, self.weights[step])
 
-    def whole(self, blocks: _Blocks) -> Field:
+    def whole(self, blocks: Blocks) -> Field:
         """Return the sum for all blocks, those kept later on too."""
         if len(self.total) < blocks.count:
             self._add(blocks, 0.0)
         return self.total
 
-    def _add(self, blocks: _Blocks, weight: float) -> None:
+    def _add(self, blocks: Blocks, weight: float) -> None:
         known = len(self.total)
         if known < blocks.count:
             larger = np.empty((blocks.count, CELLS), dtype=np.float32)
@@ -281,7 +256,7 @@ class _Sum:
         self.so_far += weight
 
 
-def _grown(before: Field, known: int, blocks: _Blocks) -> Field:
+def _grown(before: Field, known: int, blocks: Blocks) -> Field:
     """Return the last but one field with the blocks that came in: until now those were as their data."""
     if len(before) < blocks.count:
         larger = np.empty((int(MORE * blocks.count), CELLS), dtype=np.float32)
@@ -291,7 +266,7 @@ def _grown(before: Field, known: int, blocks: _Blocks) -> Field:
     return before
 
 
-def _step(blocks: _Blocks, before: Field, numbers: Numbers, momentum: float) -> None:
+def _step(blocks: Blocks, before: Field, numbers: Numbers, momentum: float) -> None:
     """Do one step in place; `before` becomes the field as it was."""
     in_threads(
         kernels.step, blocks.phi, before, blocks.faces, blocks.next_faces, blocks.flat, blocks.next_flat,
@@ -304,22 +279,14 @@ def _step(blocks: _Blocks, before: Field, numbers: Numbers, momentum: float) -> 
 
 def _unit(smoothing: Smoothing) -> float:
     """Return the distance that +-1 stands for, cells."""
-    return SCALE * smoothing.interface / STEEPNESS
-
-
-def _distance(values: Field, threads: int) -> Field:
-    """Return the distance for phi in blocks."""
-    out = np.empty_like(values)
-    blocks, straight = values.reshape(-1, CELLS), out.reshape(-1, CELLS)
-    in_threads(transfer_kernels.straighten, blocks, np.float32(STEEPEST), np.float32(SCALE), straight, threads=threads)
-    return out
+    return REFINED.scale * smoothing.interface / STEEPNESS
 
 
 def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: int) -> None:
     """Do in place what `gate` does, with averages from coarse cells; `phase` is the milder field."""
     size = limits.size
     sums = np.empty((len(low.values), kernels.SUMS, *(count // size for count in BLOCK)), dtype=np.float32)
-    below, above = low.values.reshape(-1, CELLS), _distance(phase, threads).reshape(-1, CELLS)
+    below, above = low.values.reshape(-1, CELLS), REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
     in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
     blurred = np.empty_like(sums)
     in_threads(kernels.blur, sums, low.slots, low.where, blurred, threads=threads)
@@ -382,6 +349,8 @@ def refine_reference(
     """Return the refined distance in float64, +-1 far away: the specification of `refine_blocks`."""
     fields = [np.clip(each, -1, 1) for each in filtered_reference(f, smoothing, spacing=spacing)]
     unit = _unit(smoothing)
-    mild, middle, strong = (np.arctanh(np.clip(each, -STEEPEST, STEEPEST)) * (unit / SCALE) for each in fields)
+    mild, middle, strong = (
+        np.arctanh(np.clip(each, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale) for each in fields
+    )
     blended = gate(strong, middle, 1 - fields[1] ** 2, OUTER)
     return gate(blended, mild, 1 - fields[0] ** 2, INNER) / unit

@@ -1,4 +1,4 @@
-"""The scheme of `infill.allen_cahn` in place, in float32, without a compiler.
+"""The scheme of `infill.phasefield.allen_cahn` in place, in float32, without a compiler.
 
 The same three sub-steps, rearranged so that a step is ten passes over a block of cells that stays
 in the cache. With E = decay, p = pull, w the weight of the first axis and u = c phi:
@@ -21,9 +21,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.allen_cahn import Smoothing
 from infill.grid import spacing_of
 from infill.machine import usable_cores
+from infill.phasefield.allen_cahn import Smoothing
 
 Flat = NDArray[np.float32]
 

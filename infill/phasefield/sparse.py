@@ -1,6 +1,6 @@
 """The compiled scheme on blocks around the surface only; everywhere else nothing moves.
 
-Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.compiled`). So a
+Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.phasefield.dense`). So a
 block in which that holds need not be kept, and a step touches a block only once a neighbour's face has another
 value. The result is that of the dense kernel to the last bit, and cost and memory grow with the surface.
 
@@ -18,13 +18,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.allen_cahn import Smoothing
-from infill.compiled import Data, Field, Numbers, numbers_of, on_three_axes
 from infill.kernels import sparse as kernels
 from infill.kernels import transfer as transfer_kernels
 from infill.kernels.compiling import told_of_compiling
 from infill.kernels.sparse import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
 from infill.kernels.threads import in_threads, thread_count
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
 
 ROOM, MORE = 3.0, 1.5  # blocks to make room for over those there are, at first and when it is used up
 
@@ -68,7 +68,7 @@ def smooth_sparse(
     initial: NDArray[np.generic] | None = None,
     mask: NDArray[np.bool_] | None = None,
 ) -> Field:
-    """Return what `infill.compiled.smooth_dense` returns, to the last bit, for up to three axes.
+    """Return what `infill.phasefield.dense.smooth_dense` returns, to the last bit, for up to three axes.
 
     Grey data are all surface: there it does what the dense kernel does, with more overhead.
     """
@@ -101,13 +101,13 @@ def smooth_blocks(
     """
     threads = thread_count(threads)
     numbers = numbers_of(smoothing, spacing, f.ndim)
-    data, state = _states_of(on_three_axes(f), threads)
+    data, state = states_of(on_three_axes(f), threads)
     start = data
     if initial is not None:
         start = on_three_axes(initial).astype(np.float32)
-        state = np.where(state == _states_of(start, threads)[1], state, MIXED)
+        state = np.where(state == states_of(start, threads)[1], state, MIXED)
     domain = None if mask is None else on_three_axes(mask)
-    blocks = _Blocks.around(state, data, threads)
+    blocks = Blocks.around(state, data, threads)
     blocks.gather(start, data)
     for n in range(smoothing.steps):
         if progress is not None:
@@ -121,7 +121,7 @@ def smooth_blocks(
     )  # fmt: skip
 
 
-def _states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
+def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
     """Return the field as the kernels take it, and the state of every block: +1, -1, `MIXED` or `OUTER`."""
     if field.dtype == bool:
         data: Data = field.view(np.int8)
@@ -137,13 +137,13 @@ def _states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[
     if data.dtype == np.int8:
         in_threads(transfer_kernels.fill_states, data, state, zeros, threads=threads)
         if zeros.any() and field.dtype != bool:  # a whole number between void and solid: that is grey
-            return _states_of(data.astype(np.float32), threads)
+            return states_of(data.astype(np.float32), threads)
     else:
         in_threads(transfer_kernels.fill_grey_states, data, state, threads=threads)
     return data, state
 
 
-class _Blocks:
+class Blocks:
     """The blocks at work: their cells, their data, and copies of their faces before and after a step."""
 
     def __init__(self, slots: NDArray[np.int32], where: NDArray[np.int32], data: Data, threads: int) -> None:
@@ -161,7 +161,7 @@ class _Blocks:
         kernels.find_neighbours(self.slots, self.where, self.beside, 0, self.count)
 
     @classmethod
-    def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> _Blocks:
+    def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> Blocks:
         """Return room for the blocks that are mixed, or beside one of the other phase."""
         kept = state == MIXED
         for axis in range(3):

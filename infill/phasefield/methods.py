@@ -8,9 +8,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.allen_cahn import Smoothing, phase_field, smooth_reference
 from infill.errors import ParameterError
-from infill.inplace import smooth_inplace
+from infill.phasefield.allen_cahn import Smoothing, phase_field, smooth_reference
+from infill.phasefield.inplace import smooth_inplace
 
 Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
 Kernel = Callable[..., NDArray[np.floating]]
@@ -20,13 +20,13 @@ WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, as 
 
 
 def _dense(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
-    from infill.compiled import smooth_dense
+    from infill.phasefield.dense import smooth_dense
 
     return smooth_dense(*args, **options)
 
 
 def _sparse(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
-    from infill.sparse import smooth_sparse
+    from infill.phasefield.sparse import smooth_sparse
 
     return smooth_sparse(*args, **options)
 

@@ -1,4 +1,4 @@
-"""The scheme of `infill.allen_cahn` compiled: one fused pass a step, in float32.
+"""The scheme of `infill.phasefield.allen_cahn` compiled: one fused pass a step, in float32.
 
 Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixed point to the last bit:
 
@@ -6,7 +6,7 @@ Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixe
     v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `parts_of_one`
     phi = v + p / (1 + p) (f - v)               adds zero where v = f
 
-So a kernel may leave such cells out (`infill.sparse`) and give the same bits as one that does not. Importing
+So a kernel may leave such cells out (`infill.phasefield.sparse`) and give the same bits as one that does not. Importing
 this module loads numba; each function is compiled when it is first called and then kept on disk.
 """
 
@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.allen_cahn import Smoothing
 from infill.grid import spacing_of
 from infill.kernels.dense import sweep
+from infill.phasefield.allen_cahn import Smoothing
 
 Field = NDArray[np.float32]
 Data = NDArray[np.float32] | NDArray[np.int8]
