@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from benchmarks.pairs import row
 from infill import Smoothing
-from infill.levels import at_volume, counted
 from infill.phasefield.sparse import smooth_blocks
-from infill.sparse_surface import extract_blocks
+from infill.surfaces.levels import at_volume, counted
+from infill.surfaces.sparse_marching import extract_blocks
 
 SMOOTHING = Smoothing(steps=10)
 UNIT = (1.0, 1.0, 1.0)

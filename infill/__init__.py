@@ -33,9 +33,10 @@ if TYPE_CHECKING:
     from infill.reading import read_mesh
     from infill.scans import read_volume
     from infill.smoother import smooth_mesh, smooth_points, smooth_volume
-    from infill.stacking import extrude, stack
     from infill.stamping import stamp, stamp_lines
-    from infill.surface import Surface, isosurface
+    from infill.surface import Surface
+    from infill.surfaces.marching import isosurface
+    from infill.surfaces.stacking import extrude, stack
     from infill.volume import Volume
     from infill.width import wall_width
 
@@ -50,10 +51,11 @@ _HOMES = {
     "reading": ("read_mesh",),
     "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
-    "stacking": ("extrude", "stack"),
+    "surfaces.stacking": ("extrude", "stack"),
     "stamping": ("stamp", "stamp_lines"),
     "scans": ("read_volume",),
-    "surface": ("Surface", "isosurface"),
+    "surface": ("Surface",),
+    "surfaces.marching": ("isosurface",),
     "volume": ("Volume",),
     "width": ("wall_width",),
 }

@@ -12,9 +12,10 @@ from typing import IO, TYPE_CHECKING, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError, GeometryError
+from infill.errors import FormatError
 from infill.output import whole_file
 from infill.surface import Surface
+from infill.surfaces.merging import surface_of
 from infill.version import __version__
 
 if TYPE_CHECKING:
@@ -83,18 +84,6 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
     with whole_file(target) as file:
         write(surface, file)
     return target
-
-
-def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
-    """Return the mesh as plain arrays, or raise GeometryError if there is nothing to write or read."""
-    if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
-        raise GeometryError(f"a {type(mesh).__name__} is no mesh; give a trimesh.Trimesh or a Surface")
-    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
-    if len(faces) == 0 or not np.isfinite(vertices).all():
-        raise GeometryError("the mesh has no faces, or corners that are not finite numbers; make it again")
-    if faces.min() < 0 or faces.max() >= len(vertices):
-        raise GeometryError("the mesh has faces with corners that do not exist; make it again")
-    return mesh if isinstance(mesh, Surface) else Surface(vertices=vertices, faces=faces)
 
 
 def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002

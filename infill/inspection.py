@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.export import surface_of
 from infill.intersections import self_intersections
-from infill.reading import closed_or_merged, merged, read_mesh
+from infill.reading import read_mesh
 from infill.surface import Surface
+from infill.surfaces.merging import closed_or_merged, merged, surface_of
 
 if TYPE_CHECKING:
     import trimesh

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.distance import distances
 from infill.machine import require_memory
 from infill.phasefield.sparse import SparseField
 from infill.pipeline import Result
-from infill.sparse_surface import extract_blocks
 from infill.surface import Surface
+from infill.surfaces.distance import distances
+from infill.surfaces.sparse_marching import extract_blocks
 from infill.volume import Volume
 
 COMPARED = 5_000  # vertices of which the distance is measured

@@ -15,7 +15,7 @@ from infill.errors import ParameterError
 from infill.grid import Grid
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
-from infill.stacking import layer_count
+from infill.surfaces.stacking import layer_count
 from patterns import PATTERNS, Pattern, PatternError, lacking
 
 if TYPE_CHECKING:

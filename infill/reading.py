@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.export import STL_RECORD
 from infill.surface import Surface
+from infill.surfaces.merging import closed_or_merged
 
 STL_HEAD = 84
 NUMBER = rb"\s+([^\s]+)"
@@ -75,23 +76,6 @@ def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -
     if not source.is_file():
         raise FormatError(f"there is no file {source}; check the name")
     return source
-
-
-def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh as it stands if it is closed, else with equal vertices merged; unused ones are left out."""
-    used, index = np.unique(faces, return_inverse=True)
-    surface = Surface(vertices=np.asarray(vertices, dtype=np.float64)[used], faces=index.reshape(faces.shape))
-    return surface if surface.closed else merged(surface.vertices, surface.faces)
-
-
-def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh with vertices merged where they are equal."""
-    points = vertices + 0.0  # no -0, which is equal to 0 but has other bits
-    order = np.lexsort(points.T)
-    differs = np.concatenate([[True], (points[order][1:] != points[order][:-1]).any(axis=1)])
-    number = np.empty(len(points), dtype=np.intp)
-    number[order] = np.cumsum(differs) - 1
-    return Surface(vertices=points[order[differs]].astype(np.float64), faces=number[faces])
 
 
 def _read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:

@@ -14,11 +14,8 @@ from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.capping import capped
 from infill.checks import within
-from infill.distance import distances
 from infill.errors import GeometryError, ParameterError
-from infill.export import surface_of
 from infill.grid import spacing_of
 from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
@@ -27,11 +24,13 @@ from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED
 from infill.pipeline import Clock, Progress, Result
 from infill.points import voxelise_points
-from infill.reading import closed_or_merged
 from infill.segmentation import grey as grey_levels
 from infill.segmentation import threshold as segment
-from infill.simplification import simplified
 from infill.surface import Surface
+from infill.surfaces.capping import capped
+from infill.surfaces.distance import distances
+from infill.surfaces.merging import closed_or_merged, surface_of
+from infill.surfaces.simplification import simplified
 from infill.verdict import verdict
 from infill.version import __version__
 from infill.volume import Volume
@@ -40,8 +39,8 @@ from infill.voxels import Repairs, voxelise_reported
 if TYPE_CHECKING:
     import trimesh
 
-    from infill.bodies import Bodies
     from infill.phasefield.sparse import SparseField
+    from infill.surfaces.components import Bodies
 
 LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
@@ -129,7 +128,7 @@ def smooth_volume(
 
     Notes
     -----
-    Source: Wang et al. 2020, sections 2.2 and 3.3. The level is this package's own: see `infill.levels`.
+    Source: Wang et al. 2020, sections 2.2 and 3.3. The level is this package's own: see `infill.surfaces.levels`.
 
     >>> ball = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 100
     >>> result = smooth_volume(ball)
@@ -227,10 +226,10 @@ def _smoothed(
     progress: Progress | None = None,
 ) -> Result:
     """Do what the three functions have in common."""
-    from infill.bodies import bodies, data_bits, shell_names
-    from infill.levels import as_straightened, at_level, at_volume, counted
     from infill.phasefield.refining import refine_blocks
     from infill.phasefield.sparse import smooth_blocks
+    from infill.surfaces.components import bodies, data_bits, shell_names
+    from infill.surfaces.levels import as_straightened, at_level, at_volume, counted
 
     if isinstance(level, str) and level != "volume":
         raise ParameterError(f"there is no level {level!r}; give volume, or a number between -1 and 1")
@@ -348,8 +347,8 @@ def _require(data: Volume, limit: int | None, each: int) -> None:
 
 def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
     """Return the data without bodies up to a volume, mm³, and how many those were."""
-    from infill.bodies import bodies, data_bits, without
     from infill.phasefield.sparse import smooth_blocks
+    from infill.surfaces.components import bodies, data_bits, without
 
     field = smooth_blocks(data.values, Smoothing(steps=0), threads=threads)
     every = bodies(field, data_bits(field, threads=threads))
@@ -366,7 +365,7 @@ def _grey_volumes(
     field: SparseField, data: Bodies, size: tuple[float, ...], threads: int | None
 ) -> NDArray[np.float64]:
     """Return the volume of each body of grey data as its surface at level 0 encloses it, mm³."""
-    from infill.levels import volumes_of
+    from infill.surfaces.levels import volumes_of
 
     volume = volumes_of(replace(field, values=as_float(field)), data, spacing=size, threads=threads)
     return np.where(volume > 0, volume, data.cells * math.prod(size))

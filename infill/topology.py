@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.grid import VOID
-from infill.surface import TIE
+from infill.surfaces.marching import TIE
 
 PINHOLE = 3  # cells: a void with no room for a square of so many is one that every cell of touches a wall
 

@@ -11,12 +11,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.bodies import Bodies, bodies, cells_of, cores, data_bits, fate, grown, opened, solid_bits, with_thickness
 from infill.kernels.threads import thread_count
-from infill.levels import Levelled
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
-from infill.sparse_surface import euler_number_of_bits
+from infill.surfaces.components import (
+    Bodies,
+    bodies,
+    cells_of,
+    cores,
+    data_bits,
+    fate,
+    grown,
+    opened,
+    solid_bits,
+    with_thickness,
+)
+from infill.surfaces.levels import Levelled
+from infill.surfaces.sparse_marching import euler_number_of_bits
 from infill.thickness import thinnest_walls
 
 WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go

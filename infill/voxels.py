@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from infill.capping import bodies, capped, inside_out
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
 from infill.machine import require_memory
-from infill.reading import closed_or_merged
+from infill.nesting import inside_out
 from infill.scanlines import SLAB, crossings, filled
 from infill.surface import Surface
+from infill.surfaces.capping import bodies, capped
+from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
 
 RESOLUTION = 200  # cells along the longest side if nothing is said

@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from infill import Smoothing
-from infill.bodies import bodies, cores, data_bits, fate, opened, shells, solid_bits, without
-from infill.levels import at_level, at_volume, straightened
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import smooth_blocks
-from infill.sparse_surface import extract_level
+from infill.surfaces.components import bodies, cores, data_bits, fate, opened, shells, solid_bits, without
+from infill.surfaces.levels import at_level, at_volume, straightened
+from infill.surfaces.sparse_marching import extract_level
 from infill.verdict import verdict
 
 UNIT = (1.0, 1.0, 1.0)

@@ -9,8 +9,6 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from infill import ParameterError, Smoothing, smooth_volume
-from infill.bodies import bodies, data_bits
-from infill.levels import at_volume, straightened
 from infill.outcome import field_volume
 from infill.phasefield.allen_cahn import STEEPNESS
 from infill.phasefield.profile import REFINED
@@ -24,6 +22,8 @@ from infill.phasefield.refining import (
 )
 from infill.phasefield.sparse import SparseField, smooth_blocks
 from infill.surface import Surface
+from infill.surfaces.components import bodies, data_bits
+from infill.surfaces.levels import at_volume, straightened
 
 TWENTY = Smoothing(steps=20)
 CELLS = REFINED.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for

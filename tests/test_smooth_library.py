@@ -678,7 +678,7 @@ def test_the_report_has_what_it_promises() -> None:
 
 def test_distances_are_those_of_the_nearest_triangle() -> None:
     """Needles, tiny triangles and large ones side by side, as CAD makes them; against every triangle in turn."""
-    from infill.distance import _squared, distances
+    from infill.surfaces.distance import _squared, distances
 
     rng = np.random.default_rng(5)
     fan = np.column_stack([np.linspace(0, 100, 300), np.zeros(300), np.zeros(300)])

@@ -9,11 +9,13 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from infill import GeometryError, Smoothing
-from infill.bodies import data_bits
 from infill.kernels.sparse_marching import UNDECIDED
-from infill.levels import volume_of
 from infill.phasefield.sparse import SparseField, smooth_blocks
-from infill.sparse_surface import (
+from infill.surface import Surface
+from infill.surfaces.components import data_bits
+from infill.surfaces.levels import volume_of
+from infill.surfaces.marching import extract
+from infill.surfaces.sparse_marching import (
     cube_table,
     euler_number_of_bits,
     extract_blocks,
@@ -21,7 +23,6 @@ from infill.sparse_surface import (
     measured,
     raw_counts,
 )
-from infill.surface import Surface, extract
 
 UNIT = (1.0, 1.0, 1.0)
 NOTHING = (0.0, 0.0, 0.0)
@@ -158,7 +159,7 @@ def test_a_surface_is_measured_as_it_is_made(monkeypatch: pytest.MonkeyPatch) ->
     x = np.indices((30, 30, 40)) - np.array([14.2, 15.1, 19.7])[:, None, None, None]
     field = smooth_blocks((x**2).sum(axis=0) < 121, Smoothing(steps=8), spacing=(0.5, 0.5, 0.4))
     assert measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02) is None
-    monkeypatch.setattr("infill.sparse_surface.LARGE", 0)
+    monkeypatch.setattr("infill.surfaces.sparse_marching.LARGE", 0)
     volume, slope = measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02, threads=2)
     made = extract_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02)
     assert volume == pytest.approx(made.surface.volume, rel=1e-9)

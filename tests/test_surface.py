@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from shapes import assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Smoothing, Surface, extrude, isosurface, smooth, stack
-from infill.stacking import layer_count
+from infill.surfaces.stacking import layer_count
 from infill.topology import topology
 
 

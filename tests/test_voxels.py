@@ -12,10 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, read_mesh
-from infill.capping import agreeing, capped, loops, open_edges
 from infill.flooding import enclosed
-from infill.reading import merged
 from infill.scanlines import crossings, filled
+from infill.surfaces.capping import agreeing, capped, loops, open_edges
+from infill.surfaces.merging import merged
 from infill.volume import Volume
 from infill.voxels import voxelise, voxelise_reported
 

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, uniform_filter
 
-from infill.surface import Surface, extract
+from infill.surface import Surface
+from infill.surfaces.marching import extract
 
 Field = NDArray[np.floating]
 

@@ -17,7 +17,7 @@ from examples.paper.entry import NOT_GIVEN, Entry, Row, run
 from examples.paper.measures import mse
 from examples.paper.timing import CHOI, CHOI_PLAIN, DENSE, PLAIN, ROUNDS, SPARSE, STEPS, in_turn, methods, swing
 from infill.kernels.threads import thread_count
-from infill.surface import extract
+from infill.surfaces.marching import extract
 
 NOISE = 0.2
 

@@ -1,4 +1,4 @@
-"""What `infill.bodies` does to rows of bits and to triangles, compiled."""
+"""What `infill.surfaces.components` does to rows of bits and to triangles, compiled."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.

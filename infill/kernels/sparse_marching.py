@@ -1,4 +1,4 @@
-"""What `infill.sparse_surface` does to blocks, compiled."""
+"""What `infill.surfaces.sparse_marching` does to blocks, compiled."""
 # mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from infill.checks import positive, whole
-from infill.distance import distances
 from infill.errors import GeometryError
 from infill.surface import Surface
+from infill.surfaces.distance import distances
 
 FEWEST = 4
 HALVINGS = 8

@@ -15,15 +15,15 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.bodies import Bodies, Shells, bodies, data_bits, face_sums, shells
 from infill.errors import GeometryError
 from infill.kernels import components as bodies_kernels
 from infill.kernels.sparse import BLOCK, CELLS
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.profile import REFINED, STRAIGHT
 from infill.phasefield.sparse import SparseField
-from infill.sparse_surface import Level, extract_level, measured
 from infill.surface import Surface
+from infill.surfaces.components import Bodies, Shells, bodies, data_bits, face_sums, shells
+from infill.surfaces.sparse_marching import Level, extract_level, measured
 
 LIMIT = 0.98  # levels lie between minus and plus this
 TOLERANCE = 5e-5  # of the volume

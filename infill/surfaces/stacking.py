@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
 from infill.grid import VOID, spacing_of
-from infill.surface import Surface, extract
+from infill.surface import Surface
+from infill.surfaces.marching import extract
 
 if TYPE_CHECKING:
     import trimesh

@@ -17,8 +17,8 @@ from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
 from infill.kernels.sparse_marching import ROWS, volumes
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
-from infill.sparse_surface import rows_above
 from infill.surface import Surface
+from infill.surfaces.sparse_marching import rows_above
 
 LARGE = 100  # cells: two such bodies that run together are told
 SMALLEST_PART = 8  # cells: what comes off a body and is smaller is a crumb, no part of it

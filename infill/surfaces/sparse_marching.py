@@ -20,7 +20,8 @@ from infill.kernels import sparse_marching as kernels
 from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
-from infill.surface import CLEARANCE, TIE, Surface
+from infill.surface import Surface
+from infill.surfaces.marching import CLEARANCE, TIE
 
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
 EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]

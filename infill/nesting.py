@@ -1,0 +1,58 @@
+"""Which bodies of a mesh lie in which, and which of them are inside out."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.scanlines import Crossings
+
+SAMPLES = 9  # crossings of a body that are looked at to learn what it lies in
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.integer]
+
+
+def inside_out(found: Crossings, body: Integers, volumes: Floats) -> NDArray[np.bool_]:
+    """Return which bodies are to be turned: those that face inwards and lie in no other, with all that lies in them.
+
+    Parameters
+    ----------
+    found : Crossings
+    body : (F,) int
+        Body of every face.
+    volumes : (B,) float64
+        Signed volume of each.
+
+    Returns
+    -------
+    (B,) bool
+
+    Notes
+    -----
+    A body lies in another if the rows go around it there at every one of some crossings looked at. What
+    faces against the body it lies in is its cavity, and turns with it.
+    """
+    turned = np.zeros(len(volumes), dtype=bool)
+    if (volumes >= 0).all() or (volumes <= 0).all():
+        return turned
+    owner = body[found.face]
+    order = np.argsort(owner, kind="stable")
+    bounds = np.searchsorted(owner, np.arange(len(volumes) + 1), sorter=order)
+    for number in np.flatnonzero(volumes):
+        own = order[bounds[number] : bounds[number + 1]]
+        if len(own) == 0:
+            continue
+        around: set[int] | None = None
+        for i in own[np.linspace(0, len(own) - 1, SAMPLES).astype(np.int64)]:
+            begin, end = np.searchsorted(found.row, [found.row[i], found.row[i] + 1])
+            owners, signs, places = owner[begin:end], found.sign[begin:end], found.place[begin:end]
+            holding: set[int] = set()
+            for before in (places < found.place[i], places <= found.place[i]):
+                winding = np.bincount(owners[before], weights=signs[before])
+                holding.update(np.flatnonzero(winding).tolist())
+            around = holding if around is None else around & holding
+        larger = [each for each in around or () if abs(volumes[each]) > abs(volumes[number])]
+        outermost = max(larger, key=lambda each: abs(volumes[each]), default=number)
+        turned[number] = volumes[outermost] < 0
+    return turned

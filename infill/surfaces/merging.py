@@ -1,0 +1,43 @@
+"""A mesh as plain arrays, its vertices merged where that is needed to close it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.surface import Surface
+
+if TYPE_CHECKING:
+    import trimesh
+
+
+def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
+    """Return the mesh as plain arrays, or raise GeometryError if there is nothing to write or read."""
+    if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
+        raise GeometryError(f"a {type(mesh).__name__} is no mesh; give a trimesh.Trimesh or a Surface")
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    if len(faces) == 0 or not np.isfinite(vertices).all():
+        raise GeometryError("the mesh has no faces, or corners that are not finite numbers; make it again")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise GeometryError("the mesh has faces with corners that do not exist; make it again")
+    return mesh if isinstance(mesh, Surface) else Surface(vertices=vertices, faces=faces)
+
+
+def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+    """Return the mesh as it stands if it is closed, else with equal vertices merged; unused ones are left out."""
+    used, index = np.unique(faces, return_inverse=True)
+    surface = Surface(vertices=np.asarray(vertices, dtype=np.float64)[used], faces=index.reshape(faces.shape))
+    return surface if surface.closed else merged(surface.vertices, surface.faces)
+
+
+def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
+    """Return the mesh with vertices merged where they are equal."""
+    points = vertices + 0.0  # no -0, which is equal to 0 but has other bits
+    order = np.lexsort(points.T)
+    differs = np.concatenate([[True], (points[order][1:] != points[order][:-1]).any(axis=1)])
+    number = np.empty(len(points), dtype=np.intp)
+    number[order] = np.cumsum(differs) - 1
+    return Surface(vertices=points[order[differs]].astype(np.float64), faces=number[faces])
