@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from infill.reading import read_mesh
     from infill.scans import read_volume
     from infill.smoother import smooth_mesh, smooth_points, smooth_volume
-    from infill.stamping import stamp, stamp_lines
     from infill.surface import Surface
     from infill.surfaces.marching import isosurface
     from infill.surfaces.stacking import extrude, stack
     from infill.volume import Volume
+    from infill.voxels.stamping import stamp, stamp_lines
     from infill.width import wall_width
 
 _HOMES = {
@@ -52,7 +52,7 @@ _HOMES = {
     "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
     "surfaces.stacking": ("extrude", "stack"),
-    "stamping": ("stamp", "stamp_lines"),
+    "voxels.stamping": ("stamp", "stamp_lines"),
     "scans": ("read_volume",),
     "surface": ("Surface",),
     "surfaces.marching": ("isosurface",),

@@ -23,9 +23,6 @@ from infill.outcome import as_float, moved, placed, some, summary
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED
 from infill.pipeline import Clock, Progress, Result
-from infill.points import voxelise_points
-from infill.segmentation import grey as grey_levels
-from infill.segmentation import threshold as segment
 from infill.surface import Surface
 from infill.surfaces.capping import capped
 from infill.surfaces.distance import distances
@@ -34,7 +31,10 @@ from infill.surfaces.simplification import simplified
 from infill.verdict import verdict
 from infill.version import __version__
 from infill.volume import Volume
-from infill.voxels import Repairs, voxelise_reported
+from infill.voxels.from_mesh import Repairs, voxelise_reported
+from infill.voxels.from_points import voxelise_points
+from infill.voxels.segmentation import grey as grey_levels
+from infill.voxels.segmentation import threshold as segment
 
 if TYPE_CHECKING:
     import trimesh

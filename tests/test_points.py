@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import GeometryError, MemoryLimitError, ParameterError, read_mesh
-from infill.flooding import enclosed
-from infill.points import balls, voxelise_points
 from infill.volume import Volume
+from infill.voxels.flooding import enclosed
+from infill.voxels.from_points import balls, voxelise_points
 
 RADIUS = 20.0
 BALL = 4 / 3 * math.pi * RADIUS**3

@@ -15,8 +15,8 @@ from skimage.filters import threshold_otsu
 
 from infill.errors import ParameterError
 from infill.scans import read_volume
-from infill.segmentation import contrast, edge_window, grey, otsu_threshold, threshold
 from infill.volume import Volume
+from infill.voxels.segmentation import contrast, edge_window, grey, otsu_threshold, threshold
 
 
 def volume(values: Any, dtype: Any = None) -> Volume:
@@ -203,7 +203,7 @@ def test_otsu_agrees_with_scikit_image(order: Any, rng: np.random.Generator) -> 
 def test_large_volumes_are_looked_at_in_parts(rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch) -> None:
     values = rng.integers(-500, 500, (9, 10, 11)).astype(np.int16)
     whole = otsu_threshold(volume(values)), contrast(volume(values), 20), contrast(volume(values.T), 20)
-    monkeypatch.setattr("infill.segmentation.SLAB", 25)
+    monkeypatch.setattr("infill.voxels.segmentation.SLAB", 25)
     assert (otsu_threshold(volume(values)), contrast(volume(values), 20)) == whole[:2]
     assert whole[2] == pytest.approx(whole[1], rel=1e-12)
 

@@ -12,12 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, read_mesh
-from infill.flooding import enclosed
-from infill.scanlines import crossings, filled
 from infill.surfaces.capping import agreeing, capped, loops, open_edges
 from infill.surfaces.merging import merged
 from infill.volume import Volume
-from infill.voxels import voxelise, voxelise_reported
+from infill.voxels.flooding import enclosed
+from infill.voxels.from_mesh import voxelise, voxelise_reported
+from infill.voxels.scanlines import crossings, filled
 
 BALL = trimesh.creation.icosphere(subdivisions=3, radius=10.0)
 SHIFT = (0.123, 0.234, 0.345)  # keeps faces off the cell centres

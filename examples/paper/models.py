@@ -13,7 +13,7 @@ from PIL import Image
 
 from examples.paper.shapes import Field, binary, embedded
 from infill import Surface, read_mesh
-from infill.voxels import voxelise
+from infill.voxels.from_mesh import voxelise
 
 FILES = {
     "bunny": "models/bunny_75k.off",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.scanlines import Crossings
+from infill.voxels.scanlines import Crossings
 
 SAMPLES = 9  # crossings of a body that are looked at to learn what it lies in
 

@@ -10,12 +10,12 @@ import numpy as np
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
 from infill.machine import require_memory
-from infill.nesting import inside_out
-from infill.scanlines import SLAB, crossings, filled
 from infill.surface import Surface
 from infill.surfaces.capping import bodies, capped
 from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
+from infill.voxels.nesting import inside_out
+from infill.voxels.scanlines import SLAB, crossings, filled
 
 RESOLUTION = 200  # cells along the longest side if nothing is said
 FEWEST = 2  # voxels along the longest side

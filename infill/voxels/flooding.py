@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.ragged import spread
-from infill.scanlines import SLAB, Crossings, filled
+from infill.voxels.scanlines import SLAB, Crossings, filled
 
 LINKS = 2**20  # pairs of runs worked on at a time
 

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
-from infill.flooding import enclosed
 from infill.machine import require_memory, usable_cores
 from infill.ragged import spread
 from infill.volume import Volume
+from infill.voxels.flooding import enclosed
 
 if TYPE_CHECKING:
     from scipy.spatial import KDTree
