@@ -25,7 +25,8 @@ if TYPE_CHECKING:
     )
     from infill.export import save
     from infill.grid import Grid
-    from infill.inspection import check
+    from infill.inspection.printability import check
+    from infill.inspection.width import wall_width
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
     from infill.pipeline import Result, make
@@ -38,14 +39,13 @@ if TYPE_CHECKING:
     from infill.surfaces.stacking import extrude, stack
     from infill.volume import Volume
     from infill.voxels.stamping import stamp, stamp_lines
-    from infill.width import wall_width
 
 _HOMES = {
     "phasefield.allen_cahn": ("Smoothing", "rescale"),
     "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
     "export": ("save",),
     "grid": ("Grid",),
-    "inspection": ("check",),
+    "inspection.printability": ("check",),
     "pipeline": ("Result", "make"),
     "point_files": ("read_points",),
     "reading": ("read_mesh",),
@@ -57,7 +57,7 @@ _HOMES = {
     "surface": ("Surface",),
     "surfaces.marching": ("isosurface",),
     "volume": ("Volume",),
-    "width": ("wall_width",),
+    "inspection.width": ("wall_width",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from infill.checks import within
 from infill.errors import GeometryError, ParameterError
 from infill.grid import spacing_of
+from infill.inspection.changes import verdict
 from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
 from infill.outcome import as_float, moved, placed, some, summary
@@ -28,7 +29,6 @@ from infill.surfaces.capping import capped
 from infill.surfaces.distance import distances
 from infill.surfaces.merging import closed_or_merged, surface_of
 from infill.surfaces.simplification import simplified
-from infill.verdict import verdict
 from infill.version import __version__
 from infill.volume import Volume
 from infill.voxels.from_mesh import Repairs, voxelise_reported

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from infill import Smoothing
+from infill.inspection.changes import verdict
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import smooth_blocks
 from infill.surfaces.components import bodies, cores, data_bits, fate, opened, shells, solid_bits, without
 from infill.surfaces.levels import at_level, at_volume, straightened
 from infill.surfaces.sparse_marching import extract_level
-from infill.verdict import verdict
 
 UNIT = (1.0, 1.0, 1.0)
 EDGES = ndimage.generate_binary_structure(3, 2)

@@ -13,8 +13,8 @@ from scipy import ndimage
 from shapes import BUILT_IN, SIZES, assert_printable
 
 from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, extrude, make
+from infill.inspection.layers import regions, topology
 from infill.plan import plan
-from infill.topology import regions, topology
 from patterns import ConcentricHeart, Honeycomb, Pattern, PatternError
 
 STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}

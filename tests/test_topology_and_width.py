@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from shapes import smooth_noise
 
 from infill import Grid, ParameterError, Smoothing, extrude, smooth, stamp_lines, wall_width
-from infill.topology import Changes, Topology, changes, regions, solid_area, topology
+from infill.inspection.layers import Changes, Topology, changes, regions, solid_area, topology
 from patterns import Honeycomb
 
 NONE = Changes(broken=0, vanished=0, appeared=0, fused=0, closed=0, pinholes=0, pinhole_share=0.0)

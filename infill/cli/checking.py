@@ -17,7 +17,7 @@ def check(
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
     """Say whether a mesh is printable, and if not, why; exit 1 when it is not."""
-    from infill.inspection import check as inspect
+    from infill.inspection.printability import check as inspect
 
     found = inspect(mesh)
     if as_json:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.inspection.thickness import thinnest_walls
 from infill.kernels.threads import thread_count
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
@@ -28,7 +29,6 @@ from infill.surfaces.components import (
 )
 from infill.surfaces.levels import Levelled
 from infill.surfaces.sparse_marching import euler_number_of_bits
-from infill.thickness import thinnest_walls
 
 WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
 NAMED = 5  # of the lost walls are told of

@@ -1,0 +1,1 @@
+"""What hangs together, how wide, how thick, what smoothing changed, is it printable."""
