@@ -23,16 +23,15 @@ if TYPE_CHECKING:
         OutputError,
         ParameterError,
     )
-    from infill.export import save
+    from infill.formats.mesh_files import read_mesh, save
+    from infill.formats.point_files import read_points
+    from infill.formats.volume_files import read_volume
     from infill.grid import Grid
     from infill.inspection.printability import check
     from infill.inspection.width import wall_width
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
     from infill.pipeline import Result, make
-    from infill.point_files import read_points
-    from infill.reading import read_mesh
-    from infill.scans import read_volume
     from infill.smoother import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
     from infill.surfaces.marching import isosurface
@@ -43,17 +42,16 @@ if TYPE_CHECKING:
 _HOMES = {
     "phasefield.allen_cahn": ("Smoothing", "rescale"),
     "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
-    "export": ("save",),
+    "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("check",),
     "pipeline": ("Result", "make"),
-    "point_files": ("read_points",),
-    "reading": ("read_mesh",),
+    "formats.point_files": ("read_points",),
     "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
     "surfaces.stacking": ("extrude", "stack"),
     "voxels.stamping": ("stamp", "stamp_lines"),
-    "scans": ("read_volume",),
+    "formats.volume_files": ("read_volume",),
     "surface": ("Surface",),
     "surfaces.marching": ("isosurface",),
     "volume": ("Volume",),

@@ -21,7 +21,7 @@ import numpy as np
 import shapely
 
 from infill.errors import GeometryError
-from infill.export import save
+from infill.formats.mesh_files import save
 from infill.inspection.layers import Changes, Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
 from infill.phasefield.allen_cahn import Smoothing

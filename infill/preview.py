@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
 from infill.errors import FormatError
+from infill.formats.whole_files import whole_file
 from infill.grid import VOID, Grid
-from infill.output import whole_file
 from infill.pipeline import Result
 from infill.render import render
 from infill.surface import Surface

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from infill.checks import whole
 from infill.errors import FormatError, GeometryError, ParameterError
+from infill.formats.mesh_files import READERS, read_mesh
+from infill.formats.point_files import read_points
+from infill.formats.volume_files import read_volume
 from infill.grid import spacing_of
-from infill.point_files import read_points
-from infill.reading import READERS, read_mesh
-from infill.scans import read_volume
 from infill.surface import Surface
 from infill.volume import Volume
 
@@ -59,7 +59,7 @@ def read_source(
     spacing : float or (hx, hy, hz), optional
         Cell size of a volume, mm; what the file says if left out.
     array, series : str, optional
-        See `infill.scans.read_volume`.
+        See `infill.formats.volume_files.read_volume`.
 
     Raises
     ------

@@ -15,9 +15,8 @@ import trimesh
 from shapes import assert_printable, smooth_noise
 
 from infill import FormatError, OutputError, Surface, isosurface, make, read_mesh, save
-from infill.export import WRITERS
-from infill.output import check_target, whole_file
-from infill.reading import READERS
+from infill.formats.mesh_files import READERS, WRITERS
+from infill.formats.whole_files import check_target, whole_file
 
 every_format = pytest.mark.parametrize("suffix", list(WRITERS))
 
@@ -166,7 +165,8 @@ def test_big_meshes_are_written_some_at_a_time(
     block: trimesh.Trimesh, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     whole = [save(block, tmp_path / f"whole{suffix}").read_bytes() for suffix in (".stl", ".obj")]
-    monkeypatch.setattr("infill.export.AT_ONCE", 17)
+    for module in ("rows", "stl"):
+        monkeypatch.setattr(f"infill.formats.{module}.AT_ONCE", 17)
     assert [save(block, tmp_path / f"parts{suffix}").read_bytes() for suffix in (".stl", ".obj")] == whole
 
 

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from infill.errors import FormatError
-from infill.point_files import READERS, read_points
+from infill.formats.point_files import READERS, read_points
 
 POINTS = np.array([[0.0, 1.5, -2.25], [3.0, 4.0, 5.125], [1e-3, -7e5, 0.1]])
 ROWS = [" ".join(repr(float(x)) for x in row) for row in POINTS]

@@ -19,8 +19,7 @@ import tifffile
 from PIL import Image
 
 from infill.errors import FormatError, MemoryLimitError, OutputError, ParameterError
-from infill.fields import FIELD_WRITERS, write_field
-from infill.scans import READERS, read_volume
+from infill.formats.volume_files import FIELD_WRITERS, READERS, read_volume, write_field
 from infill.volume import Volume
 
 SHAPE = (5, 6, 7)
@@ -611,7 +610,7 @@ def test_reading_arrays_loads_nothing_medical() -> None:
     import subprocess
 
     done = subprocess.run(
-        [sys.executable, "-c", "import infill.scans, infill.fields, json, sys; print(json.dumps(list(sys.modules)))"],
+        [sys.executable, "-c", "import infill.formats.volume_files, infill.formats.arrays, json, sys; print(json.dumps(list(sys.modules)))"],
         capture_output=True, encoding="utf-8", check=True,
     )  # fmt: skip
     assert not {"SimpleITK", "tifffile", "PIL", "skimage"} & set(json.loads(done.stdout))

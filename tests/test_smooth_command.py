@@ -19,7 +19,7 @@ from test_command_line import one_line_error, plain, run
 
 from infill import Volume, read_mesh, read_volume
 from infill.cli.console import log_said
-from infill.fields import write_field
+from infill.formats.volume_files import write_field
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 

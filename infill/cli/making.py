@@ -125,9 +125,8 @@ def make(
     own_options: dict[str, Any],
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
-    from infill.delivery import deliver
-    from infill.export import writer
-    from infill.output import check_targets
+    from infill.formats.mesh_files import writer
+    from infill.formats.whole_files import check_targets, deliver
     from infill.settings import parse_bytes, resolve
 
     common = {

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.mesh_files import read_mesh
 from infill.inspection.intersections import self_intersections
-from infill.reading import read_mesh
 from infill.surface import Surface
 from infill.surfaces.merging import closed_or_merged, merged, surface_of
 

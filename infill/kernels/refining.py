@@ -1,4 +1,6 @@
-"""What `infill.phasefield.refining` does to blocks, compiled. Loops run over whole blocks, so that they become vector code.
+"""What `infill.phasefield.refining` does to blocks, compiled.
+
+Loops run over whole blocks, so that they become vector code.
 
 The averages of a gate live on coarse cells of `size` cells along each axis, (n, 3, 8/size, 8/size, 16/size): the
 mean weight w, and those of w r and w r². Where no block is kept they are 0.

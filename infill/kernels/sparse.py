@@ -1,4 +1,6 @@
-"""What `infill.phasefield.sparse` does to blocks, compiled. Loops run over whole blocks, so that they become vector code.
+"""What `infill.phasefield.sparse` does to blocks, compiled.
+
+Loops run over whole blocks, so that they become vector code.
 
 A block is (8, 8, 16) cells, flat. Beside the cells a copy of the six faces is kept, before and after the step, so
 that a block can be stepped in place while its neighbours still read what it was.

@@ -1,7 +1,7 @@
 """The compiled scheme on blocks around the surface only; everywhere else nothing moves.
 
-Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.phasefield.dense`). So a
-block in which that holds need not be kept, and a step touches a block only once a neighbour's face has another
+Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.kernels.dense`). So
+a block in which that holds need not be kept, and a step touches a block only once a neighbour's face has another
 value. The result is that of the dense kernel to the last bit, and cost and memory grow with the surface.
 
 The blocks lie on a lattice that begins one cell before the grid and ends at least one cell behind it: there the

@@ -6,7 +6,7 @@ import contextlib
 import errno
 import os
 import secrets
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO
 
@@ -98,6 +98,24 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """Yield one file to write to, as `whole_files` does."""
     with whole_files([path]) as files, told(Path(path)):
         yield files[0]
+
+
+def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
+    """Write the files of one run, each by its function, and return their paths.
+
+    Raises
+    ------
+    OutputError
+        If one of the files cannot be written; then none is.
+    """
+    paths = list(parts)
+    if not paths:
+        return paths
+    with whole_files(paths) as files:
+        for path, file in zip(paths, files, strict=True):
+            with told(path):
+                parts[path](file)
+    return paths
 
 
 def _partial(target: Path) -> Path:

@@ -17,7 +17,7 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.reading import readable
+from infill.formats.broken import readable
 
 AXES = 3
 # What NumPy raises for files that hold something else than they should.

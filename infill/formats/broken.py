@@ -1,0 +1,79 @@
+"""What all readers say of a file that is missing, broken, or holds something else than it should."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import struct
+import tokenize
+import zipfile
+import zlib
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from numpy.typing import NDArray
+
+from infill.errors import FormatError, InfillError, ParameterError
+from infill.volume import AXES, Volume
+
+SMALLER = "cut the volume to the part that matters, or halve its resolution"
+# What the readers of NumPy, tifffile and Pillow raise for files that hold something else than they should.
+BROKEN = (
+    ValueError, LookupError, TypeError, AttributeError, ArithmeticError, EOFError, RuntimeError, MemoryError,
+    SyntaxError, AssertionError, struct.error, zlib.error, tokenize.TokenError, zipfile.BadZipFile,
+    ElementTree.ParseError,
+)  # fmt: skip
+COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
+
+
+def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
+    """Return the path of a file that is there and has one of the suffixes, or raise FormatError."""
+    source = Path(path)
+    if source.suffix.lower() not in suffixes:
+        raise FormatError(f"cannot tell {what} from {source.name!r}; use one of {', '.join(suffixes)}")
+    if not source.is_file():
+        raise FormatError(f"there is no file {source}; check the name")
+    return source
+
+
+@contextlib.contextmanager
+def told_broken(path: Path) -> Iterator[None]:
+    """Turn what a reader says of a broken file into an error of ours."""
+    try:
+        yield
+    except InfillError:
+        raise
+    except BROKEN as error:
+        raise FormatError(f"{path} is broken or no {path.suffix} file ({one_line(error)}); save it again") from error
+
+
+def one_line(error: Exception) -> str:
+    """Return what an error says, in one line that is not too long."""
+    words = " ".join(str(error).split()) or type(error).__name__
+    return words if len(words) <= 200 else words[:200] + "…"
+
+
+def checked_volume(path: Path, values: NDArray[Any], **place: Any) -> Volume:  # noqa: ANN401 - hands on
+    """Return the checked volume of values [x, y, z]."""
+    if values.dtype.kind == "c":
+        raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
+    if values.dtype.kind not in "biuf":
+        raise FormatError(f"{path} holds values of type {values.dtype}; save numbers or booleans")
+    if values.ndim > AXES and values.shape[-1] in COLOURS:
+        raise FormatError(f"{path} holds {values.shape[-1]} numbers per cell, shape {values.shape}; save one as grey")
+    if values.ndim != AXES or values.size == 0:
+        raise FormatError(f"{path} holds an array of shape {values.shape}; save three axes, with cells")
+    if not values.dtype.isnative:
+        values = values.astype(values.dtype.newbyteorder("="))
+    low, high = values.min().item(), values.max().item()
+    if not (math.isfinite(low) and math.isfinite(high)):
+        raise FormatError(f"{path} holds cells that are NaN or infinite; fill or cut those cells first")
+    if low == high:
+        raise FormatError(f"{path} holds {low:g} in all cells, so no surface; check that it is the right file")
+    try:
+        return Volume(values=values, **place)
+    except ParameterError as error:
+        raise FormatError(f"{path} has no usable place in space: {error}; resample it, or save it again") from error

@@ -1,0 +1,227 @@
+"""Medical images: NRRD, NIfTI, MetaImage and DICOM by SimpleITK (extra `medical`); NRRD is written without it."""
+
+from __future__ import annotations
+
+import contextlib
+import gzip
+import math
+import os
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import IO, Any, BinaryIO, cast
+
+import numpy as np
+
+from infill.errors import FormatError
+from infill.formats.broken import SMALLER, checked_volume, told_broken
+from infill.machine import require_memory
+from infill.version import __version__
+from infill.volume import AXES, Volume
+
+UNEVEN = 0.05  # of a slice: how far DICOM slices may lie from even steps
+POSITION = "0020|0032"
+USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # of the headers that SimpleITK tells
+NRRD_TYPES = {
+    "b1": "uint8", "i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32", "u4": "uint32",
+    "i8": "int64", "u8": "uint64", "f4": "float", "f8": "double",
+}  # fmt: skip
+NRRD_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
+
+
+class _Kept:
+    """An image of SimpleITK as an array, kept alive for as long as the array is, so that nothing is copied."""
+
+    def __init__(self, sitk: ModuleType, image: Any) -> None:  # noqa: ANN401 - SimpleITK.Image
+        self.image = image
+        self.__array_interface__ = sitk.GetArrayViewFromImage(image).__array_interface__
+
+
+def _simpleitk(what: str) -> ModuleType:
+    try:
+        import SimpleITK
+    except ImportError as error:
+        raise FormatError(f"reading {what} needs the extra medical: pip install 'phasefill[medical]'") from error
+    return SimpleITK
+
+
+@contextlib.contextmanager
+def _quiet(sitk: ModuleType, path: Path) -> Iterator[None]:
+    """Turn errors of SimpleITK into ours, and keep its warnings off the terminal."""
+    shown = sitk.ProcessObject.GetGlobalWarningDisplay()
+    sitk.ProcessObject.SetGlobalWarningDisplay(False)
+    try:
+        yield
+    except RuntimeError as error:
+        lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Reason:")]
+        said = re.sub(r"^.*ERROR: |\w+\(0x\w+\): |\[nrrd\] ", "", lines[-1] if lines else "no reason given")
+        raise FormatError(f"cannot read {path} ({said.strip()}); check the file, or save it again") from error
+    finally:
+        sitk.ProcessObject.SetGlobalWarningDisplay(shown)
+
+
+def read_medical(path: Path) -> Volume:
+    """Return the volume of one file, [x, y, z], where it lies in space."""
+    sitk = _simpleitk(path.suffix if path.suffix.lower() != ".gz" else ".nii.gz")
+    reader = sitk.ImageFileReader()
+    reader.SetFileName(str(path))
+    with _quiet(sitk, path):
+        reader.ReadImageInformation()
+    size, kind = reader.GetSize(), sitk.GetPixelIDValueAsString(reader.GetPixelID())
+    if reader.GetNumberOfComponents() > 1 or "complex" in kind:
+        raise FormatError(f"{path} holds a {kind} per cell; save one grey value, magnitude or label per cell")
+    if len(size) > AXES and math.prod(size[AXES:]) > 1:
+        raise FormatError(f"{path} has {len(size)} axes, {_times(size)}; save one volume of it, with three")
+    if len(size) < AXES or (path.suffix.lower() == ".dcm" and size[2] == 1):
+        raise FormatError(f"{path} is a single slice, {_times(size)}; give the folder of all slices, or a volume")
+    known = {key: reader.GetMetaData(key) for key in USED_TAGS if reader.HasMetaDataKey(key)}
+    if path.name.lower().endswith((".nii", ".nii.gz")):
+        _require_whole_nifti(path, size, known)
+    require_memory(math.prod(size) * _cell_bytes(kind), None, SMALLER)
+    with _quiet(sitk, path):
+        image = reader.Execute()
+    # An NRRD may lie in a space without a name; the readers of all others turn theirs into LPS.
+    named = not path.name.lower().endswith((".nrrd", ".nhdr")) or known.get("NRRD_space") == "left-posterior-superior"
+    return _placed(sitk, path, image, "LPS" if named else "")
+
+
+def _placed(sitk: ModuleType, path: Path, image: Any, space: str) -> Volume:  # noqa: ANN401 - SimpleITK.Image
+    """Return an image as a volume: [x, y, z], its origin the lower corner of the first cell."""
+    axes = image.GetDimension()
+    values = np.asarray(_Kept(sitk, image))
+    values = values.reshape(values.shape[-AXES:]).T  # axes beyond three have one cell
+    spacing = np.array(image.GetSpacing()[:AXES])
+    direction = np.array(image.GetDirection()).reshape(axes, axes)[:AXES, :AXES]
+    corner = np.array(image.GetOrigin()[:AXES]) - direction @ (spacing / 2)
+    return checked_volume(
+        path, values, spacing=tuple(spacing.tolist()), origin=tuple(corner.tolist()), direction=direction, space=space
+    )
+
+
+def _times(size: tuple[int, ...]) -> str:
+    return " x ".join(str(cells) for cells in size) + " cells"
+
+
+def _cell_bytes(kind: str) -> int:
+    found = re.search(r"(\d+)-bit", kind)
+    return int(found[1]) // 8 if found else 8
+
+
+def _require_whole_nifti(path: Path, size: tuple[int, ...], known: dict[str, str]) -> None:
+    """Raise FormatError for a NIfTI that is cut off: its reader would fill the rest with zeros and say nothing."""
+    with told_broken(path):
+        needed = int(float(known["vox_offset"])) + math.prod(size) * int(known["bitpix"]) // 8
+    if path.suffix.lower() != ".gz":
+        held = path.stat().st_size
+    else:
+        with path.open("rb") as file:
+            file.seek(-min(4, path.stat().st_size), os.SEEK_END)
+            announced = int.from_bytes(file.read(4), "little")  # of the last part, modulo 4 GiB
+        held = needed if announced == needed % 2**32 else _unpacked_bytes(path)
+    if held < needed:
+        raise FormatError(f"{path} is cut off: it holds {held} bytes of {needed}; copy or save it again")
+
+
+def _unpacked_bytes(path: Path) -> int:
+    with told_broken(path), gzip.open(path) as file:
+        held = 0
+        while chunk := file.read(2**20):
+            held += len(chunk)
+    return held
+
+
+def read_dicom(folder: Path, series: str | None) -> Volume:
+    """Return the one series of a folder, or the one of that UID."""
+    sitk = _simpleitk("a DICOM folder")
+    reader = sitk.ImageSeriesReader()
+    with _quiet(sitk, folder):
+        found = {
+            each: reader.GetGDCMSeriesFileNames(str(folder), each) for each in reader.GetGDCMSeriesIDs(str(folder))
+        }
+    if not found:
+        raise FormatError(f"{folder} holds no DICOM series and no .tif or .png slices; give the folder with the slices")
+    listed = ", ".join(f"{each} ({len(names)} slices)" for each, names in found.items())
+    if series is None and len(found) > 1:
+        raise FormatError(
+            f"{folder} holds {len(found)} DICOM series, {listed}; choose one: --series {next(iter(found))}"
+        )
+    if series is not None and series not in found:
+        raise FormatError(f"{folder} holds no DICOM series {series!r}; it holds {listed}")
+    names = found[next(iter(found)) if series is None else series]
+    if len(names) == 1:
+        return read_medical(Path(names[0]))
+    reader.SetFileNames(names)
+    reader.MetaDataDictionaryArrayUpdateOn()
+    with _quiet(sitk, folder):
+        require_memory(_series_bytes(sitk, names), None, SMALLER)
+        image = reader.Execute()
+        places = [reader.GetMetaData(k, POSITION) for k in range(len(names)) if reader.HasMetaDataKey(k, POSITION)]
+    if image.GetNumberOfComponentsPerPixel() > 1:
+        raise FormatError(f"{folder} holds colour slices; give a series of grey ones")
+    if image.GetDimension() != AXES or len(places) != len(names):
+        raise FormatError(f"{folder} holds slices that do not say where they lie; save the stack as a volume")
+    _require_even(folder, image, places)
+    return _placed(sitk, folder, image, "LPS")
+
+
+def _series_bytes(sitk: ModuleType, names: tuple[str, ...]) -> int:
+    first = sitk.ImageFileReader()
+    first.SetFileName(names[0])
+    first.ReadImageInformation()
+    return (
+        int(math.prod(first.GetSize()[:2])) * len(names) * _cell_bytes(sitk.GetPixelIDValueAsString(first.GetPixelID()))
+    )
+
+
+def _require_even(folder: Path, image: Any, places: list[str]) -> None:  # noqa: ANN401 - SimpleITK.Image
+    """Raise FormatError if slices are missing, doubled, or sheared by a tilted scanner: the part would be bent."""
+    with told_broken(folder):
+        lie = np.array([[float(number) for number in place.split("\\")] for place in places])
+    even = np.array([image.TransformIndexToPhysicalPoint((0, 0, k)) for k in range(len(places))])
+    off = float(np.linalg.norm(lie - even, axis=1).max()) / image.GetSpacing()[2]
+    if not off <= UNEVEN:
+        raise FormatError(
+            f"{folder} has slices up to {off:.2g} of a slice away from even steps (missing, doubled, or a tilted "
+            "scanner); resample the series to even slices first"
+        )
+
+
+def write_nrrd(volume: Volume, file: BinaryIO) -> None:
+    """Write NRRD: a header of text and the values, packed by gzip; `space origin` is the centre of the first cell.
+
+    Booleans become 0 and 1, and numbers of 16 bits after the point get 32. A space without a name stays
+    without one, so that no program turns its axes. Source: "Definition of NRRD File Format", Teem.
+    """
+    kind = _stored(volume.values.dtype)
+    axes = np.asarray(volume.direction) * volume.cell_size  # column i: one cell along axis i
+    centre = np.array(volume.origin) + axes.sum(axis=1) / 2
+    space = f"space: {NRRD_SPACES[volume.space]}" if volume.space in NRRD_SPACES else f"space dimension: {AXES}"
+    header = (
+        "NRRD0005",
+        f"# phasefill {__version__}, millimetres",
+        f"type: {NRRD_TYPES[kind.str[1:]]}",
+        f"dimension: {AXES}",
+        space,
+        f"sizes: {' '.join(str(cells) for cells in volume.values.shape)}",
+        f"space directions: {' '.join(_vector(axis) for axis in axes.T)}",
+        f"kinds:{AXES * ' domain'}",
+        "endian: little",
+        "encoding: gzip",
+        f"space origin: {_vector(centre)}",
+    )
+    file.write(("\n".join(header) + "\n\n").encode("ascii"))
+    with gzip.GzipFile(filename="", mode="wb", compresslevel=6, fileobj=cast(IO[bytes], file), mtime=0) as packed:
+        for k in range(volume.values.shape[2]):  # layer by layer, so that no second copy is held
+            packed.write(volume.values[:, :, k].astype(kind).tobytes(order="F"))
+
+
+def _stored(kind: np.dtype[np.generic]) -> np.dtype[np.generic]:
+    """Return the type in which NRRD holds numbers of type `kind`, low byte first."""
+    if kind.kind == "f":
+        return np.dtype("<f4" if kind.itemsize <= 4 else "<f8")
+    return np.dtype(np.uint8) if kind.kind == "b" else kind.newbyteorder("<")
+
+
+def _vector(numbers: Iterable[float]) -> str:
+    return "(" + ",".join(f"{float(number):.17g}" for number in numbers) + ")"

@@ -1,0 +1,122 @@
+"""`save` and `read_mesh`: a mesh to a file and back, the format by its suffix."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.broken import readable
+from infill.formats.foreign import read_by_trimesh
+from infill.formats.gltf import read_glb, write_glb
+from infill.formats.obj import read_obj, write_obj
+from infill.formats.ply import read_ply, write_ply
+from infill.formats.stl import read_stl, write_stl, write_stl_ascii
+from infill.formats.threemf import read_3mf, write_3mf
+from infill.formats.whole_files import whole_file
+from infill.surface import Surface
+from infill.surfaces.merging import closed_or_merged, surface_of
+
+if TYPE_CHECKING:
+    import trimesh
+
+
+def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii: bool = False) -> Path:  # noqa: A002
+    """Write a mesh; an existing file is replaced once the new one is complete.
+
+    Parameters
+    ----------
+    mesh : trimesh.Trimesh or Surface, mm
+    path : str or Path
+        .stl, .3mf, .obj, .ply or .glb. A .glb holds millimetres too, as slicers and CAD write it,
+        though glTF means metres.
+    ascii : bool
+        Text instead of binary; STL only.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FormatError
+        For an unknown suffix, or ascii in another format than STL.
+    GeometryError
+        For a mesh without faces, or with corners that are not finite.
+    OutputError
+        If the file cannot be written.
+    """
+    target = Path(path)
+    write = writer(target, ascii=ascii)
+    surface = surface_of(mesh)
+    with whole_file(target) as file:
+        write(surface, file)
+    return target
+
+
+def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002
+    """Return the function that writes the format of `path`, or raise FormatError, which names `more` suffixes too."""
+    suffix = path.suffix.lower()
+    if suffix not in WRITERS:
+        given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
+        raise FormatError(f"cannot tell a mesh format from {given}; use one of {', '.join((*WRITERS, *more))}")
+    if ascii and suffix != ".stl":
+        raise FormatError(f"only .stl can be written as text by choice, not {suffix}; leave ascii out")
+    return write_stl_ascii if ascii else WRITERS[suffix]
+
+
+def read_mesh(path: str | os.PathLike[str]) -> Surface:
+    """Return the triangles of a file.
+
+    Equal vertices are merged, but for a mesh that is closed as it stands: there the file says on purpose
+    which of two equal vertices a triangle has. Triangles with two equal corners are kept.
+
+    Parameters
+    ----------
+    path : str or Path
+        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF says its unit and comes out in
+        millimetres; the others say none and are taken as they are.
+
+    Returns
+    -------
+    Surface
+
+    Raises
+    ------
+    FormatError
+        If there is no such file, its suffix is unknown, or it holds no triangles or broken ones.
+    """
+    source = readable(path, READERS, "a mesh format")
+    try:
+        vertices, faces = READERS[source.suffix.lower()](source)
+    except OSError as error:
+        raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
+    if len(faces) == 0:
+        raise FormatError(f"{source} holds no triangles; export the mesh again")
+    if not np.isfinite(vertices).all():
+        raise FormatError(f"{source} holds coordinates that are not numbers; export the mesh again")
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
+    return closed_or_merged(vertices, faces)
+
+
+WRITERS: dict[str, Callable[[Surface, BinaryIO], None]] = {
+    ".stl": write_stl,
+    ".3mf": write_3mf,
+    ".obj": write_obj,
+    ".ply": write_ply,
+    ".glb": write_glb,
+}
+READERS: dict[str, Callable[[Path], tuple[NDArray[np.floating], NDArray[np.integer]]]] = {
+    ".stl": read_stl,
+    ".3mf": read_3mf,
+    ".obj": read_obj,
+    ".ply": read_ply,
+    ".off": read_by_trimesh,
+    ".glb": read_glb,
+}

@@ -1,0 +1,90 @@
+"""STL, binary and as text: triangles, each with its own corners, without a unit."""
+
+from __future__ import annotations
+
+import codecs
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.rows import AT_ONCE
+from infill.surface import Surface
+from infill.version import __version__
+
+HEAD = 84
+RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+FACET = ("facet normal {0} {0} {0}\n outer loop\n" + 3 * "  vertex {0} {0} {0}\n" + " endloop\nendfacet\n").format(
+    "%.9g"
+)
+NUMBER = rb"\s+([^\s]+)"
+VERTEX = re.compile(rb"[\r\n]\s*vertex" + 3 * NUMBER, re.IGNORECASE)
+VERTEX_WORD = re.compile(rb"[\r\n]\s*vertex\b", re.IGNORECASE)
+
+
+def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
+    """Return vertices, three for each triangle, and faces."""
+    data = path.read_bytes()
+    count = int.from_bytes(data[80:HEAD], "little")
+    if count and len(data) >= HEAD + count * RECORD.itemsize:  # some programs add bytes at the end
+        corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
+    elif data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid":
+        corners = _text_corners(path, data)
+    elif len(data) == HEAD and not count:
+        corners = np.empty((0, 3, 3), dtype=np.float32)
+    else:
+        raise FormatError(
+            f"{path} is neither text nor a whole binary STL ({len(data)} bytes, {count} triangles announced); "
+            "export the mesh again"
+        )
+    return corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3)
+
+
+def _text_corners(path: Path, data: bytes) -> NDArray[np.floating]:
+    found = VERTEX.findall(data)
+    broken = FormatError(f"{path} holds a vertex that is not three numbers, or is cut off; export the mesh again")
+    if len(found) != len(VERTEX_WORD.findall(data)) or len(found) % 3:
+        raise broken
+    try:
+        return np.array(found, dtype="S").astype(np.float32).reshape(-1, 3, 3)
+    except ValueError as error:
+        raise broken from error
+
+
+def write_stl(surface: Surface, file: BinaryIO) -> None:
+    """Write binary STL: 50 bytes a triangle, 32-bit coordinates."""
+    space = f" SPACE={surface.space}" if surface.space else ""  # as 3D Slicer writes and reads it
+    file.write(f"phasefill {__version__} UNITS=mm{space}".encode().ljust(80))
+    file.write(np.uint32(len(surface.faces)).astype("<u4").tobytes())
+    for corners in _corners(surface):
+        record = np.zeros(len(corners), dtype=RECORD)
+        record["corners"] = corners
+        record["normal"] = _normals(corners)
+        file.write(record.tobytes())
+
+
+def write_stl_ascii(surface: Surface, file: BinaryIO) -> None:
+    """Write STL as text."""
+    file.write(b"solid phasefill\n")
+    for corners in _corners(surface):
+        numbers = np.concatenate([_normals(corners)[:, None], corners], axis=1)
+        file.write((FACET * len(corners) % tuple(numbers.ravel().tolist())).encode())
+    file.write(b"endsolid phasefill\n")
+
+
+def _corners(surface: Surface) -> Iterator[NDArray[np.float32]]:
+    """Yield the corners of the triangles, (n, 3, 3) float32, some at a time."""
+    vertices = surface.vertices.astype(np.float32)
+    for low in range(0, len(surface.faces), AT_ONCE):
+        yield vertices[surface.faces[low : low + AT_ONCE]]
+
+
+def _normals(corners: NDArray[np.float32]) -> NDArray[np.float32]:
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    unit: NDArray[np.float32] = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)
+    return unit

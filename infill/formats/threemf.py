@@ -1,0 +1,133 @@
+"""3MF: a zip of XML that says its unit; core specification only."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from pathlib import Path
+from typing import BinaryIO
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.rows import write_rows
+from infill.surface import Surface
+from infill.version import __version__
+
+UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
+IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
+BROKEN = (zipfile.BadZipFile, ElementTree.ParseError, EOFError, zlib.error, RuntimeError, LookupError, ValueError)
+TYPES = """<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+ <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+ <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
+</Types>
+"""
+RELATIONS = """<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
+ <Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>
+"""
+HEAD = f"""<?xml version="1.0" encoding="UTF-8"?>
+<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+ <metadata name="Application">phasefill-{__version__}</metadata>
+ <resources><object id="1" type="model"><mesh><vertices>
+"""
+TAIL = """</triangles></mesh></object></resources>
+ <build><item objectid="1"/></build>
+</model>
+"""
+
+
+def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
+    """Read the build of a 3MF: objects, components and their transforms; core specification."""
+    # The standard parser fetches nothing from outside, and what it makes is only counted and multiplied.
+    try:
+        with zipfile.ZipFile(path) as package:
+            models = [name for name in package.namelist() if name.lower().endswith(".model")]
+            roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
+            start = _start_part(package)
+    except BROKEN as error:
+        raise FormatError(f"{path} is no 3MF file ({error}); export the mesh again") from error
+    built = [part for part, each in roots.items() if each.find("{*}build/{*}item") is not None]
+    main = start if start in roots else next(iter(built), "")
+    root = roots.get(main)
+    if root is None or root.find("{*}build") is None:
+        raise FormatError(f"{path} has nothing to build in it; export the mesh again")
+    objects = {
+        (part, each.get("id")): each
+        for part, model in roots.items()
+        for each in model.findall("{*}resources/{*}object")
+    }
+    vertices: list[NDArray[np.floating]] = []
+    faces: list[NDArray[np.integer]] = []
+
+    def place(part: str, number: str | None, outer: NDArray[np.floating], depth: int = 0) -> None:
+        each = objects.get((part, number))
+        if each is None or depth > 20:
+            raise FormatError(f"{path} refers to an object {number} that it does not hold; export the mesh again")
+        corners = [
+            [float(v.get(axis, "nan")) for axis in "xyz"] for v in each.iterfind("{*}mesh/{*}vertices/{*}vertex")
+        ]
+        triangles = [
+            [int(t.get(corner, -1)) for corner in ("v1", "v2", "v3")]
+            for t in each.iterfind("{*}mesh/{*}triangles/{*}triangle")
+        ]
+        if triangles:
+            if max(map(max, triangles)) >= len(corners) or min(map(min, triangles)) < 0:
+                raise FormatError(f"{path} has triangles with corners that do not exist; export the mesh again")
+            # A mirrored part would face inwards: its corners are taken in the other order.
+            ordered = np.array(triangles)[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
+            faces.append(ordered + sum(len(some) for some in vertices))
+            vertices.append(np.array(corners) @ outer[:3] + outer[3])
+        for component in each.iterfind("{*}components/{*}component"):
+            inner = _transform(component.get("transform", IDENTITY))
+            joined = np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]])
+            place(_path(component, part), component.get("objectid"), joined, depth + 1)
+
+    try:
+        for item in root.iterfind("{*}build/{*}item"):
+            if item.get("printable") == "0":
+                continue
+            place(_path(item, main), item.get("objectid"), _transform(item.get("transform", IDENTITY)))
+    except ValueError as error:
+        if isinstance(error, FormatError):
+            raise
+        raise FormatError(f"{path} holds a number that is none ({error}); export the mesh again") from error
+    if not faces:
+        return np.empty((0, 3)), np.empty((0, 3), dtype=int)
+    return np.concatenate(vertices) * UNITS.get(root.get("unit", "millimeter"), 1.0), np.concatenate(faces)
+
+
+def _start_part(package: zipfile.ZipFile) -> str:
+    """Return the part that the package says to begin with, or nothing."""
+    if "_rels/.rels" not in package.namelist():
+        return ""
+    relations = ElementTree.fromstring(package.read("_rels/.rels"))  # noqa: S314 - as the models
+    targets = [each.get("Target", "") for each in relations if each.get("Type", "").endswith("/3dmodel")]
+    return "/" + targets[0].lstrip("/") if targets else ""
+
+
+def _path(element: ElementTree.Element, part: str) -> str:
+    """Return the part in which the object of a component or an item stands."""
+    return next((value for key, value in element.items() if key.endswith("}path")), part)
+
+
+def _transform(text: str) -> NDArray[np.float64]:
+    """Return the 4 x 3 matrix of a 3MF transform: points are rows, multiplied from the left."""
+    return np.array([float(number) for number in text.split()]).reshape(4, 3)
+
+
+def write_3mf(surface: Surface, file: BinaryIO) -> None:
+    """Write 3MF, core specification only: one object, in millimetres."""
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=4) as package:
+        package.writestr("[Content_Types].xml", TYPES)
+        package.writestr("_rels/.rels", RELATIONS)
+        with package.open("3D/3dmodel.model", "w", force_zip64=True) as model:
+            model.write(HEAD.encode())
+            write_rows(model, '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', surface.vertices)
+            model.write(b"</vertices><triangles>\n")
+            write_rows(model, '<triangle v1="%d" v2="%d" v3="%d"/>\n', surface.faces)
+            model.write(TAIL.encode())

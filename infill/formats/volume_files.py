@@ -1,0 +1,132 @@
+"""`read_volume` and `write_field`: a volume from a file and back.
+
+    .npy .npz           [x, y, z], or [z, y, x] where the file says so
+    .tif .tiff          pages are z, rows y, columns x; so is a folder of .tif or .png slices
+    .nrrd .nii .mha …   by SimpleITK (extra `medical`), with their place in space
+    a DICOM folder      the one series in it, or the one that is named
+
+Values keep their type, and are copied once at most.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import BinaryIO
+
+from infill.errors import FormatError, ParameterError
+from infill.formats.arrays import read_npy, read_npz, write_npz
+from infill.formats.broken import one_line
+from infill.formats.medical import read_dicom, read_medical, write_nrrd
+from infill.formats.slices import SLICES, natural, read_slices, read_tiff
+from infill.formats.whole_files import whole_file
+from infill.volume import Volume
+
+
+def read_volume(path: str | os.PathLike[str], *, array: str | None = None, series: str | None = None) -> Volume:
+    """Return the volume that a file or a folder holds.
+
+    Parameters
+    ----------
+    path : str or Path
+        .npy, .npz, .tif, .tiff; with SimpleITK also .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, .dcm; a folder
+        of .tif or .png slices, taken in the order of the numbers in their names; a folder of DICOM slices.
+    array : str, optional
+        Name of the array to take, where an .npz holds several with three axes.
+    series : str, optional
+        UID of the series to take, where a DICOM folder holds several.
+
+    Returns
+    -------
+    Volume
+        Values [x, y, z] of the type in the file. Its spacing and place are in mm: as the file says, else
+        cells of 1 at the origin. Medical images lie in LPS; their origin is turned from the centre of the
+        first cell, as files have it, into its lower corner. An .npy is mapped, not loaded.
+
+    Raises
+    ------
+    FormatError
+        If there is no such file, it is of no known kind, is broken, or holds no grey volume.
+    MemoryLimitError
+        If the values need more memory than there is.
+    ParameterError
+        If `array` or `series` is given for a file that has none.
+    """
+    source = Path(path)
+    suffix = next((each for each in READERS if source.name.lower().endswith(each)), "")
+    if array is not None and suffix != ".npz":
+        raise ParameterError(f"array={array!r} was given for {source}; only an .npz holds named arrays")
+    if series is not None and not source.is_dir():
+        raise ParameterError(f"series={series!r} was given for {source}; give the folder that holds the series")
+    try:
+        if source.is_dir():
+            return _read_folder(source, series)
+        if not source.is_file():
+            raise FormatError(f"there is no file {source}; check the name")
+        if not suffix:
+            known = ", ".join(READERS)
+            raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {known} or a folder of slices")
+        return read_npz(source, array) if suffix == ".npz" else READERS[suffix](source)
+    except OSError as error:
+        reason = error.strerror or one_line(error)
+        raise FormatError(f"cannot read {source}: {reason}; check the file") from error
+
+
+def _read_folder(folder: Path, series: str | None) -> Volume:
+    names = sorted((each for each in folder.iterdir() if each.is_file() and each.name[0] != "."), key=natural)
+    if not names:
+        raise FormatError(f"{folder} holds no files; give the folder with the slices in it")
+    slices = [each for each in names if each.suffix.lower() in SLICES]
+    if not slices or series is not None or any(each.suffix.lower() == ".dcm" for each in names):
+        return read_dicom(folder, series)
+    if len({each.suffix.lower()[:4] for each in slices}) > 1:
+        raise FormatError(f"{folder} holds slices as .png and as .tif; keep only those of one scan")
+    return read_slices(folder, slices)
+
+
+def write_field(volume: Volume, path: str | os.PathLike[str]) -> Path:
+    """Write a volume; an existing file is replaced once the new one is complete.
+
+    Parameters
+    ----------
+    volume : Volume
+        Values [x, y, z], and where they lie in mm.
+    path : str or Path
+        .npz (arrays `values`, `spacing`, `origin`, `direction` and `space`) or .nrrd.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FormatError
+        For an unknown suffix.
+    OutputError
+        If the file cannot be written.
+    """
+    target = Path(path)
+    write = field_writer(target)
+    with whole_file(target) as file:
+        write(volume, file)
+    return target
+
+
+def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
+    """Return the function that writes the format of `path`, or raise FormatError."""
+    suffix = path.suffix.lower()
+    if suffix not in FIELD_WRITERS:
+        given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
+        raise FormatError(f"cannot tell a format of volumes from {given}; use one of {', '.join(FIELD_WRITERS)}")
+    return FIELD_WRITERS[suffix]
+
+
+READERS: dict[str, Callable[[Path], Volume]] = {
+    ".npy": read_npy,
+    ".npz": read_npz,
+    ".tif": read_tiff,
+    ".tiff": read_tiff,
+    **dict.fromkeys((".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm"), read_medical),
+}
+FIELD_WRITERS: dict[str, Callable[[Volume, BinaryIO], None]] = {".npz": write_npz, ".nrrd": write_nrrd}
