@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from infill.inspection.width import wall_width
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
-    from infill.pipeline import Result, make
+    from infill.pipeline import make
+    from infill.result import Result
     from infill.smoother import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
     from infill.surfaces.marching import isosurface
@@ -45,7 +46,8 @@ _HOMES = {
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("check",),
-    "pipeline": ("Result", "make"),
+    "pipeline": ("make",),
+    "result": ("Result",),
     "formats.point_files": ("read_points",),
     "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from infill.machine import require_memory
 from infill.phasefield.sparse import SparseField
-from infill.pipeline import Result
+from infill.result import Result
 from infill.surface import Surface
 from infill.surfaces.distance import distances
 from infill.surfaces.sparse_marching import extract_blocks

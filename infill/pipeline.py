@@ -8,25 +8,20 @@ and a report of what came out.
 from __future__ import annotations
 
 import math
-import os
-import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
-from functools import cached_property
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
 
 from infill.errors import GeometryError
-from infill.formats.mesh_files import save
 from infill.inspection.layers import Changes, Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
 from infill.plan import Block, StampMethod, plan
+from infill.result import Clock, Progress, Result
 from infill.settings import in_degrees
 from infill.surface import Surface
 from infill.surfaces.stacking import extruded
@@ -37,60 +32,13 @@ from patterns import Pattern
 from patterns.linework import bodies
 
 if TYPE_CHECKING:
-    import trimesh
     from shapely import MultiLineString
 
-Progress = Callable[[str, float], None]
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile: below, a wall counts as lost
 MOST_PINHOLES = 0.02  # of the void in holes: more is no matter of acute angles
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
-
-
-@dataclass(frozen=True, kw_only=True)
-class Result:
-    """A mesh, the fields it came from, and a report.
-
-    Parameters
-    ----------
-    surface : Surface
-        The mesh as plain arrays, mm.
-    report : dict
-        Plain numbers and strings: what ``--json`` prints.
-    fields : dict
-        By stage: "points" (N, 2) and "lines" in mm, "stamp" and "smoothed" (nx, ny), "grid".
-    """
-
-    surface: Surface
-    report: dict[str, Any]
-    fields: dict[str, Any] = field(default_factory=dict, repr=False)
-
-    @cached_property
-    def mesh(self) -> trimesh.Trimesh:
-        """The mesh as a trimesh.Trimesh, mm."""
-        return self.surface.to_trimesh()
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the mesh, the format by suffix, and return the path."""
-        return save(self.surface, path)
-
-
-class Clock:
-    """Seconds per stage."""
-
-    def __init__(self, progress: Progress | None) -> None:
-        self.seconds: dict[str, float] = {}
-        self._progress = progress
-
-    @contextmanager
-    def stage(self, name: str, share: float) -> Iterator[None]:
-        """Time what is done inside; `share` is how much of the whole is done when it begins."""
-        if self._progress is not None:
-            self._progress(name, share)
-        begin = time.perf_counter()
-        yield
-        self.seconds[name] = time.perf_counter() - begin
 
 
 def make(

@@ -18,8 +18,8 @@ from infill.errors import FormatError, ParameterError
 from patterns import PATTERNS, Pattern, parameters
 
 if TYPE_CHECKING:
-    from infill.pipeline import Progress, Result
     from infill.plan import Block
+    from infill.result import Progress, Result
 
 BYTES = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 

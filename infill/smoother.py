@@ -23,7 +23,7 @@ from infill.machine import require_memory
 from infill.outcome import as_float, moved, placed, some, summary
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED
-from infill.pipeline import Clock, Progress, Result
+from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.surfaces.capping import capped
 from infill.surfaces.distance import distances

@@ -20,7 +20,7 @@ from infill.surface import Surface
 from infill.volume import Volume
 
 if TYPE_CHECKING:
-    from infill.pipeline import Result
+    from infill.result import Result
     from infill.smoother import Options
 
 Kind = Literal["mesh", "points", "volume"]

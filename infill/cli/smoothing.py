@@ -12,7 +12,7 @@ import typer
 from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
 
 if TYPE_CHECKING:
-    from infill.pipeline import Result
+    from infill.result import Result
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
 
