@@ -29,9 +29,9 @@ if TYPE_CHECKING:
     from infill.grid import Grid
     from infill.inspection.printability import check
     from infill.inspection.width import wall_width
+    from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
-    from infill.pipeline import make
     from infill.result import Result
     from infill.smoother import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
@@ -46,7 +46,7 @@ _HOMES = {
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("check",),
-    "pipeline": ("make",),
+    "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
     "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),

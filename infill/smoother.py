@@ -98,7 +98,8 @@ def smooth_volume(
         20 steps if left out, as the paper takes for complex models; 30 for medical data.
     refine : bool
         Keep edges, curvature and thin walls better: see `infill.phasefield.refining`. Smoothing takes five times as
-        long, the whole twice. For clean data: specks are kept too, so despeckle. It takes 4 steps or more, and no fidelity.
+        long, the whole twice. For clean data: specks are kept too, so despeckle. It takes 4 steps or more, and no
+        fidelity.
     level : "volume" or float
         "volume" puts the surface where every body has the volume it has in the data; 0 is the paper's surface.
     despeckle : float

@@ -10,7 +10,7 @@ Needs numpy and shapely, and loads them only when lines are asked for. Knows no 
 from patterns.errors import PatternError
 from patterns.heart import ConcentricHeart
 from patterns.honeycomb import Honeycomb
-from patterns.protocol import Parameter, Pattern, check_parameters, lacking, parameter, parameters
+from patterns.protocol import Parameter, Pattern, check_parameters, in_degrees, lacking, parameter, parameters
 from patterns.registry import PatternWarning, Registry
 from patterns.zigzag import Zigzag
 
@@ -27,6 +27,7 @@ __all__ = [
     "Registry",
     "Zigzag",
     "check_parameters",
+    "in_degrees",
     "lacking",
     "parameter",
     "parameters",

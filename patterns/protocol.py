@@ -203,3 +203,21 @@ class Pattern(Protocol):
     def __post_init__(self) -> None:
         """Check the parameters; a subclass with a `__post_init__` of its own calls this first."""
         check_parameters(self)
+
+
+def in_degrees(pattern: Pattern) -> dict[str, Any]:
+    """Return the parameters of a pattern that count, by name, angles in degrees."""
+    found = parameters(pattern)
+    values = {name: getattr(pattern, name) for name in found}
+    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
+    turn = {name for name, (_, described) in found.items() if described.unit == "rad" and values[name] is not None}
+    return {
+        name: round(math.degrees(value), 9) if name in turn else _plain(value)
+        for name, value in values.items()
+        if name not in replaced
+    }
+
+
+def _plain(value: object) -> object:
+    """Return a list for a tuple: what JSON and TOML give back."""
+    return list(value) if isinstance(value, tuple) else value

@@ -23,7 +23,8 @@ from infill import ParameterError, read_mesh
 from infill.cli import making
 from infill.cli.app import build
 from infill.cli.console import as_bytes
-from infill.settings import MakeSettings, parse_bytes, parse_size, resolve
+from infill.cli.words import parse_bytes
+from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import Pattern, Registry, parameter
 from patterns.registry import RESERVED
 
@@ -245,8 +246,14 @@ def test_every_parameter_of_a_pattern_is_an_option() -> None:
 
 def test_a_plugin_brings_its_own_options(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     entry = EntryPoint(name="rings", value=f"{__name__}:Rings", group="infill.patterns")
-    registry = Registry(tuple(infill.settings.PATTERNS.built_in.values()), plugins=lambda: [entry])
-    for module in ("infill.cli.app", "infill.cli.making", "infill.cli.listing", "infill.settings", "infill.plan"):
+    registry = Registry(tuple(infill.making.settings.PATTERNS.built_in.values()), plugins=lambda: [entry])
+    for module in (
+        "infill.cli.app",
+        "infill.cli.making",
+        "infill.cli.listing",
+        "infill.making.settings",
+        "infill.making.request",
+    ):
         monkeypatch.setattr(f"{module}.PATTERNS", registry)
     runner = CliRunner()
     assert "--rings" in plain(runner.invoke(build(), ["make", "--help"]).stdout)
@@ -351,7 +358,7 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
 
 
 def test_toml_quotes_what_it_must() -> None:
-    from infill.settings import _toml
+    from infill.making.settings import _toml
 
     assert _toml('a "b" \\ c') == '"a \\"b\\" \\\\ c"'
 

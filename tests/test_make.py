@@ -14,7 +14,7 @@ from shapes import BUILT_IN, SIZES, assert_printable
 
 from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, extrude, make
 from infill.inspection.layers import regions, topology
-from infill.plan import plan
+from infill.making.request import plan
 from patterns import ConcentricHeart, Honeycomb, Pattern, PatternError
 
 STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}
@@ -281,7 +281,7 @@ def test_the_defaults_stand_once_more_in_the_settings() -> None:
     import inspect
 
     from infill.cli import making
-    from infill.settings import MakeSettings
+    from infill.making.settings import MakeSettings
 
     function = {name: each.default for name, each in inspect.signature(make).parameters.items()}
     settings, smoothing = MakeSettings(pattern="honeycomb"), Smoothing()

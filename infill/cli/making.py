@@ -125,9 +125,10 @@ def make(
     own_options: dict[str, Any],
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
+    from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import writer
     from infill.formats.whole_files import check_targets, deliver
-    from infill.settings import parse_bytes, resolve
+    from infill.making.settings import resolve
 
     common = {
         "pattern": pattern, "size": size, "height": height, "line_width": line_width, "stamp": stamp, "cells": cells,

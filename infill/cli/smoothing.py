@@ -144,10 +144,10 @@ def smooth(
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
+    from infill.cli.words import parse_bytes, parse_level, parse_numbers
     from infill.formats.mesh_files import WRITERS, writer
     from infill.formats.volume_files import FIELD_WRITERS, field_writer
     from infill.formats.whole_files import check_targets, deliver
-    from infill.settings import parse_bytes, parse_level, parse_numbers
 
     outputs = output or []
     if refine and fidelity is not None:

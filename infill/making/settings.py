@@ -12,16 +12,14 @@ import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from infill.errors import FormatError, ParameterError
-from patterns import PATTERNS, Pattern, parameters
+from patterns import PATTERNS, Pattern, in_degrees, parameters
 
 if TYPE_CHECKING:
-    from infill.plan import Block
+    from infill.making.request import Block
     from infill.result import Progress, Result
-
-BYTES = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,7 +76,7 @@ class MakeSettings:
 
     def plan(self) -> Block:
         """Return the checked request with its grid and its cost."""
-        from infill.plan import plan
+        from infill.making.request import plan
 
         return plan(**self._request(), parameters={})
 
@@ -86,7 +84,7 @@ class MakeSettings:
         self, *, allow_broken: bool = False, max_memory: int | None = None, progress: Progress | None = None
     ) -> Result:
         """Run `infill.make` with these settings."""
-        from infill.pipeline import make
+        from infill.making.block import make
 
         return make(**self._request(), allow_broken=allow_broken, max_memory=max_memory, progress=progress)
 
@@ -165,36 +163,6 @@ def parse_size(size: object) -> tuple[float, float]:
     return lengths[0], lengths[-1]
 
 
-def parse_bytes(text: str) -> int:
-    """Return the number of bytes in ``2G``, ``500MB`` or ``1.5 GiB``.
-
-    >>> parse_bytes("2G")
-    2147483648
-    """
-    found = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
-    if not found or float(found[1]) <= 0:
-        raise ParameterError(f"the memory limit is {text!r}; give a number above 0 with K, M, G or T, such as 2G")
-    return int(float(found[1]) * BYTES[found[2].upper()])
-
-
-def in_degrees(pattern: Pattern) -> dict[str, Any]:
-    """Return the parameters of a pattern that count, by name, angles in degrees."""
-    found = parameters(pattern)
-    values = {name: getattr(pattern, name) for name in found}
-    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
-    turn = {name for name, (_, described) in found.items() if described.unit == "rad" and values[name] is not None}
-    return {
-        name: round(math.degrees(value), 9) if name in turn else _plain(value)
-        for name, value in values.items()
-        if name not in replaced
-    }
-
-
-def _plain(value: object) -> object:
-    """Return a list for a tuple: what JSON and TOML give back."""
-    return list(value) if isinstance(value, tuple) else value
-
-
 def _read(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
@@ -235,33 +203,3 @@ def _toml(value: object) -> str:
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
     return repr(value)
-
-
-def parse_numbers(name: str, text: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """Return the numbers in a text such as "0.9,0.9,1.5", or raise ParameterError if there are not as many.
-
-    >>> parse_numbers("range", "200, 900", (2,))
-    (200.0, 900.0)
-    """
-    try:
-        numbers = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        numbers = ()
-    if len(numbers) not in counts or not all(math.isfinite(number) for number in numbers):
-        wanted = " or ".join(map(str, counts))
-        raise ParameterError(f"{name} is {text!r}; give {wanted} number(s), with commas between")
-    return numbers
-
-
-def parse_level(text: str) -> Literal["volume"] | float:
-    """Return the level of a surface, by name or number, or raise ParameterError.
-
-    >>> parse_level("0")
-    0.0
-    """
-    if text == "volume":
-        return "volume"
-    try:
-        return float(text)
-    except ValueError:
-        raise ParameterError(f"level is {text!r}; give volume, or a number between -1 and 1") from None

@@ -18,17 +18,16 @@ import shapely
 from infill.errors import GeometryError
 from infill.inspection.layers import Changes, Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
+from infill.making.request import Block, StampMethod, plan
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
-from infill.plan import Block, StampMethod, plan
 from infill.result import Clock, Progress, Result
-from infill.settings import in_degrees
 from infill.surface import Surface
 from infill.surfaces.stacking import extruded
 from infill.version import __version__
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
-from patterns import Pattern
+from patterns import Pattern, in_degrees
 from patterns.linework import bodies
 
 if TYPE_CHECKING:

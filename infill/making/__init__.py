@@ -1,0 +1,1 @@
+"""make: the paper's block of infill."""
