@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
     from infill.result import Result
-    from infill.smoother import smooth_mesh, smooth_points, smooth_volume
+    from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
     from infill.surfaces.marching import isosurface
     from infill.surfaces.stacking import extrude, stack
@@ -49,7 +49,7 @@ _HOMES = {
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
-    "smoother": ("smooth_mesh", "smooth_points", "smooth_volume"),
+    "smoothing.solids": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
     "surfaces.stacking": ("extrude", "stack"),
     "voxels.stamping": ("stamp", "stamp_lines"),

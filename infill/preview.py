@@ -58,7 +58,7 @@ def preview(result: Result) -> Image.Image:
 
 def _before_and_after(result: Result) -> Image.Image:
     """Return the voxels and the smoothed surface, at the same scale and from the same side."""
-    from infill.outcome import staircase
+    from infill.smoothing.placing import staircase
 
     report = result.report
     panels = {

@@ -9,7 +9,6 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from infill import ParameterError, Smoothing, smooth_volume
-from infill.outcome import field_volume
 from infill.phasefield.allen_cahn import STEEPNESS
 from infill.phasefield.profile import REFINED
 from infill.phasefield.refining import (
@@ -21,6 +20,7 @@ from infill.phasefield.refining import (
     refine_reference,
 )
 from infill.phasefield.sparse import SparseField, smooth_blocks
+from infill.smoothing.placing import field_volume
 from infill.surface import Surface
 from infill.surfaces.components import bodies, data_bits
 from infill.surfaces.levels import at_volume, straightened

@@ -14,7 +14,7 @@ from examples.paper import models, plots
 from examples.paper.entry import Entry, Row, run
 from examples.paper.measures import mse
 from infill import Smoothing, smooth, smooth_volume
-from infill.outcome import staircase
+from infill.smoothing.placing import staircase
 
 STEPS = 20
 PRINTED = {"pig": 0.78, "bunny": 0.45, "armadillo": 0.52}

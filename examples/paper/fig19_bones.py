@@ -14,7 +14,7 @@ from benchmarks.peers.meshers import surface_nets
 from examples.paper import models, plots
 from examples.paper.entry import NOT_GIVEN, PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing, smooth_points
-from infill.outcome import some, staircase
+from infill.smoothing.placing import some, staircase
 from infill.surfaces.distance import distances
 
 STEPS, WIDTH = 30, 5  # voxels

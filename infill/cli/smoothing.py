@@ -164,7 +164,7 @@ def smooth(
     check_targets(filter(None, (*outputs, preview)), overwrite=force)
     with progress_bar(shown=not quiet) as progress:
         from infill.phasefield.allen_cahn import Smoothing
-        from infill.sources import read_source, smooth_source
+        from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)
@@ -172,7 +172,7 @@ def smooth(
             source, kind=kind, units=units, array=array, series=series,
             spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
         )  # fmt: skip
-        from infill.outcome import field_volume
+        from infill.smoothing.placing import field_volume
 
         held = {} if fidelity is None else {"fidelity": fidelity}
         with log_said(shown=not quiet):

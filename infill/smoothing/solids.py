@@ -20,10 +20,10 @@ from infill.grid import spacing_of
 from infill.inspection.changes import verdict
 from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
-from infill.outcome import as_float, moved, placed, some, summary
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED
 from infill.result import Clock, Progress, Result
+from infill.smoothing.placing import as_float, moved, placed, some, summary
 from infill.surface import Surface
 from infill.surfaces.capping import capped
 from infill.surfaces.distance import distances

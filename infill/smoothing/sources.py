@@ -21,7 +21,7 @@ from infill.volume import Volume
 
 if TYPE_CHECKING:
     from infill.result import Result
-    from infill.smoother import Options
+    from infill.smoothing.solids import Options
 
 Kind = Literal["mesh", "points", "volume"]
 Source = Surface | Volume | NDArray[np.float64]
@@ -105,7 +105,7 @@ def smooth_source(
     **options: Unpack[Options],
 ) -> Result:
     """Smooth what `read_source` returned; raise ParameterError for what does not fit its kind."""
-    from infill.smoother import smooth_mesh, smooth_points, smooth_volume
+    from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
     kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
     given = {

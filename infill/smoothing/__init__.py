@@ -1,0 +1,1 @@
+"""Scans, meshes and points to smooth closed meshes."""
