@@ -8,8 +8,8 @@ import numpy as np
 from PIL import Image
 
 from infill import make, smooth_volume
-from infill.preview import save_preview
-from infill.render import render
+from infill.pictures.preview import save_preview
+from infill.pictures.render import render
 
 FOLDER = Path(__file__).parent / "pictures"
 

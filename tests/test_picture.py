@@ -11,8 +11,8 @@ import trimesh
 from PIL import Image
 
 from infill import FormatError, Surface, make
-from infill.preview import preview, save_preview
-from infill.render import render
+from infill.pictures.preview import preview, save_preview
+from infill.pictures.render import render
 
 WHITE = 255
 
@@ -52,7 +52,7 @@ def test_faces_seen_from_behind_are_not_drawn() -> None:
 def test_many_fragments_are_drawn_some_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
     ball = surface(trimesh.creation.icosphere(subdivisions=3))
     whole = render(ball, width=60, height=60)
-    monkeypatch.setattr("infill.render.FRAGMENTS_AT_ONCE", 50)
+    monkeypatch.setattr("infill.pictures.render.FRAGMENTS_AT_ONCE", 50)
     assert np.array_equal(render(ball, width=60, height=60), whole)
 
 

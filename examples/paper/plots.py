@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from infill.formats.whole_files import whole_file
-from infill.render import directions, render
+from infill.pictures.render import directions, render
 from infill.surface import Surface
 
 try:

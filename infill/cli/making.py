@@ -142,7 +142,7 @@ def make(
     for path in outputs:
         writer(path, ascii=ascii_stl)
     if preview is not None:
-        from infill.preview import check_preview, write_preview
+        from infill.pictures.preview import check_preview, write_preview
 
         check_preview(preview)
     check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)

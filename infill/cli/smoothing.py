@@ -158,7 +158,7 @@ def smooth(
         if path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
     if preview is not None:
-        from infill.preview import check_preview
+        from infill.pictures.preview import check_preview
 
         check_preview(preview)
     check_targets(filter(None, (*outputs, preview)), overwrite=force)
@@ -196,7 +196,7 @@ def smooth(
             else:
                 parts[path] = partial(field_writer(path), field_volume(result))
         if preview is not None:
-            from infill.preview import write_preview
+            from infill.pictures.preview import write_preview
 
             parts[preview] = partial(write_preview, result)
         written = [str(path) for path in deliver(parts)]

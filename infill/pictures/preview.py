@@ -14,7 +14,7 @@ from PIL import Image, ImageDraw, ImageFont
 from infill.errors import FormatError
 from infill.formats.whole_files import whole_file
 from infill.grid import VOID, Grid
-from infill.render import render
+from infill.pictures.render import render
 from infill.result import Result
 from infill.surface import Surface
 

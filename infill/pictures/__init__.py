@@ -1,0 +1,1 @@
+"""Previews without a display."""
