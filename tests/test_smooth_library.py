@@ -29,7 +29,7 @@ from infill import (
 )
 from infill.kernels.compiling import told_of_compiling
 from infill.phasefield.sparse import smooth_blocks
-from infill.smoothing import solids
+from infill.smoothing import solids as smoothing
 
 Solid = NDArray[np.bool_]
 
@@ -783,7 +783,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture) -> No
     assert caplog.messages == ["compiling all, the first time on this machine only"] * 2
 
 
-@pytest.mark.parametrize("function", [solids._smoothed, smooth_blocks])
+@pytest.mark.parametrize("function", [smoothing._smoothed, smooth_blocks])
 def test_nobody_waits_for_a_compiler_untold(function: Any, caplog: pytest.LogCaptureFixture) -> None:
     """What takes seconds to compile is watched: here something that needs compiling is passed in as its progress."""
     import numba
