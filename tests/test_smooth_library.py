@@ -28,7 +28,7 @@ from infill import (
     smooth_volume,
 )
 from infill.kernels.compiling import told_of_compiling
-from infill.phasefield.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing import solids as smoothing
 
 Solid = NDArray[np.bool_]
@@ -157,7 +157,7 @@ def test_mirroring_the_data_mirrors_the_mesh(axis: int) -> None:
 @example((1, 0, 0), (0, 0, 0))
 @example((16, 8, 8), (8, 8, 16))
 def test_void_around_the_data_moves_the_mesh_and_nothing_else(before: tuple[int, ...], after: tuple[int, ...]) -> None:
-    """Where the solid stands clear of the edge; the blocks fall in other places."""
+    """Where the solid stands clear of the edge; the bricks fall in other places."""
     solid = np.pad(ball((15, 15, 15), (7, 7, 7), 6) | brick((15, 15, 15), (7, 15), (6, 9), (6, 9)), 8)
     one = smooth_volume(solid)
     other = smooth_volume(np.pad(solid, list(zip(before, after, strict=True))))
@@ -708,7 +708,7 @@ def test_the_helpers_can_fail() -> None:
 
 
 def test_despeckling_takes_whole_bodies_blocks_and_all() -> None:
-    """A body so large that it has blocks that are solid throughout."""
+    """A body so large that it has bricks that are solid throughout."""
     two = np.zeros((130, 70, 70), dtype=bool)
     two[5:55, 5:55, 5:55] = two[62:126, 3:67, 3:67] = True
     result = smooth_volume(two, despeckle=130_000.0, smoothing=Smoothing(steps=5))
@@ -783,7 +783,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture) -> No
     assert caplog.messages == ["compiling all, the first time on this machine only"] * 2
 
 
-@pytest.mark.parametrize("function", [smoothing._smoothed, smooth_blocks])
+@pytest.mark.parametrize("function", [smoothing._smoothed, smooth_bricks])
 def test_nobody_waits_for_a_compiler_untold(function: Any, caplog: pytest.LogCaptureFixture) -> None:
     """What takes seconds to compile is watched: here something that needs compiling is passed in as its progress."""
     import numba
@@ -792,8 +792,8 @@ def test_nobody_waits_for_a_compiler_untold(function: Any, caplog: pytest.LogCap
         numba.njit(lambda x: x + 1)(1)
 
     ball = np.sum((np.indices((12, 12, 12)) - 5.5) ** 2, axis=0) < 9
-    if function is smooth_blocks:
-        smooth_blocks(ball, Smoothing(steps=1), progress=progress)
+    if function is smooth_bricks:
+        smooth_bricks(ball, Smoothing(steps=1), progress=progress)
     else:
         smooth_volume(ball, smoothing=Smoothing(steps=1), progress=progress)
     assert len(caplog.messages) == 1

@@ -63,7 +63,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         name="fig17_18",
         title="Figs. 17 and 18: the three patterns",
         setting=(
-            f"Blocks of {size} × {size} × 4 mm, cells of 0.15 mm, lines of 0.45 mm, 3 × 3 stamps, 10 steps, λh² = 0.01."
+            f"Bricks of {size} × {size} × 4 mm, cells of 0.15 mm, lines of 0.45 mm, 3 × 3 stamps, 10 steps, λh² = 0.01."
         ),
         rows=tuple(rows),
         sentence=(

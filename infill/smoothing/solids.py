@@ -1,6 +1,6 @@
 """`smooth_volume`, `smooth_mesh`, `smooth_points`: from a scan, a mesh or points to a smooth closed mesh.
 
-    data  ->  solid on a grid  ->  blocks, smoothed  ->  level of the right volume  ->  closed surface
+    data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
 and a report of what smoothing did: to the volume, to bodies, cavities and tunnels, and to the thinnest walls.
 """
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
-BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
+BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
 OFF = 0.01  # of the volume: what the level of the volume may miss, by specks that are gone
 SIMPLER = 0.05  # of the volume: what simplifying may change
@@ -227,8 +227,8 @@ def _smoothed(
     progress: Progress | None = None,
 ) -> Result:
     """Do what the three functions have in common."""
-    from infill.phasefield.refining import refine_blocks
-    from infill.phasefield.sparse import smooth_blocks
+    from infill.phasefield.refining import refine_bricks
+    from infill.phasefield.sparse import smooth_bricks
     from infill.surfaces.components import bodies, data_bits, shell_names
     from infill.surfaces.levels import as_straightened, at_level, at_volume, counted
 
@@ -246,7 +246,7 @@ def _smoothed(
             if progress is not None:
                 progress("smooth", 0.05 + 0.3 * share)
 
-        smoothed = refine_blocks if refine else smooth_blocks
+        smoothed = refine_bricks if refine else smooth_bricks
         field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
     with clock.stage("surface", 0.4):
         by_volume, guess = level == "volume", None
@@ -348,10 +348,10 @@ def _require(data: Volume, limit: int | None, each: int) -> None:
 
 def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
     """Return the data without bodies up to a volume, mm³, and how many those were."""
-    from infill.phasefield.sparse import smooth_blocks
+    from infill.phasefield.sparse import smooth_bricks
     from infill.surfaces.components import bodies, data_bits, without
 
-    field = smooth_blocks(data.values, Smoothing(steps=0), threads=threads)
+    field = smooth_bricks(data.values, Smoothing(steps=0), threads=threads)
     every = bodies(field, data_bits(field, threads=threads))
     small = every.cells * data.cell_volume <= largest
     if small.all():

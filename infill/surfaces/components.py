@@ -1,6 +1,6 @@
-"""Bodies of solid and of void in a field of blocks: how many, how large, and what smoothing did to them.
+"""Bodies of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
 
-Everything is found from rows of sixteen bits and from the blocks that are kept, so that cost grows with the surface.
+Everything is found from rows of sixteen bits and from the bricks that are kept, so that cost grows with the surface.
 Cells of solid are joined by faces, cells of void by faces and edges, as marching cubes joins them on raw data.
 """
 
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels import components as kernels
-from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK, VOID_BRICK
 from infill.kernels.sparse_marching import ROWS, volumes
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
@@ -34,14 +34,14 @@ class Bodies:
         Cells of each body.
     thick : (b,) bool
         Whether a body holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
-    bits, blocks, starts, alone, names
-        How a cell finds its body: bits of every row, numbers of runs, of blocks of one value, and names of both.
+    bits, bricks, starts, alone, names
+        How a cell finds its body: bits of every row, numbers of runs, of bricks of one value, and names of both.
     """
 
     cells: NDArray[np.int64]
     thick: NDArray[np.bool_]
     bits: NDArray[np.uint16]
-    blocks: NDArray[np.int64]
+    bricks: NDArray[np.int64]
     starts: NDArray[np.int16]
     alone: NDArray[np.int32]
     names: NDArray[np.int32]
@@ -113,12 +113,12 @@ class Shells:
 
 
 def solid_bits(field: SparseField, *, level: float = 0.0, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept blocks are above the level, (n, rows) uint16."""
+    """Return which cells of the kept bricks are above the level, (n, rows) uint16."""
     return rows_above(field, field.values, level, threads=threads)
 
 
 def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept blocks are solid in the data, (n, rows) uint16."""
+    """Return which cells of the kept bricks are solid in the data, (n, rows) uint16."""
     return rows_above(field, field.data, 0.0, threads=threads)
 
 
@@ -142,7 +142,7 @@ def grown(
 
 
 def _meet_or_spread(
-    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BLOCK
+    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BRICK
 ) -> NDArray[np.uint16]:
     out = np.empty_like(bits)
     in_threads(
@@ -157,37 +157,37 @@ def bodies(
 ) -> Bodies:
     """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first.
 
-    Without `whole`, only the cells in `bits` count, not the blocks that are solid throughout. With `thickness`, it is
+    Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, it is
     told which bodies are more than one cell thick.
     """
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
     if void:
         bits = ~bits
-        single = (field.slots < 0) & (field.slots != SOLID_BLOCK)
+        single = (field.slots < 0) & (field.slots != SOLID_BRICK)
     else:
-        single = (field.slots == SOLID_BLOCK) & whole
-    blocks = np.empty(len(bits), dtype=np.int64)
+        single = (field.slots == SOLID_BRICK) & whole
+    bricks = np.empty(len(bits), dtype=np.int64)
     starts = np.empty((len(bits), ROWS), dtype=np.int16)
-    runs = kernels.number_runs(bits, blocks, starts)
+    runs = kernels.number_runs(bits, bricks, starts)
     alone[single] = runs + np.arange(single.sum())
     parent = np.arange(runs + int(single.sum()))
     if void:
-        kernels.join_beyond(field.where, bits, blocks, starts, field.shape, parent)
+        kernels.join_beyond(field.where, bits, bricks, starts, field.shape, parent)
         rim = np.zeros(alone.shape, dtype=bool)
         for axis in range(3):
             rim[tuple([0, -1] if a == axis else slice(None) for a in range(3))] = True
         parent[alone[single & rim]] = 0
     kernels.join_alone(alone, parent)
-    kernels.join_runs(field.slots, field.where, bits, blocks, starts, alone, parent, void)
+    kernels.join_runs(field.slots, field.where, bits, bricks, starts, alone, parent, void)
     names = np.empty(len(parent), dtype=np.int32)
     count = kernels.name_sets(parent, names)
     cells = np.zeros(count, dtype=np.int64)
-    kernels.count_cells(field.where, bits, blocks, starts, field.shape, names, cells)
+    kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], _cells_within(np.argwhere(single), field.shape))
     if not void:  # run 0 stands for what lies beyond the grid, which is no solid
         cells, names = cells[1:], names - 1
     every = Bodies(
-        cells=cells, thick=np.empty(0, dtype=bool), bits=bits, blocks=blocks, starts=starts, alone=alone, names=names
+        cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
     )
     return with_thickness(field, every, void=void) if thickness else every
 
@@ -195,25 +195,25 @@ def bodies(
 def with_thickness(field: SparseField, every: Bodies, *, void: bool = False) -> Bodies:
     """Return the bodies, with which of them are more than one cell thick."""
     thick = np.zeros(every.count, dtype=bool)
-    kind = VOID_BLOCK if void else SOLID_BLOCK
+    kind = VOID_BRICK if void else SOLID_BRICK
     core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
-    kernels.mark_runs(every.bits, every.blocks, every.starts, every.names, core, thick)
+    kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
     thick[every.names[every.alone[every.alone >= 0]]] = True
     return replace(every, thick=thick)
 
 
 def _cells_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
-    """Return how many cells of whole blocks lie on the grid."""
-    low = np.maximum(places * BLOCK, 1)
-    high = np.minimum((places + 1) * BLOCK, np.array(shape) + 1)
+    """Return how many cells of whole bricks lie on the grid."""
+    low = np.maximum(places * BRICK, 1)
+    high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
     inside: NDArray[np.int64] = np.prod(np.maximum(high - low, 0), axis=1)
     return inside
 
 
 def fate(before: Bodies, after: Bodies) -> Fate:
-    """Compare two sets of bodies on the same blocks."""
+    """Compare two sets of bodies on the same bricks."""
     found = kernels.overlaps(
-        before.bits, before.blocks, before.starts, before.names, after.bits, after.blocks, after.starts, after.names
+        before.bits, before.bricks, before.starts, before.names, after.bits, after.bricks, after.starts, after.names
     )
     single = before.alone >= 0
     own, theirs = before.names[before.alone[single]], after.names[after.alone[single]]
@@ -265,24 +265,24 @@ def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDAr
     """Return data (nx, ny, nz) with the bodies marked in `small` (b,) made void; floating-point data as float32."""
     out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
-    kernels.erase(out, field.where, every.bits, every.blocks, every.starts, every.names, small, void)
+    kernels.erase(out, field.where, every.bits, every.bricks, every.starts, every.names, small, void)
     single = np.argwhere(every.alone >= 0)
-    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # blocks that are solid throughout
-        low = np.maximum(place * BLOCK - 1, 0)
-        out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BLOCK - 1, strict=True))] = void
+    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
+        low = np.maximum(place * BRICK - 1, 0)
+        out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BRICK - 1, strict=True))] = void
     return out
 
 
 def cells_of(field: SparseField, every: Bodies, number: int) -> NDArray[np.int64]:
-    """Return the cells (n, 3) of a body that lie in blocks kept, counted from the first of the grid."""
-    blocks, rows = np.nonzero(every.bits)
-    solid = every.bits[blocks, rows, None] >> np.arange(BLOCK[2], dtype=np.uint16) & 1
+    """Return the cells (n, 3) of a body that lie in bricks kept, counted from the first of the grid."""
+    bricks, rows = np.nonzero(every.bits)
+    solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
     which, k = np.nonzero(solid)
-    block, row = blocks[which], rows[which]
-    place = field.where[block].astype(np.int64) * BLOCK + np.stack([row // BLOCK[1], row % BLOCK[1], k], axis=1)
+    brick, row = bricks[which], rows[which]
+    place = field.where[brick].astype(np.int64) * BRICK + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
     label = np.empty(len(place), dtype=np.int32)
     kernels.label_cells(
-        place.astype(np.int32), field.slots, every.bits, every.blocks, every.starts, every.alone, every.names, 0, label
+        place.astype(np.int32), field.slots, every.bits, every.bricks, every.starts, every.alone, every.names, 0, label
     )
     cells: NDArray[np.int64] = place[label == number] - 1
     return cells

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.kernels import components as bodies_kernels
-from infill.kernels.sparse import BLOCK, CELLS
+from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.profile import REFINED, STRAIGHT
 from infill.phasefield.sparse import SparseField
@@ -239,7 +239,7 @@ def _lowered(field: SparseField, data: Bodies, levels: NDArray[np.float64], comm
     out = np.empty_like(field.values)
     in_threads(
         bodies_kernels.lower_to_levels, field.values.reshape(-1, CELLS), field.where, field.slots, data.bits,
-        data.blocks, data.starts, data.alone, data.names, levels.astype(np.float32), np.float32(common), REACH,
+        data.bricks, data.starts, data.alone, data.names, levels.astype(np.float32), np.float32(common), REACH,
         out.reshape(-1, CELLS), threads=threads,
     )  # fmt: skip
     return replace(field, values=out)
@@ -273,10 +273,10 @@ def _body_of(
     And pairs (n, 2) of bodies of a size of their own that have a shell in common.
     """
     cells = surface.vertices / np.array(spacing) + 0.5  # on the lattice of cells, whose first lies beyond the grid
-    place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BLOCK - 1)
+    place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BRICK - 1)
     label = np.empty(len(cells), dtype=np.int32)
     bodies_kernels.label_cells(
-        place, field.slots, data.bits, data.blocks, data.starts, data.alone, data.names, REACH, label
+        place, field.slots, data.bits, data.bricks, data.starts, data.alone, data.names, REACH, label
     )
     count = max(data.count, 1)
     known = label >= 0
