@@ -30,7 +30,7 @@ from infill import Smoothing
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.surface import Surface
-from infill.surfaces.components import bodies, data_bits
+from infill.surfaces.components import components, data_bits
 from infill.surfaces.levels import at_volume, straightened
 from infill.surfaces.sparse_marching import extract_bricks
 
@@ -45,7 +45,7 @@ def ours(f: Field, steps: int, level: str, *, refine: bool = False) -> Surface:
     if level == "0":
         surface = extract_bricks(field, spacing=cells)
     else:
-        solid = bodies(field, data_bits(field))
+        solid = components(field, data_bits(field))
         straight = field if refine else straightened(field)
         found = at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64))
         surface = extract_bricks(

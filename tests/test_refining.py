@@ -22,7 +22,7 @@ from infill.phasefield.refining import (
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.smoothing.placing import field_volume
 from infill.surface import Surface
-from infill.surfaces.components import bodies, data_bits
+from infill.surfaces.components import components, data_bits
 from infill.surfaces.levels import at_volume, straightened
 
 TWENTY = Smoothing(steps=20)
@@ -30,7 +30,7 @@ CELLS = REFINED.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for
 
 
 def blobs(shape: tuple[int, ...], seed: int = 1, width: float = 3) -> np.ndarray:
-    """Solid of some bodies, rounded, that touches the edges of the grid."""
+    """Solid of some components, rounded, that touches the edges of the grid."""
     return gaussian_filter(np.random.default_rng(seed).normal(size=shape), width) > 0.01
 
 
@@ -50,7 +50,7 @@ def box(points: list[np.ndarray], half: tuple[float, ...], radius: float) -> np.
 
 def surface_of(field: SparseField) -> Surface:
     """The surface of the volume of the data, about the middle of the grid, in cells."""
-    data = bodies(field, data_bits(field))
+    data = components(field, data_bits(field))
     surface = at_volume(field, data, spacing=(1.0, 1.0, 1.0), targets=data.cells.astype(np.float64)).surface
     return Surface(vertices=surface.vertices - np.array(field.shape) / 2, faces=surface.faces)
 

@@ -46,7 +46,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 ours=f"{bend['smoothed']:.2f} (stamp {bend['stamp']:.2f}); exact stamp {bend['exact']:.2f}",
             ),
             Row(
-                paper=PICTURE_ONLY, what=f"{name}: closed, bodies, holes",
+                paper=PICTURE_ONLY, what=f"{name}: closed, components, holes",
                 ours=f"{'closed' if report['closed'] else 'OPEN'}, "
                 f"{report['result']['components']}, {report['result']['holes']} (stamp {report['stamp']['holes']})",
             ),

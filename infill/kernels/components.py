@@ -198,7 +198,7 @@ def name_sets(parent, names):  # pragma: no cover
 
 @njit(nogil=True, cache=True)
 def count_cells(where, bits, bricks, starts, shape, names, cells):  # pragma: no cover
-    """Add the cells of every run within the grid to its body."""
+    """Add the cells of every run within the grid to its component."""
     for s in range(len(where)):
         for row in range(ROWS):
             own = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
@@ -211,7 +211,7 @@ def count_cells(where, bits, bricks, starts, shape, names, cells):  # pragma: no
 
 @njit(nogil=True, cache=True)
 def mark_runs(bits, bricks, starts, names, chosen, marked):  # pragma: no cover
-    """Mark the bodies of cells that are `chosen`."""
+    """Mark the components of cells that are `chosen`."""
     for s in range(len(bits)):
         for row in range(ROWS):
             left = np.int64(beginnings(bits[s, row] & chosen[s, row]))
@@ -223,7 +223,7 @@ def mark_runs(bits, bricks, starts, names, chosen, marked):  # pragma: no cover
 
 @njit(nogil=True, cache=True)
 def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts, other_names):  # pragma: no cover
-    """Return (body, other body, cells) for every stretch of a row that lies in both."""
+    """Return (component, other component, cells) for every stretch of a row that lies in both."""
     many = 0
     for s in range(len(bits)):
         for row in range(ROWS):
@@ -245,8 +245,8 @@ def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts
 
 
 @njit(nogil=True, cache=True)
-def nearest_body(slots, x, y, z, bits, bricks, starts, alone, names, reach):  # pragma: no cover
-    """Return the body of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
+def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach):  # pragma: no cover
+    """Return the component of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
     node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, bricks, starts)
     if node >= 0:
         return names[node]
@@ -267,10 +267,10 @@ def nearest_body(slots, x, y, z, bits, bricks, starts, alone, names, reach):  # 
 
 @njit(nogil=True, cache=True)
 def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels):  # pragma: no cover
-    """Set the body nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
+    """Set the component nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
     for n in range(len(places)):
         x, y, z = places[n]
-        labels[n] = nearest_body(slots, x, y, z, bits, bricks, starts, alone, names, reach)
+        labels[n] = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
 
 
 @njit(nogil=True, cache=True)
@@ -285,7 +285,7 @@ def join_faces(faces, parent):  # pragma: no cover
 def lower_to_levels(
     values, where, slots, bits, bricks, starts, alone, names, levels, common, reach, out, thread, threads
 ):  # pragma: no cover
-    """Take from every cell the level of the nearest body, looked for along the axes; `common` where there is none."""
+    """Subtract from every cell the level of the nearest component along the axes; `common` where there is none."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for t in range(CELLS):
@@ -294,8 +294,8 @@ def lower_to_levels(
                 out[s, t] = value
                 continue
             x, y, z = p * B0 + t // (B1 * B2), q * B1 + t // B2 % B1, r * B2 + t % B2
-            body = nearest_body(slots, x, y, z, bits, bricks, starts, alone, names, reach)
-            out[s, t] = value - (levels[body] if body >= 0 else common)
+            component = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
+            out[s, t] = value - (levels[component] if component >= 0 else common)
 
 
 @njit(cache=True)
@@ -335,7 +335,7 @@ def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):  
 
 @njit(nogil=True, cache=True)
 def erase(values, where, bits, bricks, starts, names, marked, void):  # pragma: no cover
-    """Make the cells of marked bodies void."""
+    """Make the cells of marked components void."""
     for s in range(len(where)):
         for row in range(ROWS):
             left = np.int64(bits[s, row])

@@ -1,4 +1,4 @@
-"""Bodies of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
+"""Components of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
 
 Everything is found from rows of sixteen bits and from the bricks that are kept, so that cost grows with the surface.
 Cells of solid are joined by faces, cells of void by faces and edges, as marching cubes joins them on raw data.
@@ -20,22 +20,22 @@ from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.sparse_marching import rows_above
 
-LARGE = 100  # cells: two such bodies that run together are told
-SMALLEST_PART = 8  # cells: what comes off a body and is smaller is a crumb, no part of it
+LARGE = 100  # cells: two such components that run together are told
+SMALLEST_PART = 8  # cells: what comes off a component and is smaller is a crumb, no part of it
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bodies:
-    """The bodies of solid, or of void, of one field.
+class Components:
+    """The components of solid, or of void, of one field.
 
     Parameters
     ----------
     cells : (b,) int64
-        Cells of each body.
+        Cells of each component.
     thick : (b,) bool
-        Whether a body holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
+        Whether a component holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
     bits, bricks, starts, alone, names
-        How a cell finds its body: bits of every row, numbers of runs, of bricks of one value, and names of both.
+        How a cell finds its component: bits of every row, numbers of runs, of bricks of one value, and names of both.
     """
 
     cells: NDArray[np.int64]
@@ -48,25 +48,25 @@ class Bodies:
 
     @property
     def count(self) -> int:
-        """Number of bodies."""
+        """Number of components."""
         return len(self.cells)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Fate:
-    """What became of bodies, by their numbers before and after.
+    """What became of components, by their numbers before and after.
 
     Parameters
     ----------
     vanished : (n,) int
-        Bodies that have no cell in common with any after.
+        Components that have no cell in common with any after.
     broken : (n,) int
-        Bodies of which two or more parts of at least `SMALLEST_PART` cells are left.
+        Components of which two or more parts of at least `SMALLEST_PART` cells are left.
     joined : (n,) int
-        Bodies after that hold at least `LARGE` cells of two or more before; if thickness is known, of those more than
-        one cell thick.
+        Components after that hold at least `LARGE` cells of two or more before; if thickness is known, of those more
+        than one cell thick.
     appeared : (n,) int
-        Bodies after that have no cell in common with any before.
+        Components after that have no cell in common with any before.
     """
 
     vanished: NDArray[np.integer]
@@ -98,12 +98,12 @@ class Shells:
 
     @property
     def components(self) -> int:
-        """Bodies of solid."""
+        """Components of solid."""
         return int((self.volume > 0).sum())
 
     @property
     def cavities(self) -> int:
-        """Bodies of void that solid encloses."""
+        """Components of void that solid encloses."""
         return int((self.volume <= 0).sum())
 
     @property
@@ -152,13 +152,13 @@ def _meet_or_spread(
     return out
 
 
-def bodies(
+def components(
     field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True, thickness: bool = False
-) -> Bodies:
-    """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first.
+) -> Components:
+    """Return the components of solid of a field whose solid cells are `bits`, or those of void, the outside first.
 
     Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, it is
-    told which bodies are more than one cell thick.
+    told which components are more than one cell thick.
     """
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
     if void:
@@ -183,35 +183,38 @@ def bodies(
     count = kernels.name_sets(parent, names)
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
-    np.add.at(cells, names[alone[single]], _cells_within(np.argwhere(single), field.shape))
+    np.add.at(cells, names[alone[single]], _sides_within(np.argwhere(single), field.shape).prod(axis=1))
     if not void:  # run 0 stands for what lies beyond the grid, which is no solid
         cells, names = cells[1:], names - 1
-    every = Bodies(
+    every = Components(
         cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
     )
     return with_thickness(field, every, void=void) if thickness else every
 
 
-def with_thickness(field: SparseField, every: Bodies, *, void: bool = False) -> Bodies:
-    """Return the bodies, with which of them are more than one cell thick."""
+def with_thickness(field: SparseField, every: Components, *, void: bool = False) -> Components:
+    """Return the components, with which of them are more than one cell thick."""
     thick = np.zeros(every.count, dtype=bool)
     kind = VOID_BRICK if void else SOLID_BRICK
     core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
     kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
-    thick[every.names[every.alone[every.alone >= 0]]] = True
+    places = np.argwhere(every.alone >= 0)
+    if not void:  # a brick of solid that the grid cuts off may be a sheet there; void goes on beyond the grid
+        places = places[(_sides_within(places, field.shape) > 1).all(axis=1)]
+    thick[every.names[every.alone[tuple(places.T)]]] = True
     return replace(every, thick=thick)
 
 
-def _cells_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
-    """Return how many cells of whole bricks lie on the grid."""
+def _sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
+    """Return how many cells along each axis of whole bricks lie on the grid, (n, 3)."""
     low = np.maximum(places * BRICK, 1)
     high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
-    inside: NDArray[np.int64] = np.prod(np.maximum(high - low, 0), axis=1)
-    return inside
+    sides: NDArray[np.int64] = np.maximum(high - low, 0)
+    return sides
 
 
-def fate(before: Bodies, after: Bodies) -> Fate:
-    """Compare two sets of bodies on the same bricks."""
+def fate(before: Components, after: Components) -> Fate:
+    """Compare two sets of components on the same bricks."""
     found = kernels.overlaps(
         before.bits, before.bricks, before.starts, before.names, after.bits, after.bricks, after.starts, after.names
     )
@@ -261,8 +264,8 @@ def face_sums(
     return own, change
 
 
-def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDArray[np.bool_]) -> NDArray[Any]:
-    """Return data (nx, ny, nz) with the bodies marked in `small` (b,) made void; floating-point data as float32."""
+def without(values: NDArray[Any], field: SparseField, every: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
+    """Return data (nx, ny, nz) with the components marked in `small` (b,) made void; floating-point data as float32."""
     out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
     kernels.erase(out, field.where, every.bits, every.bricks, every.starts, every.names, small, void)
@@ -273,8 +276,8 @@ def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDAr
     return out
 
 
-def cells_of(field: SparseField, every: Bodies, number: int) -> NDArray[np.int64]:
-    """Return the cells (n, 3) of a body that lie in bricks kept, counted from the first of the grid."""
+def cells_of(field: SparseField, every: Components, number: int) -> NDArray[np.int64]:
+    """Return the cells (n, 3) of a component that lie in bricks kept, counted from the first of the grid."""
     bricks, rows = np.nonzero(every.bits)
     solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
     which, k = np.nonzero(solid)
