@@ -55,11 +55,11 @@ def moved(
     """Return how far the voxels and the result lie from the mesh they were made from, or from one another, mm."""
     raw = raw_surface(field, data, threads)
     if reference is None:
-        return {"from": "voxels", "result": summary(distances(some(surface.vertices), raw))}
+        return {"from": "voxels", "result": summary(distances(some(surface.vertices), raw, threads=threads))}
     return {
         "from": "mesh",
-        "data": summary(distances(some(raw.vertices), reference)),
-        "result": summary(distances(some(surface.vertices), reference)),
+        "data": summary(distances(some(raw.vertices), reference, threads=threads)),
+        "result": summary(distances(some(surface.vertices), reference, threads=threads)),
     }
 
 

@@ -204,7 +204,14 @@ def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None
         See `smooth_volume`.
     """
     cloud = np.asarray(points, dtype=np.float64)
-    solid = voxelise_points(cloud, voxel=voxel, shell=shell, margin=MARGIN, max_memory=options.get("max_memory"))
+    solid = voxelise_points(
+        cloud,
+        voxel=voxel,
+        shell=shell,
+        margin=MARGIN,
+        max_memory=options.get("max_memory"),
+        threads=options.get("threads"),
+    )
     return _smoothed(solid, {"source": "points", "points": len(cloud), "shell": shell}, None, **options)
 
 
@@ -285,7 +292,9 @@ def _smoothed(
         report["distance"] = moved(surface, field, data, reference, threads)
         full = surface
         if tolerance is not None or max_triangles is not None:
-            surface = replace(simplified(full, tolerance=tolerance, triangles=max_triangles), space=data.space)
+            surface = replace(
+                simplified(full, tolerance=tolerance, triangles=max_triangles, threads=threads), space=data.space
+            )
             change = surface.volume / full.volume - 1
             if abs(change) > SIMPLER and not allow_broken:
                 raise GeometryError(
@@ -296,7 +305,7 @@ def _smoothed(
                 "triangles_before": len(full.faces),
                 "volume_change": change,
                 "shells": shell_names(surface)[1],
-                "distance": summary(distances(some(full.vertices), surface)),
+                "distance": summary(distances(some(full.vertices), surface, threads=threads)),
             }
     closed = closed if surface is full else surface.closed
     bounds = surface.bounds
