@@ -117,8 +117,10 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     line_cells : int
         Cells across a line: what is as wide as a line is no pinhole.
     """
+    from scipy import ndimage
+
     held, voids = _overlaps(before.solid, after.solid), _overlaps(before.void, after.void)
-    room = _opened(before.void > 0, min(PINHOLE, line_cells))
+    room = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
     cores = _components(room, np.empty((0, 2), dtype=np.intp))
     wide = np.zeros(voids.shape[0], dtype=bool)
     wide[np.unique(before.void[room]) - 1] = True
@@ -213,21 +215,3 @@ def _overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> NDArra
 def _extra(table: NDArray[np.bool_], axis: int) -> int:
     """Return how many partners there are beyond the first of each row (axis 1) or column (axis 0)."""
     return int((table.sum(axis=axis) - 1).clip(0).sum())
-
-
-def _opened(inside: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
-    """Return the cells that lie in some square of `size` cells, all inside."""
-    if min(inside.shape) < size:
-        return np.zeros_like(inside)
-    found = inside
-    for axis in range(2):
-        along = np.moveaxis(found, axis, 0)
-        count = len(along) - size + 1
-        found = np.moveaxis(np.logical_and.reduce([along[shift : shift + count] for shift in range(size)]), 0, axis)
-    for axis in range(2):
-        along = np.moveaxis(found, axis, 0)
-        grown = np.zeros((len(along) + size - 1, along.shape[1]), dtype=bool)
-        for shift in range(size):
-            grown[shift : shift + len(along)] |= along
-        found = np.moveaxis(grown, 0, axis)
-    return found

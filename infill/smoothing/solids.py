@@ -181,11 +181,11 @@ def smooth_mesh(
     1
     """
     surface = surface_of(mesh)
-    solid, repairs = voxelise_reported(
+    found = voxelise_reported(
         surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=options.get("max_memory")
     )
-    source = {"source": "mesh", "repairs": asdict(repairs)}
-    return _smoothed(solid, source, _closed(surface, solid, repairs), repairs=repairs, **options)
+    source = {"source": "mesh", "repairs": asdict(found.repairs)}
+    return _smoothed(found.volume, source, found.closed, repairs=found.repairs, **options)
 
 
 def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None, **options: Unpack[Options]) -> Result:
