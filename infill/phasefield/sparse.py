@@ -56,10 +56,11 @@ class SparseField:
     values: Field
     data: Data
 
-    def to_dense(self) -> Field:
+    def to_dense(self, *, threads: int | None = None) -> Field:
         """Return the whole field, (n0, n1, n2) float32."""
+        count = thread_count(threads)
         whole = np.empty(self.shape, dtype=np.float32)
-        in_threads(transfer_kernels.spread, self.slots, self.values.reshape(-1, CELLS), whole, threads=thread_count())
+        in_threads(transfer_kernels.spread, self.slots, self.values.reshape(-1, CELLS), whole, threads=count)
         return whole
 
 

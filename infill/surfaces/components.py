@@ -237,11 +237,11 @@ def fate(before: Components, after: Components) -> Fate:
     )
 
 
-def shells(surface: Surface, rate: NDArray[np.float32]) -> Shells:
+def shells(surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None) -> Shells:
     """Return the connected parts of a closed surface."""
     names, count = shell_names(surface)
     shell = names[surface.faces[:, 0]]
-    own, change = face_sums(surface, rate)
+    own, change = face_sums(surface, rate, threads=threads)
     volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
     corners, sides = np.bincount(names, minlength=count), np.bincount(shell, minlength=count)
     return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)

@@ -60,6 +60,8 @@ class Levelled:
         The level of all that has none of its own.
     levels : (b,) float64
         The level of each component of the data.
+    threads : int, optional
+        To look at its shells with; see `infill.kernels.threads.thread_count`.
     """
 
     against: SparseField
@@ -68,11 +70,12 @@ class Levelled:
     height: float
     common: float
     levels: NDArray[np.float64]
+    threads: int | None = None
 
     @cached_property
     def shells(self) -> Shells:
         """The connected parts of the surface."""
-        return shells(self.surface, self.rate)
+        return shells(self.surface, self.rate, threads=self.threads)
 
 
 def straightened(
@@ -120,7 +123,7 @@ def volumes_of(
 ) -> NDArray[np.float64]:
     """Return the volume of each component of the data at level 0, (b,) mm³."""
     found = extract_level(field, spacing=spacing, threads=threads)
-    parts = shells(found.surface, found.rate)
+    parts = shells(found.surface, found.rate, threads=threads)
     component, _ = _component_of(parts, found.surface, field, data, spacing)
     return _sums(component, parts.volume, data.count)
 
@@ -132,7 +135,7 @@ def at_level(
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
         against=field, height=level, surface=found.surface, rate=found.rate, common=level,
-        levels=np.full(data.count, level),
+        levels=np.full(data.count, level), threads=threads,
     )  # fmt: skip
 
 
@@ -190,7 +193,7 @@ def at_volume(
     if data.count == 1:
         return Levelled(
             against=field, height=height, surface=found.surface, rate=found.rate, common=height,
-            levels=np.array([height]),
+            levels=np.array([height]), threads=threads,
         )  # fmt: skip
     return _each_component(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
 
@@ -220,7 +223,7 @@ def _each_component(
     for _ in range(ROUNDS):
         shifted = _lowered(field, data, levels, common, threads)
         found = extract_level(shifted, spacing=spacing, threads=threads)
-        parts = shells(found.surface, found.rate)
+        parts = shells(found.surface, found.rate, threads=threads)
         component, together = _component_of(parts, found.surface, shifted, data, spacing)
         joined = _joined(group, together)
         changed = joined != group
@@ -233,7 +236,13 @@ def _each_component(
         if missed[heads].sum() < least:
             least = float(missed[heads].sum())
             best = Levelled(
-                against=shifted, height=0.0, surface=found.surface, rate=found.rate, common=common, levels=levels
+                against=shifted,
+                height=0.0,
+                surface=found.surface,
+                rate=found.rate,
+                common=common,
+                levels=levels,
+                threads=threads,
             )
         off = own & (missed > COMPONENT_TOLERANCE * wanted)
         if not off.any():
