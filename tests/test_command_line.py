@@ -179,7 +179,7 @@ def test_make_reports_as_json(tmp_path: Path) -> None:
     result = run("make", "honeycomb", *SMALL, "--angle", "30", "-o", path, "--json")
     report = json.loads(result.stdout)
     assert report["files"] == [str(path)]
-    assert report["parameters"]["angle"] == 30
+    assert report["request"]["parameters"]["angle"] == 30
     assert report["closed"] is True
     assert read_mesh(path).volume == pytest.approx(report["volume"], rel=1e-5)
 

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from infill import Smoothing
-from infill.inspection.changes import verdict
+from infill.inspection.bricks import Verdict, compared, verdict
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import smooth_bricks
-from infill.surfaces.components import components, cores, data_bits, fate, opened, shells, solid_bits, without
+from infill.surfaces.components import components, cores, data_bits, opened, shells, solid_bits, without
 from infill.surfaces.levels import at_level, at_volume, straightened
 from infill.surfaces.sparse_marching import extract_level
 
@@ -67,10 +67,8 @@ def test_two_components_before_and_after() -> None:
     f = ball(40, (12, 12, 12), 8) | ball(40, (28, 28, 28), 8)
     field = smooth_bricks(f, Smoothing(steps=4))
     before = components(field, data_bits(field))
-    same = fate(before, components(field, solid_bits(field)))
-    assert [len(each) for each in (same.vanished, same.broken, same.joined, same.appeared)] == [0, 0, 0, 0]
-    whole = smooth_bricks(np.ones_like(f), Smoothing(steps=0))
-    assert whole.slots.shape == field.slots.shape
+    same = compared(before, components(field, solid_bits(field)))
+    assert [len(each) for each in (same.vanished, same.broken, same.fused, same.appeared)] == [0, 0, 0, 0]
 
 
 def test_shells_of_a_ball_in_a_hollow_ball() -> None:
@@ -144,12 +142,12 @@ def test_erasing_components() -> None:
     assert f.sum() > cleaned.sum()
 
 
-def judged(f: np.ndarray, steps: int) -> dict:
-    field = smooth_bricks(f, Smoothing(steps=steps))
+def judged(f: np.ndarray, steps: int) -> Verdict:
+    smoothing = Smoothing(steps=steps)
+    field = smooth_bricks(f, smoothing)
     data = components(field, data_bits(field), thickness=True)
-    return verdict(
-        at_level(field, data, spacing=UNIT, level=0.0), data, data.cells.astype(float), 0.0, steps, UNIT, None
-    )
+    found = at_level(field, data, spacing=UNIT, level=0.0)
+    return verdict(found, data, spacing=UNIT, blur=smoothing.blur, levels=np.zeros(data.count))
 
 
 @pytest.mark.parametrize(
@@ -160,9 +158,9 @@ def test_a_wall_more_than_one_cell_thick_that_vanishes_is_a_problem(thickness: i
     f = ball(60, (30, 30, 30), 20)
     f[30 : 30 + thickness, 2:58, 2:58] = True
     found = judged(f, steps)
-    assert bool(found["problems"]) == lost
+    assert bool(found.problems) == lost
     if thickness == 1:
-        assert found["result"]["components"] == 1
+        assert found.result.components == 1
 
 
 def test_a_hole_that_breaks_through_a_wall_is_a_problem() -> None:
@@ -170,17 +168,17 @@ def test_a_hole_that_breaks_through_a_wall_is_a_problem() -> None:
     f[8:52, 8:52, 8:52] = True
     f[16:44, 16:44, 16:44] = False
     f[20:40, 20:40, 44:49] = False  # three cells of wall are left
-    assert judged(f, 5)["problems"] == []
+    assert judged(f, 5).problems == ()
     found = judged(f, 40)
-    assert found["data"]["cavities"] == 1
-    assert found["changes"]["voids_joined"] == 1
-    assert any("between voids broke" in problem for problem in found["problems"])
+    assert found.data.cavities == 1
+    assert found.changes.voids_joined == 1
+    assert any("between voids broke" in problem for problem in found.problems)
 
 
 def test_the_report_counts_a_speck_that_went() -> None:
     f = ball(40, (20, 20, 20), 12)
     f[2, 2, 2] = True
     found = judged(f, 10)
-    assert found["changes"]["vanished_thin"] == 1
-    assert found["problems"] == []
-    assert found["data"]["components"] == 2
+    assert found.changes.vanished_thin == 1
+    assert found.problems == ()
+    assert found.data.components == 2

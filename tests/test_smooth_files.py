@@ -81,8 +81,8 @@ def test_components_that_face_two_ways_are_both_solid(data: Path) -> None:
     volume = sum(abs(component.convex_hull.volume) for component in mesh.split(only_watertight=False))
     words = ["--units", "mm", "--resolution", "100", "--json", "--allow-broken"]
     report = json.loads(run("smooth", data / "nasty" / "multibody_ascii.stl", *words).stdout)
-    assert report["repairs"]["components"] == 2
-    assert report["result"]["components"] == 2
+    assert report["input"]["repairs"]["components"] == 2
+    assert report["topology"]["result"]["components"] == 2
     assert 0 < report["volume"] <= volume * 1.05
 
 

@@ -1,4 +1,4 @@
-"""Compiled work shared among threads: a kernel is called once a thread, and takes every so-manieth piece."""
+"""Compiled work shared among threads: a kernel is called once a thread, and takes every n-th piece."""
 
 from __future__ import annotations
 
@@ -37,6 +37,15 @@ def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> lis
     started = [_pool(threads, os.getpid()).submit(kernel, *arguments, thread, threads) for thread in range(1, threads)]
     first = kernel(*arguments, 0, threads)
     return [first, *(each.result() for each in started)]
+
+
+def concurrently(*jobs: Callable[[], Any], threads: int | None = None) -> list[Any]:
+    """Call different jobs side by side and return what they return, in their order; `threads` as in `thread_count`."""
+    count = thread_count(threads)
+    if count == 1:
+        return [job() for job in jobs]
+    with ThreadPoolExecutor(min(count, len(jobs))) as pool:
+        return [each.result() for each in [pool.submit(job) for job in jobs]]
 
 
 @cache

@@ -19,6 +19,7 @@ from patterns import PATTERNS, Pattern, in_degrees, parameters
 
 if TYPE_CHECKING:
     from infill.making.request import Block
+    from infill.making.stages import MakeStages
     from infill.result import Progress, Result
 
 
@@ -82,7 +83,7 @@ class MakeSettings:
 
     def make(
         self, *, allow_broken: bool = False, max_memory: int | None = None, progress: Progress | None = None
-    ) -> Result:
+    ) -> Result[MakeStages]:
         """Run `infill.make` with these settings."""
         from infill.making.block import make
 

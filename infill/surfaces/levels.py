@@ -19,7 +19,7 @@ from infill.errors import GeometryError
 from infill.kernels import components as components_kernels
 from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
-from infill.phasefield.profile import REFINED, STRAIGHT
+from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
@@ -71,12 +71,6 @@ def straightened(
 ) -> SparseField:
     """Return the field as a distance from the surface, scaled to [-1, 1]; in `out`, which may be the field's values."""
     return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
-
-
-def as_straightened(found: Levelled) -> Levelled:
-    """Return a surface of a refined field with its levels as they would be named on a straightened one."""
-    share = REFINED.scale / STRAIGHT.scale
-    return replace(found, common=found.common * share, levels=found.levels * share)
 
 
 def volume_of(found: Level, threads: int) -> tuple[float, float]:
