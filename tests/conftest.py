@@ -19,9 +19,28 @@ settings.register_profile(
 settings.load_profile("suite")
 
 
-# What `make quick` leaves out, by the beginning of a test's name: what took longest in
-# `pytest -n 2 --durations=200` on two cores, until the rest took less than 40 s.
-SLOW: tuple[str, ...] = ()
+# What `make quick` leaves out, by the beginning of a test's name: what came first in `pytest -n 2 --durations=0` on two
+# cores, added up by file and by test, until the rest took less than 40 s. Whole files are those that start processes,
+# read many files or draw. To measure again: `make quick` with `--durations=20` after it.
+SLOW = (
+    "tests/test_command_line_posix.py",
+    "tests/test_data.py::test_a",
+    "tests/test_examples.py",
+    "tests/test_mathematics.py",
+    "tests/test_site.py",
+    "tests/test_slicers.py",
+    "tests/test_smooth_command_posix.py",
+    "tests/test_smooth_files.py",
+    "tests/test_kernels.py::test_sparse_is_dense_to_the_last_bit",
+    "tests/test_kernels.py::test_the_log_tells_of_compiling",
+    "tests/test_make.py::test_the_designs_are_printable_at_many_sizes",
+    "tests/test_make.py::test_the_exact_stamp_keeps_its_width",
+    "tests/test_smooth_library.py::test_memory_does_not_matter_and_nothing_is_changed",
+    "tests/test_topology_and_width.py::test_a_straight_wall_has_its_width",
+    "tests/test_topology_and_width.py::test_the_exact_stamp_keeps_the_width_through_smoothing",
+    "tests/test_voxels.py::test_closed_meshes_have_their_volume",
+    "tests/test_voxels.py::test_overlapping_bones_are_united",
+)
 
 ROOT = Path(__file__).resolve().parents[1]
 HOMES = (ROOT / "data", ROOT.parent / "shared" / "data")
@@ -58,7 +77,7 @@ class Data(type(Path())):  # type: ignore[misc]
         inside = path.relative_to(os.environ["INFILL_DATA"]).as_posix()
         if not path.exists() and inside in known_data():
             pytest.skip(f"no {path}; {ADVICE}")
-        return path
+        return path if path.is_dir() else Path(path)
 
 
 @pytest.fixture(scope="session")
