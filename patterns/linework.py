@@ -1,4 +1,4 @@
-"""Geometry that patterns share: clip, frame, turn, sample."""
+"""Geometry that patterns share: turn, clip, frame, sample."""
 
 from __future__ import annotations
 
@@ -22,6 +22,21 @@ def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     cosine, sine = math.cos(angle), math.sin(angle)
     x, y = points[..., 0], points[..., 1]
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def local(
+    x: NDArray[np.float64], y: NDArray[np.float64], *, angle: float, phase: tuple[float, float]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where points lie in a pattern that is turned by `angle` radians and then shifted by `phase`, mm.
+
+    A level set of these places is the pattern turned and shifted.
+
+    >>> x, y = local(np.array(1.0), np.array(2.0), angle=math.pi / 2, phase=(1.0, 0.0))
+    >>> round(float(x), 12), round(float(y), 12)
+    (2.0, 0.0)
+    """
+    place = turn(np.stack(np.broadcast_arrays(x - phase[0], y - phase[1]), axis=-1), -angle)
+    return place[..., 0], place[..., 1]
 
 
 def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
