@@ -56,7 +56,7 @@ def modules_after(code: str) -> set[str]:
 
 
 def test_help_loads_nothing_heavy() -> None:
-    assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build(plugins=False)")
+    assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build()")
 
 
 def test_make_needs_neither_a_compiler_nor_trimesh(tmp_path: Path) -> None:

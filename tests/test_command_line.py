@@ -48,7 +48,7 @@ class Rings(Pattern):
 
 
 def run(*words: str | Path) -> Any:
-    return CliRunner().invoke(build(plugins=False), [str(word) for word in words])
+    return CliRunner().invoke(build(), [str(word) for word in words])
 
 
 def plain(text: str) -> str:

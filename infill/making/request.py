@@ -191,7 +191,7 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters stand for, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):
-            raise ParameterError(f"{pattern!r} is no pattern; give a name, or a pattern such as Honeycomb(cell=5)")
+            raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
             raise ParameterError(
                 f"{', '.join(parameters)} given beside a ready-made pattern; set parameters where the pattern is made"
