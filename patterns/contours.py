@@ -4,8 +4,8 @@ Step 1. The signs at the nodes of a grid. An edge between two nodes of different
 Step 2. That zero, by halving the edge: on the function itself, so no grid shows in it.
 Step 3. In every cell, zeros are joined in pairs::
 
-        + --o-- -          Two edges: one piece. Four edges (a saddle): the sign at the middle of the
-        |    \  |          cell says which corners hang together.
+        + --o-- -          Two edges: one piece. Four edges (a saddle): the sign where the corners, interpolated,
+        |    \  |          have their saddle says which corners hang together.
         |     `-o
         + ----- +
 
@@ -122,9 +122,10 @@ def _pieces(
     saddle = crossed.all(axis=-1)
     pairs = [place[~saddle][crossed[~saddle]].reshape(-1, 2)]
     i, j, four = i[saddle], j[saddle], place[saddle]
-    middle = value((x[i] + x[i + 1]) / 2, (y[j] + y[j + 1]) / 2) > 0
-    # If the middle is like the lower left corner, lines cut off the lower right and the upper left one.
-    like = (middle == positive[i, j])[:, None]
+    here, right, above, opposite = (value(x[i + m], y[j + n]) for m, n in ((0, 0), (1, 0), (0, 1), (1, 1)))
+    # Is the saddle of the corners, interpolated, like the lower left one? Then lines cut off the lower right and
+    # the upper left one.
+    like = (here * opposite > right * above)[:, None]
     pairs += [np.where(like, four[:, [0, 1]], four[:, [0, 3]]), np.where(like, four[:, [2, 3]], four[:, [1, 2]])]
     return zeros, np.concatenate(pairs)
 

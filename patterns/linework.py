@@ -51,6 +51,15 @@ def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygo
     return MultiLineString(list(kept))
 
 
+def joined(lines: MultiLineString) -> MultiLineString:
+    """Return `lines`, those that share an end in pairs as one: clipping cuts a ring where it begins as well.
+
+    >>> len(joined(MultiLineString([[(0, 0), (1, 0)], [(1, 0), (2, 0)], [(5, 5), (6, 6)]])).geoms)
+    2
+    """
+    return MultiLineString(list(shapely.get_parts(shapely.line_merge(lines))))
+
+
 def framed(lines: MultiLineString, region: Polygon | MultiPolygon) -> MultiLineString:
     """Return `lines` with the outline of `region` added to them."""
     return MultiLineString([*lines.geoms, *shapely.get_parts(shapely.boundary(region))])

@@ -64,11 +64,11 @@ class Pattern(Protocol):
             the print.
         """
         from patterns.contours import zero_lines
-        from patterns.linework import clip, framed
+        from patterns.linework import clip, framed, joined
 
         if not isinstance(self, LevelSet):
             raise PatternError(f"{self.name} gives neither lines nor a level set; give its class one of them")
-        lines = clip(zero_lines(self.level_set, region.bounds, z, self.line_spacing(region)), region)
+        lines = joined(clip(zero_lines(self.level_set, region.bounds, z, self.line_spacing(region)), region))
         return framed(lines, region) if getattr(self, "frame", False) else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
