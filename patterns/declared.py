@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Unit = Literal["mm", "rad", ""]
 UNITS = get_args(Unit)
 SHOWN_UNITS = {"mm": " mm", "rad": " degrees", "": ""}
-TURN_SLACK = 1e-12  # rad: an end of a range in degrees and back may be off by a rounding
+TURN_SLACK = 1e-10  # rad: an end of a range in degrees, in ten digits, and back is off by a rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,11 +71,11 @@ class Parameter:
         low, high = self.limits
         unit = SHOWN_UNITS[self.unit]
         if math.isfinite(low) and math.isfinite(high):
-            return f"from {low:g} to {high:g}{unit}"
+            return f"from {low:.10g} to {high:.10g}{unit}"
         if math.isfinite(low):
-            return f"of at least {low:g}{unit}"
+            return f"of at least {low:.10g}{unit}"
         if math.isfinite(high):
-            return f"of at most {high:g}{unit}"
+            return f"of at most {high:.10g}{unit}"
         return ""
 
 

@@ -16,15 +16,13 @@ def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[s
     """Return ``name=`` for the parameters of the pattern that was typed, then ``name=value`` for a flag among them."""
     from patterns import PATTERNS, parameters
 
-    pattern = context.params.get("pattern") or ""
-    if pattern not in PATTERNS:
+    # While --set waits for its value, arguments are not told from what is left over.
+    pattern = next((word for word in (context.params.get("pattern"), *context.args) if word in PATTERNS), None)
+    if pattern is None:
         return []
-    begun = incomplete.replace("_", "-")
     offered = []
     for name, (field, described) in parameters(PATTERNS[pattern]).items():
-        word = f"{name.replace('_', '-')}="
-        if isinstance(field.default, bool) and begun.startswith(word):
-            offered += [(f"{word}{value}", described.help) for value in ("true", "false")]
-        else:
-            offered.append((word, described.help))
-    return [(word, text) for word, text in offered if word.startswith(begun)]
+        word = f"{name if '_' in incomplete else name.replace('_', '-')}="
+        values = ("true", "false") if isinstance(field.default, bool) and incomplete.startswith(word) else ("",)
+        offered += [(word + value, described.help) for value in values if (word + value).startswith(incomplete)]
+    return offered
