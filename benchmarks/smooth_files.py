@@ -25,7 +25,7 @@ MEDICAL = {
     "femur": "medical/femur.stl",
 }
 SIDE = 180  # cells along the longest side: 1.8 of the 2 that 200 cells span
-KEPT = 100  # voxels: no larger body may be lost
+KEPT = 100  # voxels: no larger component may be lost
 
 
 def readings(result: Result) -> tuple[float, float, float]:
@@ -48,7 +48,7 @@ def paper(folder: Path) -> None:
 
 
 def medical(folder: Path) -> None:
-    print("\n30 steps                 voxels             bodies over 100 voxels, kept   volume   closed   problems")
+    print("\n30 steps                 voxels             components over 100 voxels, kept   volume   closed   problems")
     for name, path in MEDICAL.items():
         mesh = read_mesh(folder / path)
         tell(name, lambda mesh=mesh, **options: smooth_mesh(mesh, resolution=SIDE, **options))
@@ -64,7 +64,7 @@ def tell(name: str, work) -> None:
         result = work(smoothing=Smoothing(steps=30 if not refine else 20), allow_broken=True, refine=refine)
         taken = time.perf_counter() - begin
         report, surface = result.report, result.surface
-        total, kept = kept_bodies(result)
+        total, kept = kept_components(result)
         problems = "; ".join(report["problems"]) or "none"
         print(
             f"{name + (', refined' if refine else ''):<26} {' x '.join(map(str, report['grid'])):<16} "
@@ -73,8 +73,8 @@ def tell(name: str, work) -> None:
         )
 
 
-def kept_bodies(result: Result) -> tuple[int, int]:
-    """Return how many bodies of the data have more than `KEPT` voxels, and at how many of those there is a surface."""
+def kept_components(result: Result) -> tuple[int, int]:
+    """Return how many components of the data exceed `KEPT` voxels, and at how many of those there is a surface."""
     from scipy import ndimage
     from scipy.spatial import cKDTree
 

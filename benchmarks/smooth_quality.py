@@ -27,12 +27,12 @@ from benchmarks.peers.meshers import (
 )
 from benchmarks.solids import Shape, ellipsoid, gyroid, honeycomb, rbox, sphere, torus
 from infill import Smoothing
-from infill.phasefield.refining import refine_blocks
-from infill.phasefield.sparse import smooth_blocks
+from infill.phasefield.refining import refine_bricks
+from infill.phasefield.sparse import smooth_bricks
 from infill.surface import Surface
-from infill.surfaces.components import bodies, data_bits
+from infill.surfaces.components import components, data_bits
 from infill.surfaces.levels import at_volume, straightened
-from infill.surfaces.sparse_marching import extract_blocks
+from infill.surfaces.sparse_marching import extract_bricks
 
 CASES = {build.__name__: (build, 0.0) for build in (sphere, ellipsoid, torus, rbox, gyroid, honeycomb)}
 CASES |= {f"sphere_noise{percent}": (sphere, percent / 100) for percent in (10, 20, 30, 40)}
@@ -40,15 +40,15 @@ CASES |= {f"sphere_noise{percent}": (sphere, percent / 100) for percent in (10, 
 
 def ours(f: Field, steps: int, level: str, *, refine: bool = False) -> Surface:
     """Return the scheme of the paper, or the refined one, at level 0 or at the level of the voxels' volume."""
-    field = (refine_blocks if refine else smooth_blocks)(f > 0, Smoothing(steps=steps))
+    field = (refine_bricks if refine else smooth_bricks)(f > 0, Smoothing(steps=steps))
     cells, half = (1.0, 1.0, 1.0), tuple(n / 2 for n in f.shape)
     if level == "0":
-        surface = extract_blocks(field, spacing=cells)
+        surface = extract_bricks(field, spacing=cells)
     else:
-        solid = bodies(field, data_bits(field))
+        solid = components(field, data_bits(field))
         straight = field if refine else straightened(field)
         found = at_volume(straight, solid, spacing=cells, targets=solid.cells.astype(np.float64))
-        surface = extract_blocks(
+        surface = extract_bricks(
             straight, spacing=cells, level=found.common
         )  # specks of noise get no level of their own
     return Surface(vertices=surface.vertices - half, faces=surface.faces)

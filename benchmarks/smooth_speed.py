@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from benchmarks.pairs import row
 from infill import Smoothing
-from infill.phasefield.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_bricks
 from infill.surfaces.levels import at_volume, counted
-from infill.surfaces.sparse_marching import extract_blocks
+from infill.surfaces.sparse_marching import extract_bricks
 
 SMOOTHING = Smoothing(steps=10)
 UNIT = (1.0, 1.0, 1.0)
@@ -38,12 +38,12 @@ def ball(n: int) -> NDArray[np.bool_]:
 
 def ours(f: NDArray[np.bool_]) -> int:
     """Smooth and mesh at level 0."""
-    return len(extract_blocks(smooth_blocks(f, SMOOTHING), spacing=UNIT).faces)
+    return len(extract_bricks(smooth_bricks(f, SMOOTHING), spacing=UNIT).faces)
 
 
 def ours_volume(f: NDArray[np.bool_]) -> int:
     """Smooth and mesh at the level of the data's volume."""
-    data, field, guess = counted(smooth_blocks(f, SMOOTHING), spacing=UNIT)
+    data, field, guess = counted(smooth_bricks(f, SMOOTHING), spacing=UNIT)
     found = at_volume(field, data, spacing=UNIT, targets=data.cells.astype(np.float64), guess=guess)
     return len(found.surface.faces)
 

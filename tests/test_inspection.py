@@ -62,7 +62,7 @@ def test_a_box_is_printable() -> None:
         (joined(BOX, moved(with_faces(BOX, BOX.faces[:, ::-1]), 20)), "inside out"),
         (sharing_vertices(joined(BOX, moved(BOX, 10, 10))), "1 edge"),
     ],
-    ids=["hole", "inside out", "one turned", "double", "one body inside out", "touching edge"],
+    ids=["hole", "inside out", "one turned", "double", "one component inside out", "touching edge"],
 )
 def test_what_is_not_printable(mesh: trimesh.Trimesh, says: str) -> None:
     found = check(mesh)
@@ -102,7 +102,7 @@ def test_what_is_no_mesh_is_told(faces: np.ndarray) -> None:
         check(trimesh.Scene(BOX))
 
 
-def test_bodies_that_overlap_are_a_warning() -> None:
+def test_components_that_overlap_are_a_warning() -> None:
     found = check(joined(BOX, moved(BOX, 5, 4, 3)))
     assert found.printable
     assert found.self_intersections > 0

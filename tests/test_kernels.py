@@ -136,7 +136,7 @@ def test_fast_kernels_agree_on_any_shape(
 def test_sparse_is_dense_to_the_last_bit(
     shape: tuple[int, ...], seed: int, steps: int, fidelity: float, feature: float, spacing: Any, extra: set[str]
 ) -> None:
-    """Shapes that are no multiple of a block, steps beyond a block, surfaces at the edge, anisotropy, masks."""
+    """Shapes that are no multiple of a brick, steps beyond a brick, surfaces at the edge, anisotropy, masks."""
     rng = np.random.default_rng(seed)
     f = np.where(ndimage.gaussian_filter(rng.standard_normal(shape), feature) > rng.uniform(-0.05, 0.05), 1.0, -1.0)
     options: dict[str, Any] = {"spacing": spacing[: len(shape)]}
@@ -166,16 +166,16 @@ def test_the_parts_of_one_are_one(decay: float) -> None:
 
 
 def test_far_from_the_surface_nothing_is_kept() -> None:
-    """A half space of 200 cells: ten steps reach two blocks of eight on either side of the surface at most."""
-    from infill.kernels.sparse import SOLID_BLOCK, VOID_BLOCK
-    from infill.phasefield.sparse import smooth_blocks
+    """A half space of 200 cells: ten steps reach two bricks of eight on either side of the surface at most."""
+    from infill.kernels.sparse import SOLID_BRICK, VOID_BRICK
+    from infill.phasefield.sparse import smooth_bricks
 
     f = -np.ones((200, 14, 30), dtype=np.int8)
     f[100:] = 1
-    slots = smooth_blocks(f, Smoothing(steps=10)).slots
+    slots = smooth_bricks(f, Smoothing(steps=10)).slots
     assert slots.shape == (26, 2, 2)
-    assert (slots[:9] == VOID_BLOCK).all()
-    assert (slots[17:25] == SOLID_BLOCK).all()
+    assert (slots[:9] == VOID_BRICK).all()
+    assert (slots[17:25] == SOLID_BRICK).all()
     assert (slots[12:13] >= 0).all()
 
 

@@ -20,8 +20,8 @@ from patterns import ConcentricHeart, Honeycomb, Pattern, PatternError
 STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}
 
 
-def predicted_bodies_and_holes(stamp: np.ndarray) -> tuple[int, int, int]:
-    """Count bodies of the stamp, and the fewest and most holes that may be left of it, by scipy alone.
+def predicted_components_and_holes(stamp: np.ndarray) -> tuple[int, int, int]:
+    """Count components of the stamp, and the fewest and most holes that may be left of it, by scipy alone.
 
     A hole with room for 3x3 cells stays; without, it may close. A neck of a hole may be cut.
     """
@@ -50,9 +50,9 @@ def test_the_designs_are_printable_at_many_sizes(name: str, size: Any, cell: flo
     assert mesh.body_count == (hearts if name == "concentric-heart" else 1)
     assert mesh.euler_number == report["euler_number"] == 2 * report["result"]["euler_number"]
     # A neck of a void may be cut or not: then the rooms on its sides are two holes, or one.
-    bodies, fewest, most = predicted_bodies_and_holes(result.fields["stamp"])
-    assert bodies == mesh.body_count
-    assert fewest <= bodies - mesh.euler_number // 2 <= most
+    components, fewest, most = predicted_components_and_holes(result.fields["stamp"])
+    assert components == mesh.body_count
+    assert fewest <= components - mesh.euler_number // 2 <= most
     expected = [min(size)] * 2 if name == "concentric-heart" else list(size)
     assert mesh.extents == pytest.approx([*expected, 4], abs=report["spacing"])
     assert report["problems"] == []
@@ -104,7 +104,7 @@ def test_the_report_tells_the_truth(name: str) -> None:
         assert report[key] == {
             "components": counts.components, "holes": counts.holes, "euler_number": counts.euler_number
         }  # fmt: skip
-    # The rims of a body 600 mm tall do not count.
+    # The rims of a component 600 mm tall do not count.
     tall = [extrude(result.fields[field], 600, 0.15).volume for field in ("smoothed", "stamp")]
     assert report["volume_change"] == pytest.approx(tall[0] / tall[1] - 1, abs=2e-4)
     assert set(report["seconds"]) == STAGES

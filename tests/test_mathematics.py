@@ -44,21 +44,21 @@ def width_over_root_two(smoothing: Smoothing) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Problem:
-    """A field under one set of parameters; `bodies` leading axes tell fields apart, and nothing flows along them."""
+    """A field under one set of parameters; `components` leading axes tell fields apart, and nothing flows along them."""
 
     f: np.ndarray
     smoothing: Smoothing
     spacing: tuple[float, ...]
     mask: np.ndarray | None = None
-    bodies: int = 0
+    components: int = 0
 
     @property
     def weights(self) -> tuple[float, ...]:
-        return (0.0,) * self.bodies + self.smoothing.weights(self.spacing)
+        return (0.0,) * self.components + self.smoothing.weights(self.spacing)
 
     def total(self, density: np.ndarray) -> np.ndarray:
         inside = density if self.mask is None else np.where(self.mask, density, 0)
-        return inside.sum(axis=tuple(range(self.bodies, density.ndim)))
+        return inside.sum(axis=tuple(range(self.components, density.ndim)))
 
     def diffusion(self, phi: np.ndarray) -> np.ndarray:
         return self.total(-phi * laplacian(phi, self.weights, self.mask) / (2 * self.smoothing.alpha))
@@ -309,14 +309,14 @@ def measured_energy(fidelity: float, steps: int = 500) -> tuple[str, str, str]:
     """In how many of the fields the energy rises, when first, and the largest sum of rises over the fall."""
     first, share = [], []
     for f in fields():
-        problem = Problem(f=f, smoothing=Smoothing(fidelity=fidelity), spacing=(1.0,) * (f.ndim - 1), bodies=1)
+        problem = Problem(f=f, smoothing=Smoothing(fidelity=fidelity), spacing=(1.0,) * (f.ndim - 1), components=1)
         energy = np.array([problem.energy(phi) for phi in (f, *problem.states(steps))])
         rise = np.maximum(np.diff(energy, axis=0), 0)
         fall = energy[0] - energy.min(axis=0)
         rise[rise < 1e-11 * fall] = 0  # rounding: real ones are over 1e-9, others under 1e-12
-        for body in np.flatnonzero(rise.any(axis=0)):
-            first.append(int(np.argmax(rise[:, body] > 0)) + 1)
-            share.append(rise[:, body].sum() / fall[body])
+        for component in np.flatnonzero(rise.any(axis=0)):
+            first.append(int(np.argmax(rise[:, component] > 0)) + 1)
+            share.append(rise[:, component].sum() / fall[component])
     return (f"{len(first)} of 19", str(min(first)), f"{max(share):.0e}") if first else ("0 of 19", NEVER, "0")
 
 

@@ -80,8 +80,8 @@ def test_ply_of_any_order_and_columns(encoding: str, tmp_path: Path) -> None:
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     )
     if encoding == "ascii":
-        body = "1\n2\n" + "".join(f"9 {z!r} {x!r} 0.5 {y!r}\n" for x, y, z in POINTS.tolist()) + "3 0 1 2\n"
-        content = (header + body).encode()
+        component = "1\n2\n" + "".join(f"9 {z!r} {x!r} 0.5 {y!r}\n" for x, y, z in POINTS.tolist()) + "3 0 1 2\n"
+        content = (header + component).encode()
     else:
         order = "<" if "little" in encoding else ">"
         rows = b"".join(struct.pack(f"{order}Bddfd", 9, z, x, 0.5, y) for x, y, z in POINTS)

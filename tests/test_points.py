@@ -61,8 +61,8 @@ def test_enclosed_is_what_a_flood_does_not_reach(seed: int, density: float) -> N
     from scipy import ndimage
 
     solid = np.pad(np.random.default_rng(seed).random((7, 6, 5)) < density, 1)
-    body, _ = ndimage.label(~solid)
-    assert np.array_equal(enclosed(solid), (body != body[0, 0, 0]) & ~solid)
+    component, _ = ndimage.label(~solid)
+    assert np.array_equal(enclosed(solid), (component != component[0, 0, 0]) & ~solid)
 
 
 @pytest.mark.parametrize("shell", [None, 3.0])

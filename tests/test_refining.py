@@ -1,4 +1,4 @@
-"""Refined smoothing: its laws, the blocks against the specification, and what it is for."""
+"""Refined smoothing: its laws, the bricks against the specification, and what it is for."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from infill.phasefield.profile import REFINED
 from infill.phasefield.refining import (
     FILTERS,
     Schedule,
-    filtered_blocks,
+    filtered_bricks,
     filtered_reference,
-    refine_blocks,
+    refine_bricks,
     refine_reference,
 )
-from infill.phasefield.sparse import SparseField, smooth_blocks
+from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.smoothing.placing import field_volume
 from infill.surface import Surface
-from infill.surfaces.components import bodies, data_bits
+from infill.surfaces.components import components, data_bits
 from infill.surfaces.levels import at_volume, straightened
 
 TWENTY = Smoothing(steps=20)
@@ -30,7 +30,7 @@ CELLS = REFINED.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for
 
 
 def blobs(shape: tuple[int, ...], seed: int = 1, width: float = 3) -> np.ndarray:
-    """Solid of some bodies, rounded, that touches the edges of the grid."""
+    """Solid of some components, rounded, that touches the edges of the grid."""
     return gaussian_filter(np.random.default_rng(seed).normal(size=shape), width) > 0.01
 
 
@@ -50,7 +50,7 @@ def box(points: list[np.ndarray], half: tuple[float, ...], radius: float) -> np.
 
 def surface_of(field: SparseField) -> Surface:
     """The surface of the volume of the data, about the middle of the grid, in cells."""
-    data = bodies(field, data_bits(field))
+    data = components(field, data_bits(field))
     surface = at_volume(field, data, spacing=(1.0, 1.0, 1.0), targets=data.cells.astype(np.float64)).surface
     return Surface(vertices=surface.vertices - np.array(field.shape) / 2, faces=surface.faces)
 
@@ -73,20 +73,20 @@ def test_filters_leave_long_waves_alone(steps: int) -> None:
 
 def test_fewer_than_four_steps_are_refused() -> None:
     with pytest.raises(ParameterError, match="refining was given 3 steps; it takes at least 4"):
-        refine_blocks(np.ones((3, 3, 3), dtype=bool), Smoothing(steps=3))
+        refine_bricks(np.ones((3, 3, 3), dtype=bool), Smoothing(steps=3))
 
 
 @pytest.mark.parametrize("solid", [True, False])
 def test_uniform_data_are_fixed(solid: bool) -> None:
     sign = 1 if solid else -1
     data = np.full((20, 9, 33), solid)
-    assert (refine_blocks(data, TWENTY).to_dense() == sign).all()
+    assert (refine_bricks(data, TWENTY).to_dense() == sign).all()
     assert filtered_reference(data * 2.0 - 1, TWENTY)[2] == pytest.approx(sign)
 
 
 def test_far_cells_are_plus_and_minus_one_to_the_last_bit() -> None:
     ball = sum(x**2 for x in grid(70, 70, 70)) < 20**2
-    field = refine_blocks(ball, TWENTY).to_dense()
+    field = refine_bricks(ball, TWENTY).to_dense()
     radius = np.sqrt(sum(x**2 for x in grid(70, 70, 70)))
     assert (field[radius < 13] == 1).all()
     assert (field[radius > 27] == -1).all()
@@ -94,7 +94,7 @@ def test_far_cells_are_plus_and_minus_one_to_the_last_bit() -> None:
 
 
 @pytest.mark.parametrize("data", ["bits", "signs", "grey"])
-def test_blocks_filter_as_the_specification(data: str) -> None:
+def test_bricks_filter_as_the_specification(data: str) -> None:
     solid = blobs((37, 30, 50))
     f = solid if data == "bits" else np.where(solid, 1, -1).astype(np.int8)
     exact = np.where(solid, 1.0, -1.0)
@@ -102,17 +102,17 @@ def test_blocks_filter_as_the_specification(data: str) -> None:
         f = exact = np.clip(gaussian_filter(exact, 1) * 1.2, -1, 1)
     for smoothing, spacing in ((TWENTY, 1.0), (Smoothing(steps=6, interface=3), (1.0, 1.0, 1.5))):
         expected = filtered_reference(exact, smoothing, spacing=spacing)
-        found = filtered_blocks(f, smoothing, spacing=spacing)
+        found = filtered_bricks(f, smoothing, spacing=spacing)
         for ours, theirs in zip(found, expected, strict=True):
             assert np.abs(ours.to_dense() - theirs).max() < 1e-5  # rounding of float32, some 1e-6
 
 
 @pytest.mark.parametrize("shape", [(48, 45, 50), (90, 70)])
-def test_blocks_refine_nearly_as_the_specification(shape: tuple[int, ...]) -> None:
+def test_bricks_refine_nearly_as_the_specification(shape: tuple[int, ...]) -> None:
     """Averages come from a coarse lattice: the surface differs by some hundredths of a cell, no more."""
     solid = blobs(shape, width=5)
     exact = refine_reference(np.where(solid, 1.0, -1.0), TWENTY)
-    found = refine_blocks(solid, TWENTY).to_dense().reshape(shape)
+    found = refine_bricks(solid, TWENTY).to_dense().reshape(shape)
     near = np.abs(exact) < 0.2
     difference = (found - exact)[near] * CELLS
     assert np.sqrt((difference**2).mean()) < 0.02
@@ -121,32 +121,32 @@ def test_blocks_refine_nearly_as_the_specification(shape: tuple[int, ...]) -> No
 
 def test_turning_solid_into_void_turns_the_sign() -> None:
     solid = blobs((30, 41, 22))
-    field = refine_blocks(solid, TWENTY).to_dense()
-    assert np.abs(refine_blocks(~solid, TWENTY).to_dense() + field).max() < 1e-6
+    field = refine_bricks(solid, TWENTY).to_dense()
+    assert np.abs(refine_bricks(~solid, TWENTY).to_dense() + field).max() < 1e-6
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
 def test_mirrored_axes(axis: int) -> None:
-    """On a grid that lies on the lattice of blocks in the same way from both ends, a law; on others nearly."""
-    solid = blobs((30, 30, 30))  # 32 with a cell before and one behind: whole blocks
-    field = refine_blocks(solid, TWENTY).to_dense()
-    mirrored = np.flip(refine_blocks(np.flip(solid, axis).copy(), TWENTY).to_dense(), axis)
+    """On a grid that lies on the lattice of bricks in the same way from both ends, a law; on others nearly."""
+    solid = blobs((30, 30, 30))  # 32 with a cell before and one behind: whole bricks
+    field = refine_bricks(solid, TWENTY).to_dense()
+    mirrored = np.flip(refine_bricks(np.flip(solid, axis).copy(), TWENTY).to_dense(), axis)
     assert np.abs(mirrored - field).max() < 1e-5
-    off = np.flip(refine_blocks(np.flip(solid[:, :-1, :-3], axis).copy(), TWENTY).to_dense(), axis)
+    off = np.flip(refine_bricks(np.flip(solid[:, :-1, :-3], axis).copy(), TWENTY).to_dense(), axis)
     near = np.abs(off) < 0.2
-    difference = (off - refine_blocks(solid[:, :-1, :-3].copy(), TWENTY).to_dense())[near] * CELLS
+    difference = (off - refine_bricks(solid[:, :-1, :-3].copy(), TWENTY).to_dense())[near] * CELLS
     assert np.sqrt((difference**2).mean()) < 0.02
 
 
 def test_threads_change_nothing() -> None:
     solid = blobs((40, 40, 60))
-    assert (refine_blocks(solid, TWENTY, threads=1).values == refine_blocks(solid, TWENTY, threads=3).values).all()
+    assert (refine_bricks(solid, TWENTY, threads=1).values == refine_bricks(solid, TWENTY, threads=3).values).all()
 
 
 def test_data_stay_as_they_are_and_progress_is_told() -> None:
     solid = blobs((20, 20, 20))
     kept, told = solid.copy(), []
-    refine_blocks(solid, TWENTY, progress=told.append)
+    refine_bricks(solid, TWENTY, progress=told.append)
     assert (solid == kept).all()
     assert told == [k / 65 for k in range(65)]
 
@@ -155,7 +155,7 @@ def test_a_sphere_is_round() -> None:
     """Plain smoothing to the volume comes to 0.030: an even shift, its one error on a sphere, goes with the level."""
     centre = [0.31, -0.17, 0.43]
     solid = sum((x - c) ** 2 for x, c in zip(grid(66, 66, 66), centre, strict=True)) < 26**2
-    surface = surface_of(refine_blocks(solid, TWENTY))
+    surface = surface_of(refine_bricks(solid, TWENTY))
     distance = np.linalg.norm(surface.vertices - centre, axis=1) - 26
     assert surface.closed
     assert surface.to_trimesh().euler_number == 2
@@ -169,7 +169,7 @@ def test_a_box_keeps_its_edges() -> None:
     half, radius = (28.0, 20.0, 13.0), 5.0
     solid = box(grid(76, 76, 76), half, radius) < 0
     off = []
-    for field in (refine_blocks(solid, TWENTY), straightened(smooth_blocks(solid, TWENTY))):
+    for field in (refine_bricks(solid, TWENTY), straightened(smooth_bricks(solid, TWENTY))):
         surface = surface_of(field)
         distance = box([surface.vertices[:, None, None, axis] for axis in range(3)], half, radius)
         off.append((np.sqrt((distance**2).mean()), np.abs(distance).max()))

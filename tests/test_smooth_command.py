@@ -99,7 +99,7 @@ def test_the_report_is_one_object_on_stdout_and_talk_goes_to_stderr(folder: Path
     assert found["segmentation"]["method"] == "mask"
     assert abs(found["volume_change"]) < 1e-4
     assert read_mesh(folder / "a.stl").volume == pytest.approx(found["volume"], rel=1e-5)
-    for word in ("ball.npy", "closed", "of the data", "voxels", "bodies", "distance", "seconds", "wrote a.stl"):
+    for word in ("ball.npy", "closed", "of the data", "voxels", "components", "distance", "seconds", "wrote a.stl"):
         assert word in result.stderr
     assert report("ball.npy")["files"] == []
 
@@ -259,7 +259,7 @@ def test_specks_are_taken_out_and_counted(folder: Path) -> None:
     result = run("smooth", "specks.npy", "--despeckle", "1", "-o", "a.stl", "--json")
     found = json.loads(result.stdout)
     assert (found["despeckled"], found["data"]["components"], found["result"]["components"]) == (2, 1, 1)
-    assert "2 bodies taken out" in result.stderr
+    assert "2 components taken out" in result.stderr
     assert run("smooth", "ball.npy", "-o", "b.stl").exit_code == 0
     assert (folder / "a.stl").read_bytes() == (folder / "b.stl").read_bytes()
 
@@ -348,7 +348,7 @@ BAD = [
     ("ball.npy --fidelity -1", "fidelity is -1"),
     ("ball.npy --fidelity nan", "fidelity is nan"),
     ("ball.npy --interface 0", "interface is 0; it must be a number from 0.25"),
-    ("ball.npy --despeckle 1e9", r"despeckle is 1e\+09 mm³ and the largest body has .* mm³; give less"),
+    ("ball.npy --despeckle 1e9", r"despeckle is 1e\+09 mm³ and the largest component has .* mm³; give less"),
     ("ball.npy --despeckle -1", "despeckle is -1"),
     ("ball.npy --tolerance 0", "tolerance is 0 mm"),
     ("ball.npy --max-triangles 3", "number of triangles is 3; .* at least 4"),

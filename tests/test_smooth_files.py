@@ -34,7 +34,7 @@ NASTY: dict[str, tuple[str, float, float]] = {
     "huge_150m_inverted.stl": ("", 1e15, 0.03),
     "invalid_vertex.stl": ("a vertex that is not three numbers", 0, 0),
     "metres_part_47um.stl": ("", 2.819e-5, 0.07),
-    "multibody_ascii.stl": ("", 0, 0),  # two bodies, one of them inside out: see its own test
+    "multibody_ascii.stl": ("", 0, 0),  # two components, one of them inside out: see its own test
     "nonmanifold.stl": ("", 1, 0.001),
     "prusa_extruder-cover_nonmanifold.stl": ("", 13490, 0.07),
     "prusa_raspberry_cover_nonmanifold.stl": ("", 2540, 0.2),  # walls of 1.5 mm: one cell
@@ -76,12 +76,12 @@ def test_what_may_be_in_metres_is_questioned(name: str, data: Path, tmp_path: Pa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_bodies_that_face_two_ways_are_both_solid(data: Path) -> None:
+def test_components_that_face_two_ways_are_both_solid(data: Path) -> None:
     mesh = trimesh.load(data / "nasty" / "multibody_ascii.stl", force="mesh")
-    volume = sum(abs(body.convex_hull.volume) for body in mesh.split(only_watertight=False))
+    volume = sum(abs(component.convex_hull.volume) for component in mesh.split(only_watertight=False))
     words = ["--units", "mm", "--resolution", "100", "--json", "--allow-broken"]
     report = json.loads(run("smooth", data / "nasty" / "multibody_ascii.stl", *words).stdout)
-    assert report["repairs"]["bodies"] == 2
+    assert report["repairs"]["components"] == 2
     assert report["result"]["components"] == 2
     assert 0 < report["volume"] <= volume * 1.05
 

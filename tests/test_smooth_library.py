@@ -28,7 +28,7 @@ from infill import (
     smooth_volume,
 )
 from infill.kernels.compiling import told_of_compiling
-from infill.phasefield.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing import solids as smoothing
 
 Solid = NDArray[np.bool_]
@@ -36,7 +36,7 @@ Solid = NDArray[np.bool_]
 FACES = ndimage.generate_binary_structure(3, 1)  # solid is joined by faces
 EDGES = ndimage.generate_binary_structure(3, 2)  # void by faces and edges
 VOLUME = 1e-4  # of the volume: the level is looked for to 1e-5, and 32-bit corners cost the rest
-BODY = 1e-3  # of the volume of one body among several: found to 2e-4
+COMPONENT = 1e-3  # of the volume of one component among several: found to 2e-4
 
 
 def ball(shape: tuple[int, int, int], centre: tuple[float, ...], radius: float) -> Solid:
@@ -61,7 +61,7 @@ def pear() -> Solid:
 
 
 def counted(solid: Solid) -> tuple[int, int]:
-    """Bodies and cavities, by SciPy."""
+    """Components and cavities, by SciPy."""
     outside = np.pad(~solid, 1, constant_values=True)
     return ndimage.label(solid, FACES)[1], ndimage.label(outside, EDGES)[1] - 1
 
@@ -110,8 +110,8 @@ def test_every_solid_gives_a_closed_mesh_and_an_honest_report(solid: Solid, step
     mesh, report = result.mesh, result.report
     assert mesh.is_volume
     assert report["closed"] is True
-    bodies, cavities = counted(solid)
-    assert (report["data"]["components"], report["data"]["cavities"]) == (bodies, cavities)
+    components, cavities = counted(solid)
+    assert (report["data"]["components"], report["data"]["cavities"]) == (components, cavities)
     assert report["data_volume"] == pytest.approx(solid.sum())
     assert report["volume"] == pytest.approx(mesh.volume, rel=1e-6)
     assert report["volume_change"] == pytest.approx(mesh.volume / solid.sum() - 1, abs=1e-6)
@@ -124,7 +124,7 @@ def test_every_solid_gives_a_closed_mesh_and_an_honest_report(solid: Solid, step
     # Nothing leaves the grid but by the half cell that marching cubes may add.
     assert mesh.bounds[0].min() >= -0.5
     assert (mesh.bounds[1] <= np.array(solid.shape) + 0.5).all()
-    if bodies == 1:
+    if components == 1:
         assert abs(report["volume_change"]) <= 5 * VOLUME  # crumbs of a few cells are not found as closely
     json.dumps(report, allow_nan=False)
 
@@ -157,7 +157,7 @@ def test_mirroring_the_data_mirrors_the_mesh(axis: int) -> None:
 @example((1, 0, 0), (0, 0, 0))
 @example((16, 8, 8), (8, 8, 16))
 def test_void_around_the_data_moves_the_mesh_and_nothing_else(before: tuple[int, ...], after: tuple[int, ...]) -> None:
-    """Where the solid stands clear of the edge; the blocks fall in other places."""
+    """Where the solid stands clear of the edge; the bricks fall in other places."""
     solid = np.pad(ball((15, 15, 15), (7, 7, 7), 6) | brick((15, 15, 15), (7, 15), (6, 9), (6, 9)), 8)
     one = smooth_volume(solid)
     other = smooth_volume(np.pad(solid, list(zip(before, after, strict=True))))
@@ -340,7 +340,7 @@ def test_level_volume_keeps_a_ball_and_level_0_shrinks_it(radius: int, steps: in
         assert shrunk.report["level"]["common"] == 0
 
 
-def test_each_of_several_bodies_keeps_its_volume() -> None:
+def test_each_of_several_components_keeps_its_volume() -> None:
     """Far enough apart that none feels another: 30 cells, against 16 at which the equation forgets."""
     shape = (110, 40, 40)
     radii = {18: 12.0, 60: 9.0, 95: 7.0}
@@ -349,20 +349,20 @@ def test_each_of_several_bodies_keeps_its_volume() -> None:
     found = sorted(result.mesh.split(only_watertight=True), key=lambda mesh: float(mesh.centroid[0]))
     assert len(found) == 3
     for mesh, part in zip(found, parts, strict=True):
-        assert mesh.volume == pytest.approx(part.sum(), rel=BODY)
-    assert result.report["level"]["bodies"] == 3
+        assert mesh.volume == pytest.approx(part.sum(), rel=COMPONENT)
+    assert result.report["level"]["components"] == 3
     assert result.report["level"]["lowest"] < result.report["level"]["highest"]
 
 
-def test_a_body_with_a_cavity_and_a_body_in_it() -> None:
+def test_a_component_with_a_cavity_and_a_component_in_it() -> None:
     shape = (50, 50, 50)
     solid = ball(shape, (24.5,) * 3, 22) & ~ball(shape, (24.5,) * 3, 16) | ball(shape, (24.5,) * 3, 8)
     result = smooth_volume(solid)
     assert result.report["data"] == {"components": 2, "cavities": 1, "tunnels": 0, "euler_number": 6}
     assert result.report["result"] == result.report["data"]
-    assert result.mesh.volume == pytest.approx(solid.sum(), rel=BODY)
+    assert result.mesh.volume == pytest.approx(solid.sum(), rel=COMPONENT)
     inner = [mesh for mesh in result.mesh.split(only_watertight=True) if mesh.extents.max() < 20]
-    assert inner[0].volume == pytest.approx(ball(shape, (24.5,) * 3, 8).sum(), rel=BODY)
+    assert inner[0].volume == pytest.approx(ball(shape, (24.5,) * 3, 8).sum(), rel=COMPONENT)
 
 
 def near(gap: int) -> Solid:
@@ -375,7 +375,7 @@ def near(gap: int) -> Solid:
 
 
 @pytest.mark.parametrize("gap", [0, 1, 2, 3, 4, 6])
-def test_bodies_close_to_one_another_do_not_grow(gap: int) -> None:
+def test_components_close_to_one_another_do_not_grow(gap: int) -> None:
     """They may fuse, and the report says so; but the volume is that of the data."""
     result = smooth_volume(near(gap), allow_broken=True)
     assert_printable(result.mesh)
@@ -445,19 +445,21 @@ def with_specks() -> Solid:
     return solid
 
 
-@pytest.mark.parametrize(("largest", "gone", "bodies"), [(0.0, 0, 4), (0.1249, 0, 4), (0.125, 2, 2), (1.0, 3, 1)])
-def test_despeckling_takes_what_is_small_and_nothing_else(largest: float, gone: int, bodies: int) -> None:
+@pytest.mark.parametrize(("largest", "gone", "components"), [(0.0, 0, 4), (0.1249, 0, 4), (0.125, 2, 2), (1.0, 3, 1)])
+def test_despeckling_takes_what_is_small_and_nothing_else(largest: float, gone: int, components: int) -> None:
     """Cells of 0.125 mm³: two specks of one, one of eight."""
     result = smooth_volume(with_specks(), spacing=0.5, despeckle=largest, smoothing=Smoothing(steps=0))
     assert result.report["despeckled"] == gone
-    assert result.report["data"]["components"] == result.report["result"]["components"] == bodies
-    if bodies == 1:
+    assert result.report["data"]["components"] == result.report["result"]["components"] == components
+    if components == 1:
         alone = smooth_volume(ball((40, 40, 40), (19.5,) * 3, 11), spacing=0.5, smoothing=Smoothing(steps=0))
         assert same(result.surface, alone.surface)
 
 
 def test_despeckling_that_would_take_everything_is_an_error() -> None:
-    with pytest.raises(ParameterError, match=r"despeckle is 1e\+06 mm³ and the largest body has 702 mm³; give less"):
+    with pytest.raises(
+        ParameterError, match=r"despeckle is 1e\+06 mm³ and the largest component has 702 mm³; give less"
+    ):
         smooth_volume(with_specks(), spacing=0.5, despeckle=1e6)
     for wrong in (-1.0, math.nan):
         with pytest.raises(ParameterError, match="despeckle is"):
@@ -707,8 +709,8 @@ def test_the_helpers_can_fail() -> None:
     assert counted(shell) == (1, 1)
 
 
-def test_despeckling_takes_whole_bodies_blocks_and_all() -> None:
-    """A body so large that it has blocks that are solid throughout."""
+def test_despeckling_takes_whole_components_blocks_and_all() -> None:
+    """A component so large that it has bricks that are solid throughout."""
     two = np.zeros((130, 70, 70), dtype=bool)
     two[5:55, 5:55, 5:55] = two[62:126, 3:67, 3:67] = True
     result = smooth_volume(two, despeckle=130_000.0, smoothing=Smoothing(steps=5))
@@ -783,7 +785,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture) -> No
     assert caplog.messages == ["compiling all, the first time on this machine only"] * 2
 
 
-@pytest.mark.parametrize("function", [smoothing._smoothed, smooth_blocks])
+@pytest.mark.parametrize("function", [smoothing._smoothed, smooth_bricks])
 def test_nobody_waits_for_a_compiler_untold(function: Any, caplog: pytest.LogCaptureFixture) -> None:
     """What takes seconds to compile is watched: here something that needs compiling is passed in as its progress."""
     import numba
@@ -792,8 +794,8 @@ def test_nobody_waits_for_a_compiler_untold(function: Any, caplog: pytest.LogCap
         numba.njit(lambda x: x + 1)(1)
 
     ball = np.sum((np.indices((12, 12, 12)) - 5.5) ** 2, axis=0) < 9
-    if function is smooth_blocks:
-        smooth_blocks(ball, Smoothing(steps=1), progress=progress)
+    if function is smooth_bricks:
+        smooth_bricks(ball, Smoothing(steps=1), progress=progress)
     else:
         smooth_volume(ball, smoothing=Smoothing(steps=1), progress=progress)
     assert len(caplog.messages) == 1

@@ -1,4 +1,4 @@
-"""The surface of blocks is that of the whole field; it is closed, and cost grows with the surface."""
+"""The surface of bricks is that of the whole field; it is closed, and cost grows with the surface."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from scipy.spatial import cKDTree
 
 from infill import GeometryError, Smoothing
 from infill.kernels.sparse_marching import UNDECIDED
-from infill.phasefield.sparse import SparseField, smooth_blocks
+from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
 from infill.surfaces.components import data_bits
 from infill.surfaces.levels import volume_of
@@ -18,7 +18,7 @@ from infill.surfaces.marching import extract
 from infill.surfaces.sparse_marching import (
     cube_table,
     euler_number_of_bits,
-    extract_blocks,
+    extract_bricks,
     extract_level,
     measured,
     raw_counts,
@@ -38,9 +38,9 @@ def same(one: Surface, other: Surface) -> bool:
 
 
 def both(f: np.ndarray, steps: int, level: float = 0.0) -> tuple[Surface, Surface]:
-    field = smooth_blocks(f, Smoothing(steps=steps))
+    field = smooth_bricks(f, Smoothing(steps=steps))
     whole = extract(field.to_dense(), spacing=UNIT, origin=NOTHING, level=level)
-    return extract_blocks(field, spacing=UNIT, level=level), whole
+    return extract_bricks(field, spacing=UNIT, level=level), whole
 
 
 def test_the_comparison_can_fail(rng: np.random.Generator) -> None:
@@ -66,10 +66,10 @@ def test_it_is_the_surface_of_the_whole_field(
     """Random cells have every cube that signs do not decide, and touch every edge of the grid."""
     f = np.random.default_rng(seed).random(shape) < density
     f[0, 0, 0] = True
-    field = smooth_blocks(f, Smoothing(steps=steps))
+    field = smooth_bricks(f, Smoothing(steps=steps))
     if not (field.to_dense() > level).any():
         with pytest.raises(GeometryError, match="nothing is left above the level"):
-            extract_blocks(field, spacing=UNIT, level=level)
+            extract_bricks(field, spacing=UNIT, level=level)
         return
     one, other = both(f, steps, level)
     assert same(one, other)
@@ -79,7 +79,7 @@ def test_it_is_the_surface_of_the_whole_field(
 
 @pytest.mark.parametrize("shape", [(6, 6, 14), (7, 7, 15), (8, 8, 16), (14, 30, 31), (15, 31, 47), (16, 32, 48)])
 def test_solid_up_to_the_edge_is_closed_there(shape: tuple[int, int, int]) -> None:
-    """Grids that end one cell before, at and behind the end of a block."""
+    """Grids that end one cell before, at and behind the end of a brick."""
     one, other = both(np.ones(shape, dtype=bool), 2)
     assert same(one, other)
     assert one.volume == pytest.approx(np.prod(shape), rel=0.03)  # edges are cut off
@@ -87,22 +87,22 @@ def test_solid_up_to_the_edge_is_closed_there(shape: tuple[int, int, int]) -> No
 
 
 def test_spacing_and_origin_place_it(rng: np.random.Generator) -> None:
-    field = smooth_blocks(rng.random((20, 20, 20)) < 0.3, Smoothing(steps=2), spacing=(0.25, 0.5, 0.75))
-    plain = extract_blocks(field, spacing=UNIT)
-    placed = extract_blocks(field, spacing=(0.25, 0.5, 0.75), origin=(10, -20, 3))
+    field = smooth_bricks(rng.random((20, 20, 20)) < 0.3, Smoothing(steps=2), spacing=(0.25, 0.5, 0.75))
+    plain = extract_bricks(field, spacing=UNIT)
+    placed = extract_bricks(field, spacing=(0.25, 0.5, 0.75), origin=(10, -20, 3))
     assert np.allclose(placed.vertices, plain.vertices * (0.25, 0.5, 0.75) + (10, -20, 3))
 
 
 def test_threads_do_not_change_it(rng: np.random.Generator) -> None:
-    field = smooth_blocks(rng.random((40, 40, 40)) < 0.3, Smoothing(steps=2), threads=1)
-    one, three = (extract_blocks(field, spacing=UNIT, threads=n) for n in (1, 3))
+    field = smooth_bricks(rng.random((40, 40, 40)) < 0.3, Smoothing(steps=2), threads=1)
+    one, three = (extract_bricks(field, spacing=UNIT, threads=n) for n in (1, 3))
     assert np.array_equal(one.vertices, three.vertices)
     assert np.array_equal(one.faces, three.faces)
 
 
 def test_the_rate_tells_how_vertices_move() -> None:
     x = np.indices((24, 24, 24)) - 11.5
-    field = smooth_blocks((x**2).sum(axis=0) < 64, Smoothing(steps=6))
+    field = smooth_bricks((x**2).sum(axis=0) < 64, Smoothing(steps=6))
     step = 1e-3
     low, high = (extract_level(field, spacing=UNIT, level=level) for level in (0.05, 0.05 + step))
     assert np.array_equal(low.surface.faces, high.surface.faces)
@@ -126,29 +126,29 @@ def test_the_table_knows_the_cubes_that_signs_do_not_decide() -> None:
 @pytest.mark.parametrize("density", [0.2, 0.5, 0.8, 0.97])
 def test_the_euler_number_of_bits_is_that_of_their_surface(density: float, rng: np.random.Generator) -> None:
     f = rng.random((20, 33, 50)) < density
-    field = smooth_blocks(f, Smoothing(steps=3))
+    field = smooth_bricks(f, Smoothing(steps=3))
     raw = extract(np.where(f, np.float32(1), np.float32(-1)), spacing=UNIT, origin=NOTHING)
     assert euler_number_of_bits(field, data_bits(field)) == raw.euler_number
 
 
-def test_a_thousandfold_volume_costs_blocks_at_the_surface_only() -> None:
-    """A small ball in a large grid keeps the same blocks as in a small one."""
+def test_a_thousandfold_volume_costs_bricks_at_the_surface_only() -> None:
+    """A small ball in a large grid keeps the same bricks as in a small one."""
 
     def kept(n: int) -> SparseField:
         f = np.zeros((n, n, n), dtype=np.int8) - 1
         f[16:32, 16:32, 16:32] = 1
-        return smooth_blocks(f, Smoothing(steps=10))
+        return smooth_bricks(f, Smoothing(steps=10))
 
     small, large = kept(60), kept(300)
     assert len(large.where) == len(small.where)
-    assert same(extract_blocks(large, spacing=UNIT), extract_blocks(small, spacing=UNIT))
+    assert same(extract_bricks(large, spacing=UNIT), extract_bricks(small, spacing=UNIT))
 
 
 def test_int8_booleans_and_floats_give_the_same_bits(rng: np.random.Generator) -> None:
     solid = rng.random((17, 19, 33)) < 0.4
     signs = np.where(solid, 1, -1)
     fields = [
-        smooth_blocks(f, Smoothing(steps=5)).to_dense()
+        smooth_bricks(f, Smoothing(steps=5)).to_dense()
         for f in (solid, signs.astype(np.int8), signs.astype(np.float32), signs.astype(np.int64))
     ]
     assert all(np.array_equal(fields[0], other) for other in fields[1:])
@@ -157,12 +157,12 @@ def test_int8_booleans_and_floats_give_the_same_bits(rng: np.random.Generator) -
 def test_a_surface_is_measured_as_it_is_made(monkeypatch: pytest.MonkeyPatch) -> None:
     """Volume and slope without the surface, where it is large: made small here."""
     x = np.indices((30, 30, 40)) - np.array([14.2, 15.1, 19.7])[:, None, None, None]
-    field = smooth_blocks((x**2).sum(axis=0) < 121, Smoothing(steps=8), spacing=(0.5, 0.5, 0.4))
+    field = smooth_bricks((x**2).sum(axis=0) < 121, Smoothing(steps=8), spacing=(0.5, 0.5, 0.4))
     assert measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02) is None
     monkeypatch.setattr("infill.surfaces.sparse_marching.LARGE", 0)
     volume, slope = measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02, threads=2)
     made = extract_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02)
     assert volume == pytest.approx(made.surface.volume, rel=1e-9)
     assert slope == pytest.approx(volume_of(made, 1)[1], rel=1e-6)
-    rough = smooth_blocks(np.random.default_rng(0).random((20, 20, 20)) < 0.4, Smoothing(steps=1))
+    rough = smooth_bricks(np.random.default_rng(0).random((20, 20, 20)) < 0.4, Smoothing(steps=1))
     assert measured(rough, spacing=UNIT, level=0.0) is None  # signs do not decide every cube

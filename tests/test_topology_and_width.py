@@ -25,7 +25,7 @@ def drawn(text: str) -> np.ndarray:
 
 
 def flooded(inside: np.ndarray, corners: bool) -> int:
-    """Count bodies by walking from cell to cell."""
+    """Count components by walking from cell to cell."""
     left = {tuple(cell) for cell in np.argwhere(inside)}
     steps = [(1, 0), (-1, 0), (0, 1), (0, -1)] + ([(1, 1), (1, -1), (-1, 1), (-1, -1)] if corners else [])
     count = 0

@@ -73,7 +73,7 @@ def winding(of: Surface, points: np.ndarray) -> np.ndarray:
 
 
 def closed_mesh(seed: int, points: int) -> Surface:
-    """Random corners joined as a convex body is: closed, and through itself in many places."""
+    """Random corners joined as a convex component is: closed, and through itself in many places."""
     rng = np.random.default_rng(seed)
     on_ball = rng.normal(size=(points, 3))
     hull = trimesh.convex.convex_hull(on_ball / np.linalg.norm(on_ball, axis=1)[:, None])
@@ -178,7 +178,7 @@ def test_overlapping_balls_are_united(turned: tuple[bool, bool]) -> None:
     apart = np.abs(winding(surface(ball()), centres(reference)[::997])) > 0.5
     apart |= np.abs(winding(surface(ball(at=(12, 0, 0))), centres(reference)[::997])) > 0.5
     assert np.array_equal(reference.values.ravel()[::997], apart)
-    assert both[1].bodies == 2
+    assert both[1].components == 2
 
 
 @pytest.mark.parametrize("all_inward", [False, True])
@@ -250,7 +250,7 @@ def test_cracks_change_nothing(rng: np.random.Generator) -> None:
     )
     volume, repairs = voxelise_reported(apart, voxel=1.03)
     assert np.array_equal(volume.values, voxelise(surface(BALL), voxel=1.03).values)
-    assert repairs.bodies == 1
+    assert repairs.components == 1
 
 
 def test_a_pipe_without_ends_is_filled() -> None:
@@ -364,7 +364,7 @@ def test_an_open_mesh_is_the_same_mesh_filled(data: Path) -> None:
 def test_overlapping_bones_are_united(data: Path) -> None:
     mesh = read_mesh(data / "medical/foot_right_bodyparts3d.stl")
     volume, repairs = voxelise_reported(mesh, resolution=40)
-    assert (repairs.bodies, repairs.turned, repairs.holes) == (24, 0, 0)
+    assert (repairs.components, repairs.turned, repairs.holes) == (24, 0, 0)
     some = np.random.default_rng(4).choice(volume.values.size, 20, replace=False)
     some = np.concatenate([some, np.flatnonzero(volume.values.ravel())[::50][:30]])
     assert np.array_equal(volume.values.ravel()[some], np.abs(winding(mesh, centres(volume)[some])) > 0.5)

@@ -41,8 +41,8 @@ class Smoothed:
     seconds: float = 0.0
 
     @property
-    def bodies(self) -> int:
-        """Bodies of solid, which hang together by faces of cells."""
+    def components(self) -> int:
+        """Components of solid, which hang together by faces of cells."""
         return label(self.phi > 0)[1]
 
 
@@ -71,7 +71,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 ours=f"{change['ours']:+.2%} (data {change['data']:+.2%})", peer=f"Choi {change['Choi']:+.2%}",
             ),
             Row(
-                what=f"{name}: bodies / Euler number of the surface",
+                what=f"{name}: components / Euler number of the surface",
                 ours=f"{told(found['ours'])} (data {told(found['data'])}, without noise {told_clean(clean)})",
                 peer=f"Choi {told(found['Choi'])}",
             ),
@@ -85,7 +85,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             numbers |= {
                 f"{name}, {which}: mse": spread[which],
                 f"{name}, {which}: volume": change[which],
-                f"{name}, {which}: bodies": one.bodies,
+                f"{name}, {which}: components": one.components,
                 f"{name}, {which}: Euler number": one.surface.euler_number,
                 f"{name}, {which}: seconds": one.seconds,
             }
@@ -128,12 +128,12 @@ def both(f: shapes.Field) -> dict[str, Smoothed]:
 
 
 def told(one: Smoothed) -> str:
-    """Return bodies and Euler number."""
-    return f"{one.bodies} / {one.surface.euler_number}"
+    """Return components and Euler number."""
+    return f"{one.components} / {one.surface.euler_number}"
 
 
 def told_clean(clean: shapes.Field) -> str:
-    """Return bodies and Euler number of the voxels without noise."""
+    """Return components and Euler number of the voxels without noise."""
     return told(Smoothed(phi=clean, surface=surface_of(clean)))
 
 
@@ -168,13 +168,13 @@ def sentence(names: tuple[str, ...], numbers: dict[str, float]) -> str:
         return " and ".join(f"{value:{digits}}" for value in values)
 
     longer = listed([theirs / own for own, theirs in both_of("seconds")], ".0f")
-    bodies = both_of("bodies")
-    single = [all(pair[n] == 1 for pair in bodies) for n in range(2)]
+    components = both_of("components")
+    single = [all(pair[n] == 1 for pair in components) for n in range(2)]
     clean = {
-        (True, True): "Both leave one body",
-        (True, False): "Ours leaves one body, Choi's more",
-        (False, True): "Choi's leaves one body, ours more",
-        (False, False): "Both leave more than one body",
+        (True, True): "Both leave one component",
+        (True, False): "Ours leaves one component, Choi's more",
+        (False, True): "Choi's leaves one component, ours more",
+        (False, False): "Both leave more than one component",
     }[single[0], single[1]]
     volume = both_of("volume")
     less = all(own < theirs for own, theirs in volume)

@@ -46,7 +46,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 ours=f"{bend['smoothed']:.2f} (stamp {bend['stamp']:.2f}); exact stamp {bend['exact']:.2f}",
             ),
             Row(
-                paper=PICTURE_ONLY, what=f"{name}: closed, bodies, holes",
+                paper=PICTURE_ONLY, what=f"{name}: closed, components, holes",
                 ours=f"{'closed' if report['closed'] else 'OPEN'}, "
                 f"{report['result']['components']}, {report['result']['holes']} (stamp {report['stamp']['holes']})",
             ),
@@ -63,7 +63,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         name="fig17_18",
         title="Figs. 17 and 18: the three patterns",
         setting=(
-            f"Blocks of {size} × {size} × 4 mm, cells of 0.15 mm, lines of 0.45 mm, 3 × 3 stamps, 10 steps, λh² = 0.01."
+            f"Bricks of {size} × {size} × 4 mm, cells of 0.15 mm, lines of 0.45 mm, 3 × 3 stamps, 10 steps, λh² = 0.01."
         ),
         rows=tuple(rows),
         sentence=(

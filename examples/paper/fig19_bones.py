@@ -71,7 +71,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 peer=f"surface nets (VTK) {spread['nets']:.3f}" if "nets" in spread else "VTK is not installed",
             ),
             Row(
-                what=f"{name}: bodies, cavities, tunnels; volume, change",
+                what=f"{name}: components, cavities, tunnels; volume, change",
                 paper=PICTURE_ONLY,
                 ours="{components}, {cavities}, {tunnels} ".format(**report["result"])
                 + "(data {components}, {cavities}, {tunnels}); ".format(**report["data"])

@@ -10,7 +10,7 @@ from scipy import fft
 from benchmarks.peers import cahn_hilliard
 from examples.paper import shapes
 from infill import Smoothing, smooth
-from infill.phasefield.sparse import smooth_blocks
+from infill.phasefield.sparse import smooth_bricks
 
 STEPS, ROUNDS = 10, 3
 OURS, PEER = Smoothing.paper(steps=STEPS), cahn_hilliard.CahnHilliard(steps=STEPS)
@@ -24,7 +24,7 @@ def methods(f: shapes.Field) -> dict[str, Callable[[], Any]]:
     solid, double = f > 0, f.astype(np.float64)
     few = Smoothing.paper(steps=FEW)
     return {
-        SPARSE: lambda: smooth_blocks(solid, OURS),
+        SPARSE: lambda: smooth_bricks(solid, OURS),
         DENSE: lambda: smooth(f, OURS, method="dense"),
         CHOI: lambda: cahn_hilliard.smooth(f, PEER),
         PLAIN: lambda: smooth(double, few, method="numpy"),

@@ -66,7 +66,7 @@ def whole_walls(thicknesses: Sequence[int]) -> Field:
 
 
 def states(f: Field, smoothing: Smoothing) -> Iterator[Field]:
-    """Yield the field after 1, 2, ... steps; nothing flows along the first two axes, which tell bodies apart."""
+    """Yield the field after 1, 2, ... steps; nothing flows along the first two axes, which tell components apart."""
     weights = (0.0, 0.0, *smoothing.weights((1.0,) * (f.ndim - 2)))
     phi = f
     while True:
@@ -92,12 +92,12 @@ def sizes(phi: Field) -> Field:
 
 
 def history(f: Field, fidelity: float, steps: int) -> Field:
-    """Return the size of each body after 1 to `steps` steps, (t, p, steps)."""
+    """Return the size of each component after 1 to `steps` steps, (t, p, steps)."""
     return np.stack([sizes(phi) for phi in islice(states(f, Smoothing(fidelity=fidelity)), steps)], axis=-1)
 
 
 def left(f: Field, thicknesses: Field, fidelity: float, steps: int) -> Field:
-    """Return what share of its size is left of each body, at its worst place, (t, steps).
+    """Return what share of its size is left of each component, at its worst place, (t, steps).
 
     In the data a wall whose edges lie inside cells reads up to a sixth of a cell too thick or too thin, which smoothing
     mends: what is left is of the true size, or of what the data read if that is less.

@@ -90,7 +90,7 @@ def smooth(
         bool, typer.Option("--grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
     ] = False,
     despeckle: Annotated[
-        float, typer.Option(help="Take out bodies up to this volume first, mm³.", rich_help_panel=SOLID)
+        float, typer.Option(help="Take out components up to this volume first, mm³.", rich_help_panel=SOLID)
     ] = 0.0,
     steps: Annotated[
         int, typer.Option(help="Smoothing steps: 20 for models, 30 for medical data.", rich_help_panel=SURFACE)
@@ -116,7 +116,8 @@ def smooth(
     level: Annotated[
         str,
         typer.Option(
-            help="volume: each body keeps its volume; 0: the paper's surface, which shrinks.", rich_help_panel=SURFACE
+            help="volume: each part keeps its volume; 0: the paper's surface, which shrinks.",
+            rich_help_panel=SURFACE,
         ),
     ] = "volume",
     tolerance: Annotated[
@@ -212,7 +213,7 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
     now, was, level, change = report["result"], report["data"], report["level"], report["changes"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     moved = report["distance"]
-    own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its bodies" if level["bodies"] > 1 else ""
+    own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     how = ", refined" if report["refined"] else f", fidelity {report['fidelity']:g}"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
@@ -220,7 +221,7 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
         f"at level {level['common']:.3f}{own}",
         "smoothing": f"{report['steps']} steps{how}, "
         f"{' x '.join(map(str, report['grid']))} voxels of {' x '.join(f'{h:.4g}' for h in report['spacing'])} mm",
-        "bodies": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
+        "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
         "distance": f"{moved['result']['rms']:.3g} mm rms, {moved['result']['max']:.3g} mm at most, "
         f"from the {moved['from']}",
@@ -229,7 +230,7 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
     if gone:
         rows["gone"] = f"{gone} specks or flakes one voxel thick"
     if report["despeckled"]:
-        rows["despeckled"] = f"{report['despeckled']} bodies taken out"
+        rows["despeckled"] = f"{report['despeckled']} components taken out"
     if "simplified" in report:
         cost = report["simplified"]
         rows["simplified"] = (

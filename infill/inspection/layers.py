@@ -25,9 +25,9 @@ class Topology:
     Parameters
     ----------
     components : int
-        Bodies of solid.
+        Components of solid.
     holes : int
-        Bodies of void that solid encloses.
+        Components of void that solid encloses.
     """
 
     components: int
@@ -41,14 +41,14 @@ class Topology:
 
 @dataclass(frozen=True, kw_only=True)
 class Regions:
-    """Every cell of a layer in a shell of void, numbered by the body it belongs to.
+    """Every cell of a layer in a shell of void, numbered by the component it belongs to.
 
     Parameters
     ----------
     solid : (nx + 2, ny + 2) int
-        1, 2 … in the bodies of solid, 0 in the void.
+        1, 2 … in the components of solid, 0 in the void.
     void : (nx + 2, ny + 2) int
-        The same for the void; the outside is one of its bodies.
+        The same for the void; the outside is one of its components.
     """
 
     solid: NDArray[np.integer]
@@ -56,22 +56,22 @@ class Regions:
 
     @property
     def topology(self) -> Topology:
-        """Count the bodies."""
+        """Count the components."""
         return Topology(components=int(self.solid.max()), holes=int(self.void.max()) - 1)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Changes:
-    """What smoothing did to the bodies of a layer.
+    """What smoothing did to the components of a layer.
 
     Parameters
     ----------
     broken : int
         Walls that let two voids run together, or fell apart, or got a hole.
     vanished, appeared : int
-        Bodies of solid that are gone, or new.
+        Components of solid that are gone, or new.
     fused : int
-        Bodies of solid that ran together, or walls that met across a void and cut it in two.
+        Components of solid that ran together, or walls that met across a void and cut it in two.
     closed : int
         Holes that are gone.
     pinholes : int
@@ -92,11 +92,11 @@ class Changes:
 
 
 def regions(layer: NDArray[np.floating]) -> Regions:
-    """Return a layer (nx, ny) with its bodies of solid and of void numbered."""
+    """Return a layer (nx, ny) with its components of solid and of void numbered."""
     field = np.pad(layer, 1, constant_values=VOID)
     solid = field > 0
     joined, parted = _saddles(field, solid)
-    return Regions(solid=_bodies(solid, joined), void=_bodies(~solid, parted))
+    return Regions(solid=_components(solid, joined), void=_components(~solid, parted))
 
 
 def topology(layer: NDArray[np.floating]) -> Topology:
@@ -109,7 +109,7 @@ def topology(layer: NDArray[np.floating]) -> Topology:
 
 
 def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Changes:
-    """Compare two states of the same layer, body by body.
+    """Compare two states of the same layer, component by component.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     """
     held, voids = _overlaps(before.solid, after.solid), _overlaps(before.void, after.void)
     room = _opened(before.void > 0, min(PINHOLE, line_cells))
-    cores = _bodies(room, np.empty((0, 2), dtype=np.intp))
+    cores = _components(room, np.empty((0, 2), dtype=np.intp))
     wide = np.zeros(voids.shape[0], dtype=bool)
     wide[np.unique(before.void[room]) - 1] = True
     wide[before.void[0, 0] - 1] = True  # the outside, of which only a shell is seen
@@ -183,8 +183,8 @@ def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDA
     return solid_pair[joins], void_pair[~joins]
 
 
-def _bodies(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
-    """Return the numbers of the bodies of cells that touch at a side, or at a corner given in `pairs`."""
+def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
+    """Return the numbers of the components of cells that touch at a side, or at a corner given in `pairs`."""
     from scipy import ndimage
 
     numbers: NDArray[np.integer]
@@ -203,7 +203,7 @@ def _bodies(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.in
 
 
 def _overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return the table [body before, body after] of which share a cell; row and column 0 are left out."""
+    """Return the table [component before, component after] of which share a cell; row and column 0 are left out."""
     rows, columns = int(before.max()) + 1, int(after.max()) + 1
     table = np.zeros((rows, columns), dtype=bool)
     table.ravel()[before.astype(np.intp) * columns + after] = True

@@ -36,7 +36,7 @@ class Inspection:
     triangles, components, degenerate, duplicate : int
         Degenerate triangles have no area; duplicates have the same three corners as another.
     closed, outward : bool
-        Every edge has two faces that agree; every body faces out, but those inside another, which are
+        Every edge has two faces that agree; every component faces out, but those inside another, which are
         its cavities, face in.
     open_edges : int
         Edges without exactly two faces.
@@ -101,8 +101,8 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     duplicate = len(where.faces) - len(np.unique(np.sort(where.faces, axis=1), axis=0))
     crossings = self_intersections(where.vertices, where.faces)
     open_edges = _open_edges(surface.faces)
-    body = _bodies(surface)
-    outward = _outward(surface, body)
+    component = _components(surface)
+    outward = _outward(surface, component)
     status = _manifold_status(surface)
     degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
@@ -125,7 +125,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         problems=tuple(text for text, holds in problems.items() if holds),
         warnings=tuple(text for text, holds in warnings.items() if holds),
         triangles=len(read.faces),
-        components=int(body.max()) + 1,
+        components=int(component.max()) + 1,
         closed=surface.closed,
         outward=outward,
         open_edges=open_edges,
@@ -167,28 +167,28 @@ def _open_edges(faces: NDArray[np.integer]) -> int:
     return int((counts != 2).sum())
 
 
-def _bodies(surface: Surface) -> NDArray[np.integer]:
-    """Return for every face the number, from 0, of the body it belongs to."""
+def _components(surface: Surface) -> NDArray[np.integer]:
+    """Return for every face the number, from 0, of the component it belongs to."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     faces, count = surface.faces, len(surface.vertices)
     one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
     graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
-    _, body = connected_components(graph, directed=False)
-    return np.asarray(body[faces[:, 0]])
+    _, component = connected_components(graph, directed=False)
+    return np.asarray(component[faces[:, 0]])
 
 
-def _outward(surface: Surface, body: NDArray[np.integer]) -> bool:
-    """Return whether the whole faces outwards, and every body that faces inwards is a cavity of another."""
+def _outward(surface: Surface, component: NDArray[np.integer]) -> bool:
+    """Return whether the whole faces outwards, and every component that faces inwards is a cavity of another."""
     corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
     sixfold = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
-    volume = np.bincount(body, weights=sixfold)
+    volume = np.bincount(component, weights=sixfold)
     if volume.sum() <= 0:
         return False
-    solid = corners[volume[body] > 0]
+    solid = corners[volume[component] > 0]
     inward = np.flatnonzero(volume <= 0)
-    first = np.unique(body, return_index=True)[1]
+    first = np.unique(component, return_index=True)[1]
     return all(_winding_number(corners[first[i]].mean(axis=0), solid) > 0.5 for i in inward)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels.sparse import BLOCK, SOLID_BLOCK
+from infill.kernels.sparse import BRICK, SOLID_BRICK
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -72,10 +72,10 @@ def solid_at(field: SparseField, cells: NDArray[np.int64], level: float) -> tupl
     """Return for cells (N, 3) of the grid whether they are solid, smoothed and in the data; beyond it none is."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     place = np.where(inside[:, None], cells, 0) + 1
-    block, cell = np.divmod(place, BLOCK)
-    slot = field.slots[tuple(block.T)]
+    brick, cell = np.divmod(place, BRICK)
+    slot = field.slots[tuple(brick.T)]
     kept = slot >= 0
-    alone = (slot == SOLID_BLOCK) & inside
+    alone = (slot == SOLID_BRICK) & inside
     found = []
     for values, height in ((field.values, level), (field.data, 0.0)):
         solid = alone.copy()

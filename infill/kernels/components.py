@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BLOCK
+from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK
 from infill.kernels.sparse_marching import FULL, ROWS, lowest, ones, within
 
 
@@ -45,11 +45,11 @@ def run_length(bits, k):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def number_runs(bits, blocks, starts):  # pragma: no cover
-    """Set where the runs of every block and every row of it begin to count; return how many there are."""
+def number_runs(bits, bricks, starts):  # pragma: no cover
+    """Set where the runs of every brick and every row of it begin to count; return how many there are."""
     count = np.int64(1)  # run 0 is what lies beyond the grid
     for s in range(len(bits)):
-        blocks[s] = count
+        bricks[s] = count
         inner = 0
         for row in range(ROWS):
             starts[s, row] = inner
@@ -59,26 +59,26 @@ def number_runs(bits, blocks, starts):  # pragma: no cover
 
 
 @njit(cache=True)
-def run_at(bits, blocks, starts, s, row, k):  # pragma: no cover
+def run_at(bits, bricks, starts, s, row, k):  # pragma: no cover
     """Return the number of the run that cell `k` of a row lies in."""
     upto = np.uint16((2 << k) - 1)
-    return blocks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
+    return bricks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
 
 
 @njit(cache=True)
-def node_at(alone, slots, p, q, r, row, k, bits, blocks, starts):  # pragma: no cover
-    """Return the node of a cell of any block of the lattice, -1 if the cell is not of the kind that is labelled."""
+def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):  # pragma: no cover
+    """Return the node of a cell of any brick of the lattice, -1 if the cell is not of the kind that is labelled."""
     slot = slots[p, q, r]
     if slot < 0:
         return np.int64(alone[p, q, r])
     if not (bits[slot, row] >> np.uint16(k)) & np.uint16(1):
         return np.int64(-1)
-    return np.int64(run_at(bits, blocks, starts, slot, row, k))
+    return np.int64(run_at(bits, bricks, starts, slot, row, k))
 
 
 @njit(nogil=True, cache=True)
-def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # pragma: no cover
-    """Join what touches by a face, or if `diagonal` by an edge, in all blocks that are kept."""
+def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):  # pragma: no cover
+    """Join what touches by a face, or if `diagonal` by an edge, in all bricks that are kept."""
     m0, m1, m2 = slots.shape
     for s in range(len(where)):
         p, q, r = where[s]
@@ -87,14 +87,14 @@ def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # p
             own = bits[s, row]
             if own == 0:
                 continue
-            # Along k runs end at the block.
+            # Along k runs end at the brick.
             for step in range(-1, 2, 2):
                 c = r + step
                 edge = B2 - 1 if step > 0 else 0
                 if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
-                    other = node_at(alone, slots, p, q, c, row, B2 - 1 - edge, bits, blocks, starts)
+                    other = node_at(alone, slots, p, q, c, row, B2 - 1 - edge, bits, bricks, starts)
                     if other >= 0:
-                        join(parent, run_at(bits, blocks, starts, s, row, edge), other)
+                        join(parent, run_at(bits, bricks, starts, s, row, edge), other)
             for di in range(-1, 2):
                 for dj in range(-1, 2):
                     if (di == 0 and dj == 0) or (di != 0 and dj != 0 and not diagonal):
@@ -114,7 +114,7 @@ def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # p
                             while left:
                                 k = lowest(left)
                                 left &= left - 1
-                                join(parent, run_at(bits, blocks, starts, s, row, k), np.int64(alone[a, b, r]))
+                                join(parent, run_at(bits, bricks, starts, s, row, k), np.int64(alone[a, b, r]))
                     elif ahead:  # the other one looks back at none
                         theirs = bits[slot, x * B1 + y]
                         left = np.int64(beginnings(own & theirs))
@@ -123,8 +123,8 @@ def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # p
                             left &= left - 1
                             join(
                                 parent,
-                                run_at(bits, blocks, starts, s, row, k),
-                                run_at(bits, blocks, starts, slot, x * B1 + y, k),
+                                run_at(bits, bricks, starts, s, row, k),
+                                run_at(bits, bricks, starts, slot, x * B1 + y, k),
                             )
                         if diagonal and (di == 0 or dj == 0):
                             for shift in range(-1, 2, 2):  # by an edge, and by no face
@@ -138,22 +138,22 @@ def join_runs(slots, where, bits, blocks, starts, alone, parent, diagonal):  # p
                                     left &= left - 1
                                     join(
                                         parent,
-                                        run_at(bits, blocks, starts, s, row, k),
-                                        run_at(bits, blocks, starts, slot, x * B1 + y, k + shift),
+                                        run_at(bits, bricks, starts, s, row, k),
+                                        run_at(bits, bricks, starts, slot, x * B1 + y, k + shift),
                                     )
-                    if diagonal and (di == 0 or dj == 0):  # by an edge into the block before or behind along k
+                    if diagonal and (di == 0 or dj == 0):  # by an edge into the brick before or behind along k
                         for step in range(-1, 2, 2):
                             c = r + step
                             edge = B2 - 1 if step > 0 else 0
                             if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
-                                other = node_at(alone, slots, a, b, c, x * B1 + y, B2 - 1 - edge, bits, blocks, starts)
+                                other = node_at(alone, slots, a, b, c, x * B1 + y, B2 - 1 - edge, bits, bricks, starts)
                                 if other >= 0:
-                                    join(parent, run_at(bits, blocks, starts, s, row, edge), other)
+                                    join(parent, run_at(bits, bricks, starts, s, row, edge), other)
 
 
 @njit(nogil=True, cache=True)
 def join_alone(alone, parent):  # pragma: no cover
-    """Join blocks of one value that lie side by side."""
+    """Join bricks of one value that lie side by side."""
     m0, m1, m2 = alone.shape
     for p in range(m0):
         for q in range(m1):
@@ -170,7 +170,7 @@ def join_alone(alone, parent):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def join_beyond(where, bits, blocks, starts, shape, parent):  # pragma: no cover
+def join_beyond(where, bits, bricks, starts, shape, parent):  # pragma: no cover
     """Join every run of void that reaches beyond the grid with what lies there."""
     for s in range(len(where)):
         for row in range(ROWS):
@@ -179,7 +179,7 @@ def join_beyond(where, bits, blocks, starts, shape, parent):  # pragma: no cover
             while left:
                 k = lowest(left)
                 left &= left - 1
-                join(parent, np.int64(0), np.int64(run_at(bits, blocks, starts, s, row, k)))
+                join(parent, np.int64(0), np.int64(run_at(bits, bricks, starts, s, row, k)))
 
 
 @njit(nogil=True, cache=True)
@@ -197,8 +197,8 @@ def name_sets(parent, names):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def count_cells(where, bits, blocks, starts, shape, names, cells):  # pragma: no cover
-    """Add the cells of every run within the grid to its body."""
+def count_cells(where, bits, bricks, starts, shape, names, cells):  # pragma: no cover
+    """Add the cells of every run within the grid to its component."""
     for s in range(len(where)):
         for row in range(ROWS):
             own = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
@@ -206,24 +206,24 @@ def count_cells(where, bits, blocks, starts, shape, names, cells):  # pragma: no
             while left:
                 k = lowest(left)
                 left &= left - 1
-                cells[names[run_at(bits, blocks, starts, s, row, k)]] += run_length(own, k)
+                cells[names[run_at(bits, bricks, starts, s, row, k)]] += run_length(own, k)
 
 
 @njit(nogil=True, cache=True)
-def mark_runs(bits, blocks, starts, names, chosen, marked):  # pragma: no cover
-    """Mark the bodies of cells that are `chosen`."""
+def mark_runs(bits, bricks, starts, names, chosen, marked):  # pragma: no cover
+    """Mark the components of cells that are `chosen`."""
     for s in range(len(bits)):
         for row in range(ROWS):
             left = np.int64(beginnings(bits[s, row] & chosen[s, row]))
             while left:
                 k = lowest(left)
                 left &= left - 1
-                marked[names[run_at(bits, blocks, starts, s, row, k)]] = True
+                marked[names[run_at(bits, bricks, starts, s, row, k)]] = True
 
 
 @njit(nogil=True, cache=True)
-def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts, other_names):  # pragma: no cover
-    """Return (body, other body, cells) for every stretch of a row that lies in both."""
+def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts, other_names):  # pragma: no cover
+    """Return (component, other component, cells) for every stretch of a row that lies in both."""
     many = 0
     for s in range(len(bits)):
         for row in range(ROWS):
@@ -237,17 +237,17 @@ def overlaps(bits, blocks, starts, names, other_bits, other_blocks, other_starts
             while left:
                 k = lowest(left)
                 left &= left - 1
-                found[many, 0] = names[run_at(bits, blocks, starts, s, row, k)]
-                found[many, 1] = other_names[run_at(other_bits, other_blocks, other_starts, s, row, k)]
+                found[many, 0] = names[run_at(bits, bricks, starts, s, row, k)]
+                found[many, 1] = other_names[run_at(other_bits, other_bricks, other_starts, s, row, k)]
                 found[many, 2] = run_length(both, k)
                 many += 1
     return found
 
 
 @njit(nogil=True, cache=True)
-def nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach):  # pragma: no cover
-    """Return the body of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
-    node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, blocks, starts)
+def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach):  # pragma: no cover
+    """Return the component of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
+    node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, bricks, starts)
     if node >= 0:
         return names[node]
     for distance in range(1, reach + 1):
@@ -259,18 +259,18 @@ def nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach):  # 
             p, q, r = a // B0, b // B1, c // B2
             if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
                 continue
-            node = node_at(alone, slots, p, q, r, (a % B0) * B1 + b % B1, c % B2, bits, blocks, starts)
+            node = node_at(alone, slots, p, q, r, (a % B0) * B1 + b % B1, c % B2, bits, bricks, starts)
             if node >= 0:
                 return names[node]
     return np.int32(-1)
 
 
 @njit(nogil=True, cache=True)
-def label_cells(places, slots, bits, blocks, starts, alone, names, reach, labels):  # pragma: no cover
-    """Set the body nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
+def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels):  # pragma: no cover
+    """Set the component nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
     for n in range(len(places)):
         x, y, z = places[n]
-        labels[n] = nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach)
+        labels[n] = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
 
 
 @njit(nogil=True, cache=True)
@@ -283,9 +283,9 @@ def join_faces(faces, parent):  # pragma: no cover
 
 @njit(nogil=True, cache=True)
 def lower_to_levels(
-    values, where, slots, bits, blocks, starts, alone, names, levels, common, reach, out, thread, threads
+    values, where, slots, bits, bricks, starts, alone, names, levels, common, reach, out, thread, threads
 ):  # pragma: no cover
-    """Take from every cell the level of the nearest body, looked for along the axes; `common` where there is none."""
+    """Subtract from every cell the level of the nearest component along the axes; `common` where there is none."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for t in range(CELLS):
@@ -294,19 +294,19 @@ def lower_to_levels(
                 out[s, t] = value
                 continue
             x, y, z = p * B0 + t // (B1 * B2), q * B1 + t // B2 % B1, r * B2 + t % B2
-            body = nearest_body(slots, x, y, z, bits, blocks, starts, alone, names, reach)
-            out[s, t] = value - (levels[body] if body >= 0 else common)
+            component = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
+            out[s, t] = value - (levels[component] if component >= 0 else common)
 
 
 @njit(cache=True)
 def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
-    """Return a row of any block of the lattice; a block of one value is full if it is of `kind`."""
+    """Return a row of any brick of the lattice; a brick of one value is full if it is of `kind`."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return np.int64(0)
     slot = slots[p, q, r]
     if slot >= 0:
         return np.int64(bits[slot, row])
-    return np.int64(FULL) if slot == kind or (slot == OUTSIDE and kind == VOID_BLOCK) else np.int64(0)
+    return np.int64(FULL) if slot == kind or (slot == OUTSIDE and kind == VOID_BRICK) else np.int64(0)
 
 
 @njit(nogil=True, cache=True)
@@ -334,14 +334,14 @@ def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):  
 
 
 @njit(nogil=True, cache=True)
-def erase(values, where, bits, blocks, starts, names, marked, void):  # pragma: no cover
-    """Make the cells of marked bodies void."""
+def erase(values, where, bits, bricks, starts, names, marked, void):  # pragma: no cover
+    """Make the cells of marked components void."""
     for s in range(len(where)):
         for row in range(ROWS):
             left = np.int64(bits[s, row])
             while left:
                 k = lowest(left)
                 left &= left - 1
-                if marked[names[run_at(bits, blocks, starts, s, row, k)]]:
+                if marked[names[run_at(bits, bricks, starts, s, row, k)]]:
                     x, y = where[s, 0] * B0 + row // B1 - 1, where[s, 1] * B1 + row % B1 - 1
                     values[x, y, where[s, 2] * B2 + k - 1] = void

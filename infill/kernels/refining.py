@@ -1,9 +1,9 @@
-"""What `infill.phasefield.refining` does to blocks, compiled.
+"""What `infill.phasefield.refining` does to bricks, compiled.
 
-Loops run over whole blocks, so that they become vector code.
+Loops run over whole bricks, so that they become vector code.
 
 The averages of a gate live on coarse cells of `size` cells along each axis, (n, 3, 8/size, 8/size, 16/size): the
-mean weight w, and those of w r and w r². Where no block is kept they are 0.
+mean weight w, and those of w r and w r². Where no brick is kept they are 0.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
@@ -42,7 +42,7 @@ def step(
     thread,
     threads,
 ):  # pragma: no cover
-    """Do one step of all blocks in place, as `infill.kernels.sparse.step`, and leave the old values in `before`."""
+    """Do one step of all bricks in place, as `infill.kernels.sparse.step`, and leave the old values in `before`."""
     w0, w1, w2, decay, rest, _ = numbers
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, back, after = (
@@ -71,7 +71,7 @@ def step(
 
 @njit(nogil=True, cache=True)
 def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads):  # pragma: no cover
-    """Add weight times phi to `total`; a block from `known` on was uniform, as its data, in all snapshots so far."""
+    """Add weight times phi to `total`; a brick from `known` on was uniform, as its data, in all snapshots so far."""
     for s in range(thread, count, threads):
         own, out = phi[s], total[s]
         if s < known:
@@ -107,7 +107,7 @@ def collect(low, high, phase, unit, size, sums, thread, threads):  # pragma: no 
 
 @njit(cache=True)
 def fetch(sums, slots, place, rim, out):  # pragma: no cover
-    """Copy the coarse cells of the block at `place` and those around it, `rim` deep, into `out`."""
+    """Copy the coarse cells of the brick at `place` and those around it, `rim` deep, into `out`."""
     _, _, n0, n1, n2 = sums.shape
     a0, a1, a2 = place[0] * n0 - rim, place[1] * n1 - rim, place[2] * n2 - rim
     for i in range(n0 + 2 * rim):
@@ -151,7 +151,7 @@ def blur(sums, slots, where, out, thread, threads):  # pragma: no cover
 
 @njit(inline="always", cache=True)
 def between(cell, size):  # pragma: no cover
-    """Return between which coarse cells, counted from one before the block, a cell lies, and how far."""
+    """Return between which coarse cells, counted from one before the brick, a cell lies, and how far."""
     place = np.float32((cell + 0.5) / size + 0.5)
     first = int(place)
     return first, place - np.float32(first)

@@ -1,9 +1,9 @@
-"""What `infill.phasefield.sparse` does to blocks, compiled.
+"""What `infill.phasefield.sparse` does to bricks, compiled.
 
-Loops run over whole blocks, so that they become vector code.
+Loops run over whole bricks, so that they become vector code.
 
-A block is (8, 8, 16) cells, flat. Beside the cells a copy of the six faces is kept, before and after the step, so
-that a block can be stepped in place while its neighbours still read what it was.
+A brick is (8, 8, 16) cells, flat. Beside the cells a copy of the six faces is kept, before and after the step, so
+that a brick can be stepped in place while its neighbours still read what it was.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
@@ -16,8 +16,8 @@ import numpy as np
 from infill.kernels.compiling import njit
 from infill.kernels.dense import advanced
 
-BLOCK = (8, 8, 16)  # cells; the last axis is contiguous
-B0, B1, B2 = BLOCK
+BRICK = (8, 8, 16)  # cells; the last axis is contiguous
+B0, B1, B2 = BRICK
 CELLS = B0 * B1 * B2
 PLANE = B1 * B2
 FACE_I, FACE_J, FACE_K = B1 * B2, B0 * B2, B0 * B1
@@ -25,10 +25,10 @@ FACE_I, FACE_J, FACE_K = B1 * B2, B0 * B2, B0 * B1
 SECOND, THIRD = 2 * FACE_I, 2 * (FACE_I + FACE_J)
 FACES = THIRD + 2 * FACE_K
 
-# What stands on the lattice for a block that is not kept.
-VOID_BLOCK, SOLID_BLOCK, OUTSIDE = -1, -2, -3
-CHUNK = 32  # blocks that a thread takes at a time: neighbours, mostly
-MIXED, OUTER = 0, -3  # states of a block: of both phases, and without a cell of the grid
+# What stands on the lattice for a brick that is not kept.
+VOID_BRICK, SOLID_BRICK, OUTSIDE = -1, -2, -3
+CHUNK = 32  # bricks that a thread takes at a time: neighbours, mostly
+MIXED, OUTER = 0, -3  # states of a brick: of both phases, and without a cell of the grid
 
 
 @njit(inline="always", cache=True)
@@ -44,35 +44,35 @@ def uniform_value(face, bits, at, size):  # pragma: no cover
 
 
 @njit(cache=True)
-def emit(block, faces, flat):  # pragma: no cover
-    """Copy the six faces of a block, and note which of them are +1 or -1 throughout."""
+def emit(brick, faces, flat):  # pragma: no cover
+    """Copy the six faces of a brick, and note which of them are +1 or -1 throughout."""
     bits = faces.view(np.int32)
     for up in range(2):
         at, to = (CELLS - PLANE) * up, FACE_I * up
         for t in range(FACE_I):
-            faces[to + t] = block[at + t]
+            faces[to + t] = brick[at + t]
         flat[up] = uniform_value(faces, bits, to, FACE_I)
         at, to = (PLANE - B2) * up, SECOND + FACE_J * up
         for i in range(B0):
             for k in range(B2):
-                faces[to + i * B2 + k] = block[at + i * PLANE + k]
+                faces[to + i * B2 + k] = brick[at + i * PLANE + k]
         flat[2 + up] = uniform_value(faces, bits, to, FACE_J)
         at, to = (B2 - 1) * up, THIRD + FACE_K * up
         for t in range(FACE_K):
-            faces[to + t] = block[at + t * B2]
+            faces[to + t] = brick[at + t * B2]
         flat[4 + up] = uniform_value(faces, bits, to, FACE_K)
 
 
 @njit(nogil=True, cache=True)
-def emit_all(blocks, faces, flat, count, thread, threads):  # pragma: no cover
-    """Copy the faces of all blocks."""
+def emit_all(bricks, faces, flat, count, thread, threads):  # pragma: no cover
+    """Copy the faces of all bricks."""
     for s in range(thread, count, threads):
-        emit(blocks[s], faces[s], flat[s])
+        emit(bricks[s], faces[s], flat[s])
 
 
 @njit(cache=True)
 def place_beside(place, side):  # pragma: no cover
-    """Return the place beside a block: low and high along i, j, k."""
+    """Return the place beside a brick: low and high along i, j, k."""
     a, b, c = place[0], place[1], place[2]
     way = 1 if side % 2 else -1
     if side < 2:
@@ -82,7 +82,7 @@ def place_beside(place, side):  # pragma: no cover
 
 @njit(cache=True)
 def find_neighbours(slots, where, beside, first, count):  # pragma: no cover
-    """Set what lies beside the blocks from `first` on, and that they lie beside those."""
+    """Set what lies beside the bricks from `first` on, and that they lie beside those."""
     for s in range(first, count):
         for side in range(6):
             a, b, c = place_beside(where[s], side)
@@ -100,9 +100,9 @@ def wanted(slots, where, beside, flat, count, found):  # pragma: no cover
     for s in range(count):
         for side in range(6):
             other = beside[s, side]
-            if other != VOID_BLOCK and other != SOLID_BLOCK:
+            if other != VOID_BRICK and other != SOLID_BRICK:
                 continue
-            if flat[s, side] == (1 if other == SOLID_BLOCK else -1):
+            if flat[s, side] == (1 if other == SOLID_BRICK else -1):
                 continue
             a, b, c = place_beside(where[s], side)
             if slots[a, b, c] == other:
@@ -116,7 +116,7 @@ def wanted(slots, where, beside, flat, count, found):  # pragma: no cover
 
 @njit(nogil=True, cache=True)
 def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):  # pragma: no cover
-    """Give the blocks from `first` on the value they are uniform in; nobody reads faces that are flat."""
+    """Give the bricks from `first` on the value they are uniform in; nobody reads faces that are flat."""
     for s in range(first + thread, count, threads):
         value = uniform[s]
         for t in range(CELLS):
@@ -129,13 +129,13 @@ def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):  #
 
 @njit(inline="always", cache=True)
 def unmoved(value, beside, flat):  # pragma: no cover
-    """Return whether a block of one value has only neighbours of that value."""
+    """Return whether a brick of one value has only neighbours of that value."""
     for side in range(6):
         other = beside[side]
         if other >= 0:
             if flat[other, side ^ 1] != value:
                 return False
-        elif other != OUTSIDE and value != (1 if other == SOLID_BLOCK else -1):
+        elif other != OUTSIDE and value != (1 if other == SOLID_BRICK else -1):
             return False
     return True
 
@@ -158,7 +158,7 @@ def step(
     thread,
     threads,
 ):  # pragma: no cover
-    """Do one step of all blocks in place; read neighbours' faces from `faces`, leave the new ones in `next_faces`."""
+    """Do one step of all bricks in place; read neighbours' faces from `faces`, leave the new ones in `next_faces`."""
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, before, after = (
         np.empty(CELLS, dtype=np.float32),
@@ -195,7 +195,7 @@ def step(
 
 @njit(cache=True)
 def surround(own, faces, flat, beside, tall, left, right, before, after):  # pragma: no cover
-    """Set for every cell its six neighbours: the block between two planes, and four shifted copies."""
+    """Set for every cell its six neighbours: the brick between two planes, and four shifted copies."""
     for t in range(CELLS):
         tall[t + PLANE] = own[t]
     for t in range(CELLS - B2):
@@ -241,18 +241,18 @@ def surround(own, faces, flat, beside, tall, left, right, before, after):  # pra
 
 @njit(inline="always", cache=True)
 def seen(other, flat, side):  # pragma: no cover
-    """Return the block beside a face, or what stands for it if its own face there has one value."""
+    """Return the brick beside a face, or what stands for it if its own face there has one value."""
     if other < 0 or flat[other, side ^ 1] == 0:
         return other
-    return SOLID_BLOCK if flat[other, side ^ 1] == 1 else VOID_BLOCK
+    return SOLID_BRICK if flat[other, side ^ 1] == 1 else VOID_BRICK
 
 
 @njit(inline="always", cache=True)
 def beyond(other, own):  # pragma: no cover
-    """Return the value beside a face where no block is kept: beyond the grid it is the face's own."""
+    """Return the value beside a face where no brick is kept: beyond the grid it is the face's own."""
     if other == OUTSIDE:
         return own
-    return np.float32(1) if other == SOLID_BLOCK else np.float32(-1)
+    return np.float32(1) if other == SOLID_BRICK else np.float32(-1)
 
 
 @njit(cache=True, error_model="numpy")
@@ -280,7 +280,7 @@ def step_masked(own, data, tall, left, right, before, after, domain, where, numb
 
 
 @njit(cache=True)
-def repeat_edges(block, where, shape):  # pragma: no cover
+def repeat_edges(brick, where, shape):  # pragma: no cover
     """Give the cells beyond the grid the values of those at its edge."""
     i0, i1 = max(0, 1 - where[0] * B0), min(B0, shape[0] + 1 - where[0] * B0)
     j0, j1 = max(0, 1 - where[1] * B1), min(B1, shape[1] + 1 - where[1] * B1)
@@ -292,4 +292,4 @@ def repeat_edges(block, where, shape):  # pragma: no cover
         for j in range(B1):
             y = min(max(j, j0), j1 - 1)
             for k in range(B2):
-                block[(i * B1 + j) * B2 + k] = block[(x * B1 + y) * B2 + min(max(k, k0), k1 - 1)]
+                brick[(i * B1 + j) * B2 + k] = brick[(x * B1 + y) * B2 + min(max(k, k0), k1 - 1)]

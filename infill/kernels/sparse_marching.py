@@ -1,4 +1,4 @@
-"""What `infill.surfaces.sparse_marching` does to blocks, compiled."""
+"""What `infill.surfaces.sparse_marching` does to bricks, compiled."""
 # mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.
@@ -11,7 +11,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from infill.kernels.compiling import njit
-from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BLOCK
+from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1
 TRUE = ir.Constant(ir.IntType(1), 1)
@@ -21,19 +21,19 @@ FULL = (1 << B2) - 1
 
 @njit(nogil=True, cache=True)
 def bits_above(values, where, level, shape, bits, thread, threads):  # pragma: no cover
-    """Set for every row of every kept block which cells are above the level; beyond the grid none is."""
+    """Set for every row of every kept brick which cells are above the level; beyond the grid none is."""
     for s in range(thread, len(values), threads):
-        block = values[s]
+        brick = values[s]
         for row in range(ROWS):
             found = 0
             for k in range(B2):
-                found |= (block[row * B2 + k] > level) << k
+                found |= (brick[row * B2 + k] > level) << k
             bits[s, row] = np.uint16(found) & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
 
 
 @njit(inline="always", cache=True)
 def within(p, q, r, row, shape):  # pragma: no cover
-    """Return which cells of a row of a block lie on the grid."""
+    """Return which cells of a row of a brick lie on the grid."""
     i, j = p * B0 + row // B1, q * B1 + row % B1
     if i < 1 or j < 1 or i > shape[0] or j > shape[1]:
         return np.uint16(0)
@@ -48,18 +48,18 @@ def within(p, q, r, row, shape):  # pragma: no cover
 
 @njit(inline="always", cache=True)
 def row_of(slots, p, q, r, row, bits, shape):  # pragma: no cover
-    """Return which cells of a row of any block are solid."""
+    """Return which cells of a row of any brick are solid."""
     if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return np.uint32(0)
     slot = slots[p, q, r]
     if slot >= 0:
         return np.uint32(bits[slot, row])
-    return np.uint32(within(p, q, r, row, shape)) if slot == SOLID_BLOCK else np.uint32(0)
+    return np.uint32(within(p, q, r, row, shape)) if slot == SOLID_BRICK else np.uint32(0)
 
 
 @njit(cache=True)
 def rows_around(slots, p, q, r, bits, shape, rows):  # pragma: no cover
-    """Set the rows of a block and the first ones behind it, 17 cells each: (9, 9)."""
+    """Set the rows of a brick and the first ones behind it, 17 cells each: (9, 9)."""
     for i in range(B0 + 1):
         a, x = (p, i) if i < B0 else (p + 1, 0)
         for j in range(B1 + 1):
@@ -115,7 +115,7 @@ def signs_of(a, b, c, d, k):  # pragma: no cover
 
 @njit(nogil=True, cache=True)
 def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):  # pragma: no cover
-    """Set the crossed edges of every row along i, j, k, where its vertices begin, and what a block will hold."""
+    """Set the crossed edges of every row along i, j, k, where its vertices begin, and what a brick will hold."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
         rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
@@ -143,7 +143,7 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
 
 @njit(cache=True)
 def values_around(slots, p, q, r, values, shape, numbers, around):  # pragma: no cover
-    """Set the values against the level of a block and of the first cells behind it: (9, 9, 17)."""
+    """Set the values against the level of a brick and of the first cells behind it: (9, 9, 17)."""
     level, clearance, tie = numbers
     for i in range(B0 + 1):
         a, x = (p, i) if i < B0 else (p + 1, 0)
@@ -155,11 +155,11 @@ def values_around(slots, p, q, r, values, shape, numbers, around):  # pragma: no
                 c, first, last = r + part, part * B2, B2 + part
                 slot = slots[a, b, c] if inside and c < slots.shape[2] else OUTSIDE
                 if slot >= 0:
-                    block, at = values[slot], (x * B1 + y) * B2 - first
+                    brick, at = values[slot], (x * B1 + y) * B2 - first
                     for k in range(first, last):
-                        line[k] = block[at + k]
+                        line[k] = brick[at + k]
                 else:
-                    value = np.float32(1) if slot == SOLID_BLOCK else np.float32(-1)
+                    value = np.float32(1) if slot == SOLID_BRICK else np.float32(-1)
                     for k in range(first, last):
                         line[k] = value
             low, high = 1 - r * B2, shape[2] - r * B2  # the cells of the grid
@@ -170,7 +170,7 @@ def values_around(slots, p, q, r, values, shape, numbers, around):  # pragma: no
 
 @njit(inline="always", cache=True)
 def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):  # pragma: no cover
-    """Return the number of the vertex on an edge that begins in a block or in the first cells behind it."""
+    """Return the number of the vertex on an edge that begins in a brick or in the first cells behind it."""
     if i == B0:
         p, i = p + 1, 0
     if j == B1:

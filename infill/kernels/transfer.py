@@ -1,4 +1,4 @@
-"""Between a whole field and its blocks, compiled: see `infill.phasefield.sparse`."""
+"""Between a whole field and its bricks, compiled: see `infill.phasefield.sparse`."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.
@@ -8,12 +8,12 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BLOCK
+from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BRICK
 
 
 @njit(nogil=True, cache=True)
 def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
-    """Set the state of every block of int8 data, solid above 0, and whether a row of blocks holds a zero."""
+    """Set the state of every brick of int8 data, solid above 0, and whether a row of bricks holds a zero."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
     low, high, zero = np.empty(n2, dtype=np.int8), np.empty(n2, dtype=np.int8), np.empty(n2, dtype=np.int8)
@@ -49,7 +49,7 @@ def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
 
 @njit(nogil=True, cache=True)
 def fill_grey_states(data, state, thread, threads):  # pragma: no cover
-    """Set the state of every block of float data: uniform only if all cells are +1 or all are -1."""
+    """Set the state of every brick of float data: uniform only if all cells are +1 or all are -1."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
     low, high = np.empty(n2, dtype=np.float32), np.empty(n2, dtype=np.float32)
@@ -79,12 +79,12 @@ def fill_grey_states(data, state, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def gather(whole, where, blocks, count, level, thread, threads):  # pragma: no cover
-    """Copy the cells of blocks; cells beyond the grid repeat the edge. With a level, +1 where above it and -1 else."""
+def gather(whole, where, bricks, count, level, thread, threads):  # pragma: no cover
+    """Copy the cells of bricks; cells beyond the grid repeat the edge. With a level, +1 where above it and -1 else."""
     n0, n1, n2 = whole.shape
     for s in range(thread, count, threads):
         i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
-        block = blocks[s]
+        brick = bricks[s]
         for i in range(B0):
             x = min(max(i0 + i, 0), n0 - 1)
             for j in range(B1):
@@ -93,14 +93,14 @@ def gather(whole, where, blocks, count, level, thread, threads):  # pragma: no c
                 for k in range(B2):
                     value = line[min(max(k0 + k, 0), n2 - 1)]
                     if level is None:  # decided when it is compiled
-                        block[at + k] = value
+                        brick[at + k] = value
                     else:
-                        block[at + k] = 1 if value > level else -1
+                        brick[at + k] = 1 if value > level else -1
 
 
 @njit(nogil=True, cache=True)
-def spread(slots, blocks, whole, thread, threads):  # pragma: no cover
-    """Write all blocks, kept or not, into the whole field."""
+def spread(slots, bricks, whole, thread, threads):  # pragma: no cover
+    """Write all bricks, kept or not, into the whole field."""
     m0, m1, m2 = slots.shape
     n0, n1, n2 = whole.shape
     for row in range(thread, m0 * m1, threads):
@@ -113,26 +113,26 @@ def spread(slots, blocks, whole, thread, threads):  # pragma: no cover
                     first, last = max(r * B2 - 1, 0), min((r + 1) * B2 - 1, n2)
                     slot = slots[p, q, r]
                     if slot >= 0:
-                        block = blocks[slot]
+                        brick = bricks[slot]
                         shift = at + 1 - r * B2
                         for k in range(first, last):
-                            line[k] = block[shift + k]
+                            line[k] = brick[shift + k]
                     else:
-                        value = np.float32(1) if slot == SOLID_BLOCK else np.float32(-1)
+                        value = np.float32(1) if slot == SOLID_BRICK else np.float32(-1)
                         for k in range(first, last):
                             line[k] = value
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
+def straighten(bricks, most, scale, out, thread, threads):  # pragma: no cover
     """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: vector code, which a log is not."""
     ratio, power = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.int32)
     bits = ratio.view(np.int32)
     half = np.float32(0.34657359) / scale  # ln 2 / 2
-    for s in range(thread, len(blocks), threads):
-        block, line = blocks[s], out[s]
+    for s in range(thread, len(bricks), threads):
+        brick, line = bricks[s], out[s]
         for t in range(CELLS):
-            v = min(max(block[t], -most), most)
+            v = min(max(brick[t], -most), most)
             ratio[t] = (1 + v) / (1 - v)
         for t in range(CELLS):  # the power of two, taken so that the rest lies around 1
             power[t] = (bits[t] - 0x3F3504F3) >> 23
@@ -146,4 +146,4 @@ def straighten(blocks, most, scale, out, thread, threads):  # pragma: no cover
                 + y * (np.float32(0.96179669) + y * (np.float32(0.57707802) + y * np.float32(0.4121986)))
             )
             v = half * (np.float32(power[t]) + log)
-            line[t] = np.float32(1) if block[t] >= most else (np.float32(-1) if block[t] <= -most else v)
+            line[t] = np.float32(1) if brick[t] >= most else (np.float32(-1) if brick[t] <= -most else v)

@@ -30,7 +30,7 @@ class Profile:
     steepest : float
         The phi beyond which distance is cut off.
 
-    >>> STRAIGHT.phase_level(STRAIGHT.distance_level(0.5))
+    >>> round(STRAIGHT.phase_level(STRAIGHT.distance_level(0.5)), 12)
     0.5
     """
 

@@ -35,12 +35,12 @@ from scipy.ndimage import gaussian_filter
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.kernels import refining as kernels
-from infill.kernels.sparse import BLOCK, CELLS
+from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, laplacian
 from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
 from infill.phasefield.profile import REFINED
-from infill.phasefield.sparse import MORE, Blocks, SparseField, states_of
+from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
 
 QUARTERS = (1, 2, 3, 5, 7, 13)  # the steps of which something is kept, in quarters of `Smoothing.steps`
 FILTERS = ((0, 1), (2, 3, 4), (4, 5))  # which of those go into the mild, the middle and the strong filter
@@ -141,7 +141,7 @@ def _flat(shares: dict[int, NDArray[np.float64]]) -> dict[int, float]:
     return dict(zip(shares, solution.tolist(), strict=True))
 
 
-def refine_blocks(
+def refine_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,
     *,
@@ -149,7 +149,7 @@ def refine_blocks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SparseField:
-    """Return a refined distance from the surface in blocks, 0 there, +-1 from about 4 cells away on.
+    """Return a refined distance from the surface in bricks, 0 there, +-1 from about 4 cells away on.
 
     Parameters
     ----------
@@ -177,20 +177,20 @@ def refine_blocks(
 
     Notes
     -----
-    The averages of the gates are taken on a coarse lattice within the blocks, with the variance of the Gaussians of
+    The averages of the gates are taken on a coarse lattice within the bricks, with the variance of the Gaussians of
     `refine_reference`; so results differ from it by about 0.01 cells rms where the data are rough, and half
-    as much between one placement of the data on the lattice and another. While it works, blocks take about three
-    times the memory of `infill.phasefield.sparse.smooth_blocks`.
+    as much between one placement of the data on the lattice and another. While it works, bricks take about three
+    times the memory of `infill.phasefield.sparse.smooth_bricks`.
     """
     threads = thread_count(threads)
-    mild, middle, strong = filtered_blocks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
+    mild, middle, strong = filtered_bricks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
     result, unit = replace(strong, values=REFINED.distance(strong.values, threads=threads)), _unit(smoothing)
     for milder, limits in ((middle, OUTER), (mild, INNER)):
         _blend(result, milder.values, limits, unit, threads)
     return result
 
 
-def filtered_blocks(
+def filtered_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,
     *,
@@ -198,83 +198,83 @@ def filtered_blocks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[SparseField, SparseField, SparseField]:
-    """Return P_0, P_1 and P_2, which share all but their values; see `refine_blocks` for the parameters."""
+    """Return P_0, P_1 and P_2, which share all but their values; see `refine_bricks` for the parameters."""
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
     numbers = numbers_of(smoothing, spacing, f.ndim)
     data, state = states_of(on_three_axes(f), threads)
-    blocks = Blocks.around(state, data, threads)
-    blocks.gather(data, data)
-    before, known = blocks.phi[: blocks.count].copy(), blocks.count
+    bricks = Bricks.around(state, data, threads)
+    bricks.gather(data, data)
+    before, known = bricks.phi[: bricks.count].copy(), bricks.count
     sums = [_Sum(weights) for weights in schedule.weights]
     for k in range(schedule.last):
         if progress is not None:
             progress(k / schedule.last)
-        blocks.activate()
-        before, known = _grown(before, known, blocks), blocks.count
-        _step(blocks, before, numbers, schedule.momentum(k))
+        bricks.activate()
+        before, known = _grown(before, known, bricks), bricks.count
+        _step(bricks, before, numbers, schedule.momentum(k))
         for each in sums:
-            each.add(blocks, k + 1)
+            each.add(bricks, k + 1)
     del before
     shape = data.shape
     field = SparseField(
-        shape=(shape[0], shape[1], shape[2]), slots=blocks.slots, where=blocks.where[: blocks.count],
-        values=np.empty((0, *BLOCK), dtype=np.float32), data=blocks.held[: blocks.count].reshape(-1, *BLOCK),
+        shape=(shape[0], shape[1], shape[2]), slots=bricks.slots, where=bricks.where[: bricks.count],
+        values=np.empty((0, *BRICK), dtype=np.float32), data=bricks.held[: bricks.count].reshape(-1, *BRICK),
     )  # fmt: skip
-    mild, middle, strong = (replace(field, values=each.whole(blocks).reshape(-1, *BLOCK)) for each in sums)
+    mild, middle, strong = (replace(field, values=each.whole(bricks).reshape(-1, *BRICK)) for each in sums)
     return mild, middle, strong
 
 
 class _Sum:
-    """A weighted sum of the fields after some steps, for the blocks there are."""
+    """A weighted sum of the fields after some steps, for the bricks there are."""
 
     def __init__(self, weights: dict[int, float]) -> None:
         self.weights, self.so_far = weights, 0.0
         self.total: Field = np.empty((0, CELLS), dtype=np.float32)
 
-    def add(self, blocks: Blocks, step: int) -> None:
+    def add(self, bricks: Bricks, step: int) -> None:
         """Add the field, if the sum takes that of this step."""
         if step in self.weights:
-            self._add(blocks, self.weights[step])
+            self._add(bricks, self.weights[step])
 
-    def whole(self, blocks: Blocks) -> Field:
-        """Return the sum for all blocks, those kept later on too."""
-        if len(self.total) < blocks.count:
-            self._add(blocks, 0.0)
+    def whole(self, bricks: Bricks) -> Field:
+        """Return the sum for all bricks, those kept later on too."""
+        if len(self.total) < bricks.count:
+            self._add(bricks, 0.0)
         return self.total
 
-    def _add(self, blocks: Blocks, weight: float) -> None:
+    def _add(self, bricks: Bricks, weight: float) -> None:
         known = len(self.total)
-        if known < blocks.count:
-            larger = np.empty((blocks.count, CELLS), dtype=np.float32)
+        if known < bricks.count:
+            larger = np.empty((bricks.count, CELLS), dtype=np.float32)
             larger[:known] = self.total
             self.total = larger
         in_threads(
-            kernels.add_snapshot, blocks.phi, blocks.held, self.total, np.float32(weight), known,
-            np.float32(self.so_far), blocks.count, threads=blocks.threads,
+            kernels.add_snapshot, bricks.phi, bricks.held, self.total, np.float32(weight), known,
+            np.float32(self.so_far), bricks.count, threads=bricks.threads,
         )  # fmt: skip
         self.so_far += weight
 
 
-def _grown(before: Field, known: int, blocks: Blocks) -> Field:
-    """Return the last but one field with the blocks that came in: until now those were as their data."""
-    if len(before) < blocks.count:
-        larger = np.empty((int(MORE * blocks.count), CELLS), dtype=np.float32)
+def _grown(before: Field, known: int, bricks: Bricks) -> Field:
+    """Return the last but one field with the bricks that came in: until now those were as their data."""
+    if len(before) < bricks.count:
+        larger = np.empty((int(MORE * bricks.count), CELLS), dtype=np.float32)
         larger[:known] = before[:known]
         before = larger
-    before[known : blocks.count] = blocks.held[known : blocks.count]
+    before[known : bricks.count] = bricks.held[known : bricks.count]
     return before
 
 
-def _step(blocks: Blocks, before: Field, numbers: Numbers, momentum: float) -> None:
+def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> None:
     """Do one step in place; `before` becomes the field as it was."""
     in_threads(
-        kernels.step, blocks.phi, before, blocks.faces, blocks.next_faces, blocks.flat, blocks.next_flat,
-        blocks.uniform, blocks.beside, blocks.where, blocks.count, numbers, np.float32(momentum), blocks.shape,
-        threads=blocks.threads,
+        kernels.step, bricks.phi, before, bricks.faces, bricks.next_faces, bricks.flat, bricks.next_flat,
+        bricks.uniform, bricks.beside, bricks.where, bricks.count, numbers, np.float32(momentum), bricks.shape,
+        threads=bricks.threads,
     )  # fmt: skip
-    blocks.faces, blocks.next_faces = blocks.next_faces, blocks.faces
-    blocks.flat, blocks.next_flat = blocks.next_flat, blocks.flat
+    bricks.faces, bricks.next_faces = bricks.next_faces, bricks.faces
+    bricks.flat, bricks.next_flat = bricks.next_flat, bricks.flat
 
 
 def _unit(smoothing: Smoothing) -> float:
@@ -285,7 +285,7 @@ def _unit(smoothing: Smoothing) -> float:
 def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: int) -> None:
     """Do in place what `gate` does, with averages from coarse cells; `phase` is the milder field."""
     size = limits.size
-    sums = np.empty((len(low.values), kernels.SUMS, *(count // size for count in BLOCK)), dtype=np.float32)
+    sums = np.empty((len(low.values), kernels.SUMS, *(count // size for count in BRICK)), dtype=np.float32)
     below, above = low.values.reshape(-1, CELLS), REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
     in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
     blurred = np.empty_like(sums)
@@ -299,7 +299,7 @@ def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: i
 def filtered_reference(
     f: NDArray[np.generic], smoothing: Smoothing, *, spacing: float | tuple[float, ...] = 1.0
 ) -> tuple[NDArray[np.float64], ...]:
-    """Return P_0, P_1 and P_2 in float64: what `filtered_blocks` is tested against."""
+    """Return P_0, P_1 and P_2 in float64: what `filtered_bricks` is tested against."""
     schedule = Schedule.of(smoothing.steps)
     phi = f.astype(np.float64)
     weights, decay = smoothing.weights(spacing_of(spacing, phi.ndim)), smoothing.decay
@@ -346,7 +346,7 @@ def gate(
 def refine_reference(
     f: NDArray[np.generic], smoothing: Smoothing, *, spacing: float | tuple[float, ...] = 1.0
 ) -> NDArray[np.float64]:
-    """Return the refined distance in float64, +-1 far away: the specification of `refine_blocks`."""
+    """Return the refined distance in float64, +-1 far away: the specification of `refine_bricks`."""
     fields = [np.clip(each, -1, 1) for each in filtered_reference(f, smoothing, spacing=spacing)]
     unit = _unit(smoothing)
     mild, middle, strong = (

@@ -1,10 +1,10 @@
-"""The compiled scheme on blocks around the surface only; everywhere else nothing moves.
+"""The compiled scheme on bricks around the surface only; everywhere else nothing moves.
 
 Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.kernels.dense`). So
-a block in which that holds need not be kept, and a step touches a block only once a neighbour's face has another
+a brick in which that holds need not be kept, and a step touches a brick only once a neighbour's face has another
 value. The result is that of the dense kernel to the last bit, and cost and memory grow with the surface.
 
-The blocks lie on a lattice that begins one cell before the grid and ends at least one cell behind it: there the
+The bricks lie on a lattice that begins one cell before the grid and ends at least one cell behind it: there the
 surface of what touches the edge of the grid will close. Those outer cells repeat the value beside them, which is
 the zero Neumann edge.
 """
@@ -21,28 +21,28 @@ from numpy.typing import NDArray
 from infill.kernels import sparse as kernels
 from infill.kernels import transfer as transfer_kernels
 from infill.kernels.compiling import told_of_compiling
-from infill.kernels.sparse import BLOCK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BLOCK, VOID_BLOCK
+from infill.kernels.sparse import BRICK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BRICK, VOID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
 
-ROOM, MORE = 3.0, 1.5  # blocks to make room for over those there are, at first and when it is used up
+ROOM, MORE = 3.0, 1.5  # bricks to make room for over those there are, at first and when it is used up
 
 
 @dataclass(frozen=True, kw_only=True)
 class SparseField:
-    """A phase field of which only the blocks around the surface are kept.
+    """A phase field of which only the bricks around the surface are kept.
 
     Parameters
     ----------
     shape : (n0, n1, n2)
         Cells of the grid.
     slots : (m0, m1, m2) int32
-        The lattice of blocks: the number of a block that is kept, else `VOID_BLOCK`, `SOLID_BLOCK` or `OUTSIDE`.
+        The lattice of bricks: the number of a brick that is kept, else `VOID_BRICK`, `SOLID_BRICK` or `OUTSIDE`.
     where : (n, 3) int32
-        Place on the lattice of each block that is kept.
+        Place on the lattice of each brick that is kept.
     values : (n, 8, 8, 16) float32
-        Its cells; cell 0 of block 0 lies one cell before the grid.
+        Its cells; cell 0 of brick 0 lies one cell before the grid.
     data : (n, 8, 8, 16) int8 or float32
         What the cells were smoothed from.
     """
@@ -72,11 +72,11 @@ def smooth_sparse(
 
     Grey data are all surface: there it does what the dense kernel does, with more overhead.
     """
-    return smooth_blocks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
+    return smooth_bricks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
 
-@told_of_compiling("the blocks' kernels")
-def smooth_blocks(
+@told_of_compiling("the bricks' kernels")
+def smooth_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,
     *,
@@ -86,7 +86,7 @@ def smooth_blocks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SparseField:
-    """Return the smoothed field in blocks, without ever holding it whole.
+    """Return the smoothed field in bricks, without ever holding it whole.
 
     Parameters
     ----------
@@ -107,22 +107,22 @@ def smooth_blocks(
         start = on_three_axes(initial).astype(np.float32)
         state = np.where(state == states_of(start, threads)[1], state, MIXED)
     domain = None if mask is None else on_three_axes(mask)
-    blocks = Blocks.around(state, data, threads)
-    blocks.gather(start, data)
+    bricks = Bricks.around(state, data, threads)
+    bricks.gather(start, data)
     for n in range(smoothing.steps):
         if progress is not None:
             progress(n / smoothing.steps)
-        blocks.activate()
-        blocks.step(numbers, domain)
+        bricks.activate()
+        bricks.step(numbers, domain)
     shape = data.shape
     return SparseField(
-        shape=(shape[0], shape[1], shape[2]), slots=blocks.slots, where=blocks.where[: blocks.count],
-        values=blocks.phi[: blocks.count].reshape(-1, *BLOCK), data=blocks.held[: blocks.count].reshape(-1, *BLOCK),
+        shape=(shape[0], shape[1], shape[2]), slots=bricks.slots, where=bricks.where[: bricks.count],
+        values=bricks.phi[: bricks.count].reshape(-1, *BRICK), data=bricks.held[: bricks.count].reshape(-1, *BRICK),
     )  # fmt: skip
 
 
 def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
-    """Return the field as the kernels take it, and the state of every block: +1, -1, `MIXED` or `OUTER`."""
+    """Return the field as the kernels take it, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
     if field.dtype == bool:
         data: Data = field.view(np.int8)
     elif np.issubdtype(field.dtype, np.integer):
@@ -131,7 +131,7 @@ def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[n
         data = field.astype(np.float32, copy=False)
     data = data.view()
     data.flags.writeable = False  # compiled once, whether the array may be written to or not
-    lattice = tuple(math.ceil((count + 2) / size) for count, size in zip(data.shape, BLOCK, strict=True))
+    lattice = tuple(math.ceil((count + 2) / size) for count, size in zip(data.shape, BRICK, strict=True))
     state = np.empty(lattice, dtype=np.int8)
     zeros = np.zeros(lattice[:2], dtype=bool)
     if data.dtype == np.int8:
@@ -143,8 +143,8 @@ def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[n
     return data, state
 
 
-class Blocks:
-    """The blocks at work: their cells, their data, and copies of their faces before and after a step."""
+class Bricks:
+    """The bricks at work: their cells, their data, and copies of their faces before and after a step."""
 
     def __init__(self, slots: NDArray[np.int32], where: NDArray[np.int32], data: Data, threads: int) -> None:
         self.slots, self.count, self.shape, self.threads = slots, len(where), data.shape, threads
@@ -154,15 +154,15 @@ class Blocks:
         self.held: Data = np.empty((0, CELLS), dtype=data.dtype)
         self.faces, self.next_faces = (np.empty((0, FACES), dtype=np.float32) for _ in range(2))
         self.flat, self.next_flat = (np.empty((0, 6), dtype=np.int8) for _ in range(2))
-        self.uniform = np.empty(0, dtype=np.int8)  # the value of a block in which nothing moved yet, else 0
+        self.uniform = np.empty(0, dtype=np.int8)  # the value of a brick in which nothing moved yet, else 0
         self.beside = np.empty((0, 6), dtype=np.int32)
         self._grow(room)
         self.uniform[: self.count] = 0
         kernels.find_neighbours(self.slots, self.where, self.beside, 0, self.count)
 
     @classmethod
-    def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> Blocks:
-        """Return room for the blocks that are mixed, or beside one of the other phase."""
+    def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> Bricks:
+        """Return room for the bricks that are mixed, or beside one of the other phase."""
         kept = state == MIXED
         for axis in range(3):
             low, high = (
@@ -172,8 +172,8 @@ class Blocks:
             differs = state[low] * state[high] == -1
             kept[low] |= differs
             kept[high] |= differs
-        slots = np.full(state.shape, VOID_BLOCK, dtype=np.int32)
-        slots[state == 1] = SOLID_BLOCK
+        slots = np.full(state.shape, VOID_BRICK, dtype=np.int32)
+        slots[state == 1] = SOLID_BRICK
         slots[state == OUTER] = OUTSIDE
         where = np.argwhere(kept).astype(np.int32)
         slots[kept] = np.arange(len(where))
@@ -188,12 +188,12 @@ class Blocks:
             self._take(start, self.phi)
         in_threads(kernels.emit_all, self.phi, self.faces, self.flat, self.count, threads=self.threads)
 
-    def _take(self, whole: Data, blocks: Data) -> None:
+    def _take(self, whole: Data, bricks: Data) -> None:
         level = 0 if whole.dtype == np.int8 else None
-        in_threads(transfer_kernels.gather, whole, self.where, blocks, self.count, level, threads=self.threads)
+        in_threads(transfer_kernels.gather, whole, self.where, bricks, self.count, level, threads=self.threads)
 
     def activate(self) -> None:
-        """Begin to keep the blocks beside faces of another value."""
+        """Begin to keep the bricks beside faces of another value."""
         found = np.empty((6 * self.count, 3), dtype=np.int32)
         wanted = found[: kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count, found)]
         if len(wanted) == 0:
@@ -202,7 +202,7 @@ class Blocks:
         if self.count > len(self.phi):
             self._grow(int(MORE * self.count))
         self.where[first : self.count] = wanted
-        values = np.where(self.slots[tuple(wanted.T)] == SOLID_BLOCK, 1, -1).astype(np.int8)
+        values = np.where(self.slots[tuple(wanted.T)] == SOLID_BRICK, 1, -1).astype(np.int8)
         self.uniform[first : self.count] = values
         self.slots[tuple(wanted.T)] = np.arange(first, self.count)
         kernels.find_neighbours(self.slots, self.where, self.beside, first, self.count)

@@ -13,7 +13,7 @@ from infill.phasefield.sparse import SparseField
 from infill.result import Result
 from infill.surface import Surface
 from infill.surfaces.distance import distances
-from infill.surfaces.sparse_marching import extract_blocks
+from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
 COMPARED = 5_000  # vertices of which the distance is measured
@@ -44,8 +44,8 @@ def field_volume(result: Result) -> Volume:
 
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
-    """Return the surface of the data in blocks, placed in space."""
-    raw = extract_blocks(replace(field, values=as_float(field)), spacing=tuple(data.cell_size), threads=threads)
+    """Return the surface of the data in bricks, placed in space."""
+    raw = extract_bricks(replace(field, values=as_float(field)), spacing=tuple(data.cell_size), threads=threads)
     return placed(raw, data)
 
 
@@ -64,7 +64,7 @@ def moved(
 
 
 def as_float(field: SparseField) -> NDArray[np.float32]:
-    """Return the data of the blocks as phase field."""
+    """Return the data of the bricks as phase field."""
     values: NDArray[np.float32] = field.data.astype(np.float32)
     return values
 

@@ -1,8 +1,8 @@
 """`smooth_volume`, `smooth_mesh`, `smooth_points`: from a scan, a mesh or points to a smooth closed mesh.
 
-    data  ->  solid on a grid  ->  blocks, smoothed  ->  level of the right volume  ->  closed surface
+    data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
-and a report of what smoothing did: to the volume, to bodies, cavities and tunnels, and to the thinnest walls.
+and a report of what smoothing did: to the volume, to components, cavities and tunnels, and to the thinnest walls.
 """
 
 from __future__ import annotations
@@ -40,11 +40,11 @@ if TYPE_CHECKING:
     import trimesh
 
     from infill.phasefield.sparse import SparseField
-    from infill.surfaces.components import Bodies
+    from infill.surfaces.components import Components
 
 LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
-BYTES_PER_SURFACE_CELL = 600  # blocks, faces, labels and mesh, for every cell at the surface
+BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface
 BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
 OFF = 0.01  # of the volume: what the level of the volume may miss, by specks that are gone
 SIMPLER = 0.05  # of the volume: what simplifying may change
@@ -101,11 +101,11 @@ def smooth_volume(
         long, the whole twice. For clean data: specks are kept too, so despeckle. It takes 4 steps or more, and no
         fidelity.
     level : "volume" or float
-        "volume" puts the surface where every body has the volume it has in the data; 0 is the paper's surface.
+        "volume" puts the surface where every component has the volume it has in the data; 0 is the paper's surface.
     despeckle : float
-        Bodies up to this volume are taken out first, mm³.
+        Components up to this volume are taken out first, mm³.
     allow_broken : bool
-        Return a result in which walls broke or bodies vanished, and say so in the report, instead of raising.
+        Return a result in which walls broke or components vanished, and say so in the report, instead of raising.
     tolerance, max_triangles : float (mm) and int, optional
         Simplify the mesh.
     threads, max_memory : int, optional
@@ -123,7 +123,7 @@ def smooth_volume(
     ParameterError
         If the values do not tell what is solid, or a number is out of its range.
     GeometryError
-        If a body or a wall more than one cell thick breaks or vanishes.
+        If a component or a wall more than one cell thick breaks or vanishes.
     MemoryLimitError
         Before anything is computed.
 
@@ -168,7 +168,7 @@ def smooth_mesh(
     Parameters
     ----------
     mesh : trimesh.Trimesh or Surface, mm
-        It may be open, inside out, pass through itself, or have several bodies.
+        It may be open, inside out, pass through itself, or have several components.
     resolution : int, optional
         Cells along the longest side; 200 if neither this nor `voxel` is given.
     voxel : float, optional
@@ -227,9 +227,9 @@ def _smoothed(
     progress: Progress | None = None,
 ) -> Result:
     """Do what the three functions have in common."""
-    from infill.phasefield.refining import refine_blocks
-    from infill.phasefield.sparse import smooth_blocks
-    from infill.surfaces.components import bodies, data_bits, shell_names
+    from infill.phasefield.refining import refine_bricks
+    from infill.phasefield.sparse import smooth_bricks
+    from infill.surfaces.components import components, data_bits, shell_names
     from infill.surfaces.levels import as_straightened, at_level, at_volume, counted
 
     if isinstance(level, str) and level != "volume":
@@ -246,14 +246,14 @@ def _smoothed(
             if progress is not None:
                 progress("smooth", 0.05 + 0.3 * share)
 
-        smoothed = refine_blocks if refine else smooth_blocks
+        smoothed = refine_bricks if refine else smooth_bricks
         field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
     with clock.stage("surface", 0.4):
         by_volume, guess = level == "volume", None
         if by_volume:
             before, field, guess = counted(field, spacing=size, straighten=not refine, threads=threads)
         else:
-            before = bodies(field, data_bits(field, threads=threads))
+            before = components(field, data_bits(field, threads=threads))
         targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
         if field.data.dtype != np.int8:
             targets = _grey_volumes(field, before, size, threads)
@@ -321,7 +321,7 @@ def _of_voxels(total: float, repairs: Repairs | None) -> list[str]:
     if repairs is None or repairs.volume == 0:
         return []
     off = total / repairs.volume - 1
-    if off > ROUGH or (off < -ROUGH and repairs.bodies == 1):  # bodies that overlap are united
+    if off > ROUGH or (off < -ROUGH and repairs.components == 1):  # components that overlap are united
         word = "more" if off > 0 else "less"
         return [f"the voxels hold {abs(off):.0%} {word} than the mesh, whose walls are thin for them"]
     return []
@@ -347,25 +347,25 @@ def _require(data: Volume, limit: int | None, each: int) -> None:
 
 
 def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
-    """Return the data without bodies up to a volume, mm³, and how many those were."""
-    from infill.phasefield.sparse import smooth_blocks
-    from infill.surfaces.components import bodies, data_bits, without
+    """Return the data without components up to a volume, mm³, and how many those were."""
+    from infill.phasefield.sparse import smooth_bricks
+    from infill.surfaces.components import components, data_bits, without
 
-    field = smooth_blocks(data.values, Smoothing(steps=0), threads=threads)
-    every = bodies(field, data_bits(field, threads=threads))
+    field = smooth_bricks(data.values, Smoothing(steps=0), threads=threads)
+    every = components(field, data_bits(field, threads=threads))
     small = every.cells * data.cell_volume <= largest
     if small.all():
         raise ParameterError(
-            f"despeckle is {largest:g} mm³ and the largest body has {every.cells.max() * data.cell_volume:g} mm³; "
+            f"despeckle is {largest:g} mm³ and the largest component has {every.cells.max() * data.cell_volume:g} mm³; "
             "give less"
         )
     return (without(data.values, field, every, small), int(small.sum())) if small.any() else (data.values, 0)
 
 
 def _grey_volumes(
-    field: SparseField, data: Bodies, size: tuple[float, ...], threads: int | None
+    field: SparseField, data: Components, size: tuple[float, ...], threads: int | None
 ) -> NDArray[np.float64]:
-    """Return the volume of each body of grey data as its surface at level 0 encloses it, mm³."""
+    """Return the volume of each component of grey data as its surface at level 0 encloses it, mm³."""
     from infill.surfaces.levels import volumes_of
 
     volume = volumes_of(replace(field, values=as_float(field)), data, spacing=size, threads=threads)

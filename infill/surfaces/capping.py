@@ -7,7 +7,7 @@ from collections import defaultdict
 import numpy as np
 from numpy.typing import NDArray
 
-FLAT = 1e-9  # a body of less than this share of its longest side cubed has no volume
+FLAT = 1e-9  # a component of less than this share of its longest side cubed has no volume
 
 WELD = 0.01  # of a cell: corners of open edges that are nearer to one another are one
 
@@ -149,8 +149,8 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, added]), len(found)
 
 
-def bodies(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
-    """Return for every face the body it belongs to, by shared vertices, and the signed volume of each body.
+def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
+    """Return for every face the component it belongs to, by shared vertices, and the signed volume of each component.
 
     Parameters
     ----------
@@ -160,9 +160,9 @@ def bodies(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
 
     Returns
     -------
-    body : (F,) int
+    component : (F,) int
     volumes : (B,) float64
-        0 for a body that encloses nothing but rounding errors.
+        0 for a component that encloses nothing but rounding errors.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -170,14 +170,14 @@ def bodies(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
     one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
     graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(len(vertices),) * 2)
     _, label = connected_components(graph, directed=False)
-    body = np.unique(label[faces[:, 0]], return_inverse=True)[1]
-    count = int(body.max()) + 1
-    # Seen from a corner of its own, so that a small body far out loses no digits.
-    first = np.unique(body, return_index=True)[1]
-    a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][body] for i in range(3))
+    component = np.unique(label[faces[:, 0]], return_inverse=True)[1]
+    count = int(component.max()) + 1
+    # Seen from a corner of its own, so that a small component far out loses no digits.
+    first = np.unique(component, return_index=True)[1]
+    a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][component] for i in range(3))
     sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
     reach = np.zeros(count)
-    np.maximum.at(reach, body, np.abs([a, b, c]).max(axis=(0, 2)))
-    volumes = np.bincount(body, weights=sixfold, minlength=count) / 6
+    np.maximum.at(reach, component, np.abs([a, b, c]).max(axis=(0, 2)))
+    volumes = np.bincount(component, weights=sixfold, minlength=count) / 6
     volumes[np.abs(volumes) <= FLAT * reach**3] = 0.0
-    return body, volumes
+    return component, volumes

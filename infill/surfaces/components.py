@@ -1,6 +1,6 @@
-"""Bodies of solid and of void in a field of blocks: how many, how large, and what smoothing did to them.
+"""Components of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
 
-Everything is found from rows of sixteen bits and from the blocks that are kept, so that cost grows with the surface.
+Everything is found from rows of sixteen bits and from the bricks that are kept, so that cost grows with the surface.
 Cells of solid are joined by faces, cells of void by faces and edges, as marching cubes joins them on raw data.
 """
 
@@ -13,60 +13,60 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels import components as kernels
-from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK, VOID_BLOCK
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK, VOID_BRICK
 from infill.kernels.sparse_marching import ROWS, volumes
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.sparse_marching import rows_above
 
-LARGE = 100  # cells: two such bodies that run together are told
-SMALLEST_PART = 8  # cells: what comes off a body and is smaller is a crumb, no part of it
+LARGE = 100  # cells: two such components that run together are told
+SMALLEST_PART = 8  # cells: what comes off a component and is smaller is a crumb, no part of it
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bodies:
-    """The bodies of solid, or of void, of one field.
+class Components:
+    """The components of solid, or of void, of one field.
 
     Parameters
     ----------
     cells : (b,) int64
-        Cells of each body.
+        Cells of each component.
     thick : (b,) bool
-        Whether a body holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
-    bits, blocks, starts, alone, names
-        How a cell finds its body: bits of every row, numbers of runs, of blocks of one value, and names of both.
+        Whether a component holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
+    bits, bricks, starts, alone, names
+        How a cell finds its component: bits of every row, numbers of runs, of bricks of one value, and names of both.
     """
 
     cells: NDArray[np.int64]
     thick: NDArray[np.bool_]
     bits: NDArray[np.uint16]
-    blocks: NDArray[np.int64]
+    bricks: NDArray[np.int64]
     starts: NDArray[np.int16]
     alone: NDArray[np.int32]
     names: NDArray[np.int32]
 
     @property
     def count(self) -> int:
-        """Number of bodies."""
+        """Number of components."""
         return len(self.cells)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Fate:
-    """What became of bodies, by their numbers before and after.
+    """What became of components, by their numbers before and after.
 
     Parameters
     ----------
     vanished : (n,) int
-        Bodies that have no cell in common with any after.
+        Components that have no cell in common with any after.
     broken : (n,) int
-        Bodies of which two or more parts of at least `SMALLEST_PART` cells are left.
+        Components of which two or more parts of at least `SMALLEST_PART` cells are left.
     joined : (n,) int
-        Bodies after that hold at least `LARGE` cells of two or more before; if thickness is known, of those more than
-        one cell thick.
+        Components after that hold at least `LARGE` cells of two or more before; if thickness is known, of those more
+        than one cell thick.
     appeared : (n,) int
-        Bodies after that have no cell in common with any before.
+        Components after that have no cell in common with any before.
     """
 
     vanished: NDArray[np.integer]
@@ -98,12 +98,12 @@ class Shells:
 
     @property
     def components(self) -> int:
-        """Bodies of solid."""
+        """Components of solid."""
         return int((self.volume > 0).sum())
 
     @property
     def cavities(self) -> int:
-        """Bodies of void that solid encloses."""
+        """Components of void that solid encloses."""
         return int((self.volume <= 0).sum())
 
     @property
@@ -113,12 +113,12 @@ class Shells:
 
 
 def solid_bits(field: SparseField, *, level: float = 0.0, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept blocks are above the level, (n, rows) uint16."""
+    """Return which cells of the kept bricks are above the level, (n, rows) uint16."""
     return rows_above(field, field.values, level, threads=threads)
 
 
 def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return which cells of the kept blocks are solid in the data, (n, rows) uint16."""
+    """Return which cells of the kept bricks are solid in the data, (n, rows) uint16."""
     return rows_above(field, field.data, 0.0, threads=threads)
 
 
@@ -142,7 +142,7 @@ def grown(
 
 
 def _meet_or_spread(
-    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BLOCK
+    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BRICK
 ) -> NDArray[np.uint16]:
     out = np.empty_like(bits)
     in_threads(
@@ -152,68 +152,71 @@ def _meet_or_spread(
     return out
 
 
-def bodies(
+def components(
     field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True, thickness: bool = False
-) -> Bodies:
-    """Return the bodies of solid of a field whose solid cells are `bits`, or those of void, the outside first.
+) -> Components:
+    """Return the components of solid of a field whose solid cells are `bits`, or those of void, the outside first.
 
-    Without `whole`, only the cells in `bits` count, not the blocks that are solid throughout. With `thickness`, it is
-    told which bodies are more than one cell thick.
+    Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, it is
+    told which components are more than one cell thick.
     """
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
     if void:
         bits = ~bits
-        single = (field.slots < 0) & (field.slots != SOLID_BLOCK)
+        single = (field.slots < 0) & (field.slots != SOLID_BRICK)
     else:
-        single = (field.slots == SOLID_BLOCK) & whole
-    blocks = np.empty(len(bits), dtype=np.int64)
+        single = (field.slots == SOLID_BRICK) & whole
+    bricks = np.empty(len(bits), dtype=np.int64)
     starts = np.empty((len(bits), ROWS), dtype=np.int16)
-    runs = kernels.number_runs(bits, blocks, starts)
+    runs = kernels.number_runs(bits, bricks, starts)
     alone[single] = runs + np.arange(single.sum())
     parent = np.arange(runs + int(single.sum()))
     if void:
-        kernels.join_beyond(field.where, bits, blocks, starts, field.shape, parent)
+        kernels.join_beyond(field.where, bits, bricks, starts, field.shape, parent)
         rim = np.zeros(alone.shape, dtype=bool)
         for axis in range(3):
             rim[tuple([0, -1] if a == axis else slice(None) for a in range(3))] = True
         parent[alone[single & rim]] = 0
     kernels.join_alone(alone, parent)
-    kernels.join_runs(field.slots, field.where, bits, blocks, starts, alone, parent, void)
+    kernels.join_runs(field.slots, field.where, bits, bricks, starts, alone, parent, void)
     names = np.empty(len(parent), dtype=np.int32)
     count = kernels.name_sets(parent, names)
     cells = np.zeros(count, dtype=np.int64)
-    kernels.count_cells(field.where, bits, blocks, starts, field.shape, names, cells)
-    np.add.at(cells, names[alone[single]], _cells_within(np.argwhere(single), field.shape))
+    kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
+    np.add.at(cells, names[alone[single]], _sides_within(np.argwhere(single), field.shape).prod(axis=1))
     if not void:  # run 0 stands for what lies beyond the grid, which is no solid
         cells, names = cells[1:], names - 1
-    every = Bodies(
-        cells=cells, thick=np.empty(0, dtype=bool), bits=bits, blocks=blocks, starts=starts, alone=alone, names=names
+    every = Components(
+        cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
     )
     return with_thickness(field, every, void=void) if thickness else every
 
 
-def with_thickness(field: SparseField, every: Bodies, *, void: bool = False) -> Bodies:
-    """Return the bodies, with which of them are more than one cell thick."""
+def with_thickness(field: SparseField, every: Components, *, void: bool = False) -> Components:
+    """Return the components, with which of them are more than one cell thick."""
     thick = np.zeros(every.count, dtype=bool)
-    kind = VOID_BLOCK if void else SOLID_BLOCK
+    kind = VOID_BRICK if void else SOLID_BRICK
     core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
-    kernels.mark_runs(every.bits, every.blocks, every.starts, every.names, core, thick)
-    thick[every.names[every.alone[every.alone >= 0]]] = True
+    kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
+    places = np.argwhere(every.alone >= 0)
+    if not void:  # a brick of solid that the grid cuts off may be a sheet there; void goes on beyond the grid
+        places = places[(_sides_within(places, field.shape) > 1).all(axis=1)]
+    thick[every.names[every.alone[tuple(places.T)]]] = True
     return replace(every, thick=thick)
 
 
-def _cells_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
-    """Return how many cells of whole blocks lie on the grid."""
-    low = np.maximum(places * BLOCK, 1)
-    high = np.minimum((places + 1) * BLOCK, np.array(shape) + 1)
-    inside: NDArray[np.int64] = np.prod(np.maximum(high - low, 0), axis=1)
-    return inside
+def _sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
+    """Return how many cells along each axis of whole bricks lie on the grid, (n, 3)."""
+    low = np.maximum(places * BRICK, 1)
+    high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
+    sides: NDArray[np.int64] = np.maximum(high - low, 0)
+    return sides
 
 
-def fate(before: Bodies, after: Bodies) -> Fate:
-    """Compare two sets of bodies on the same blocks."""
+def fate(before: Components, after: Components) -> Fate:
+    """Compare two sets of components on the same bricks."""
     found = kernels.overlaps(
-        before.bits, before.blocks, before.starts, before.names, after.bits, after.blocks, after.starts, after.names
+        before.bits, before.bricks, before.starts, before.names, after.bits, after.bricks, after.starts, after.names
     )
     single = before.alone >= 0
     own, theirs = before.names[before.alone[single]], after.names[after.alone[single]]
@@ -261,28 +264,28 @@ def face_sums(
     return own, change
 
 
-def without(values: NDArray[Any], field: SparseField, every: Bodies, small: NDArray[np.bool_]) -> NDArray[Any]:
-    """Return data (nx, ny, nz) with the bodies marked in `small` (b,) made void; floating-point data as float32."""
+def without(values: NDArray[Any], field: SparseField, every: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
+    """Return data (nx, ny, nz) with the components marked in `small` (b,) made void; floating-point data as float32."""
     out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
     void = False if values.dtype == bool else -1
-    kernels.erase(out, field.where, every.bits, every.blocks, every.starts, every.names, small, void)
+    kernels.erase(out, field.where, every.bits, every.bricks, every.starts, every.names, small, void)
     single = np.argwhere(every.alone >= 0)
-    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # blocks that are solid throughout
-        low = np.maximum(place * BLOCK - 1, 0)
-        out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BLOCK - 1, strict=True))] = void
+    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
+        low = np.maximum(place * BRICK - 1, 0)
+        out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BRICK - 1, strict=True))] = void
     return out
 
 
-def cells_of(field: SparseField, every: Bodies, number: int) -> NDArray[np.int64]:
-    """Return the cells (n, 3) of a body that lie in blocks kept, counted from the first of the grid."""
-    blocks, rows = np.nonzero(every.bits)
-    solid = every.bits[blocks, rows, None] >> np.arange(BLOCK[2], dtype=np.uint16) & 1
+def cells_of(field: SparseField, every: Components, number: int) -> NDArray[np.int64]:
+    """Return the cells (n, 3) of a component that lie in bricks kept, counted from the first of the grid."""
+    bricks, rows = np.nonzero(every.bits)
+    solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
     which, k = np.nonzero(solid)
-    block, row = blocks[which], rows[which]
-    place = field.where[block].astype(np.int64) * BLOCK + np.stack([row // BLOCK[1], row % BLOCK[1], k], axis=1)
+    brick, row = bricks[which], rows[which]
+    place = field.where[brick].astype(np.int64) * BRICK + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
     label = np.empty(len(place), dtype=np.int32)
     kernels.label_cells(
-        place.astype(np.int32), field.slots, every.bits, every.blocks, every.starts, every.alone, every.names, 0, label
+        place.astype(np.int32), field.slots, every.bits, every.bricks, every.starts, every.alone, every.names, 0, label
     )
     cells: NDArray[np.int64] = place[label == number] - 1
     return cells

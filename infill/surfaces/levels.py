@@ -2,7 +2,7 @@
 
 Smoothing by the paper's equation shrinks what is convex: by 2 % a sphere of 40 cells after 40 steps. The field
 is not to blame, the level is: {phi > c} with c a little below 0 has the volume of the data, and lies closer to the
-true surface. Bodies differ, so each one gets a level of its own.
+true surface. Components differ, so each one gets a level of its own.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.kernels import components as bodies_kernels
-from infill.kernels.sparse import BLOCK, CELLS
+from infill.kernels import components as components_kernels
+from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.profile import REFINED, STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
-from infill.surfaces.components import Bodies, Shells, bodies, data_bits, face_sums, shells
+from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
 from infill.surfaces.sparse_marching import Level, extract_level, measured
 
 LIMIT = 0.98  # levels lie between minus and plus this
 TOLERANCE = 5e-5  # of the volume
-BODY_TOLERANCE = 2e-4  # of the volume of one body among several
+COMPONENT_TOLERANCE = 2e-4  # of the volume of one component among several
 ROUNDS = 8
 BIGGEST_STEP = 0.3
-REACH = 4  # cells from a body in which its level holds
-SMALLEST = 8  # cells: a smaller body has no level of its own
+REACH = 4  # cells from a component in which its level holds
+SMALLEST = 8  # cells: a smaller component has no level of its own
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +41,7 @@ class Levelled:
     Parameters
     ----------
     against : SparseField
-        The field, or the field less the level of each body.
+        The field, or the field less the level of each component.
     surface : Surface
     rate : (V, 3) float32
         How far its vertices move when the level rises by one, mm.
@@ -50,7 +50,7 @@ class Levelled:
     common : float
         The level of all that has none of its own.
     levels : (b,) float64
-        The level of each body of the data.
+        The level of each component of the data.
     """
 
     against: SparseField
@@ -87,30 +87,30 @@ def volume_of(found: Level, threads: int) -> tuple[float, float]:
 
 def counted(
     field: SparseField, *, spacing: tuple[float, ...], straighten: bool = True, threads: int | None = None
-) -> tuple[Bodies, SparseField, tuple[float, float] | None]:
-    """Return the bodies of the data, the field on a straight profile, and its volume and slope at level 0.
+) -> tuple[Components, SparseField, tuple[float, float] | None]:
+    """Return the components of the data, the field on a straight profile, and its volume and slope at level 0.
 
-    Bodies are looked for by a thread of its own meanwhile. A field that is straightened gives up its values.
+    Components are looked for by a thread of its own meanwhile. A field that is straightened gives up its values.
     """
     with ThreadPoolExecutor(1) as aside:
-        found = aside.submit(bodies, field, data_bits(field, threads=threads))
+        found = aside.submit(components, field, data_bits(field, threads=threads))
         straight = straightened(field, out=field.values, threads=threads) if straighten else field
         guess = measured(straight, spacing=spacing, level=0.0, threads=threads)
         return found.result(), straight, guess
 
 
 def volumes_of(
-    field: SparseField, data: Bodies, *, spacing: tuple[float, ...], threads: int | None = None
+    field: SparseField, data: Components, *, spacing: tuple[float, ...], threads: int | None = None
 ) -> NDArray[np.float64]:
-    """Return the volume of each body of the data at level 0, (b,) mm³."""
+    """Return the volume of each component of the data at level 0, (b,) mm³."""
     found = extract_level(field, spacing=spacing, threads=threads)
     parts = shells(found.surface, found.rate)
-    body, _ = _body_of(parts, found.surface, field, data, spacing)
-    return _sums(body, parts.volume, data.count)
+    component, _ = _component_of(parts, found.surface, field, data, spacing)
+    return _sums(component, parts.volume, data.count)
 
 
 def at_level(
-    field: SparseField, data: Bodies, *, spacing: tuple[float, ...], level: float, threads: int | None = None
+    field: SparseField, data: Components, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> Levelled:
     """Return the surface at one level: the paper's is 0."""
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
@@ -122,23 +122,23 @@ def at_level(
 
 def at_volume(
     field: SparseField,
-    data: Bodies,
+    data: Components,
     *,
     spacing: tuple[float, ...],
     targets: NDArray[np.float64],
     guess: tuple[float, float] | None = None,
     threads: int | None = None,
 ) -> Levelled:
-    """Return the surface at which every body has the volume it has in the data.
+    """Return the surface at which every component has the volume it has in the data.
 
     Parameters
     ----------
     field : SparseField
-    data : Bodies
+    data : Components
         Of the data's solid.
     spacing : (hx, hy, hz), mm
     targets : (b,) float64
-        Volume of each body, mm³.
+        Volume of each component, mm³.
     guess : (float, float), optional
         Volume at level 0 and its slope over the level, if known.
 
@@ -176,7 +176,7 @@ def at_volume(
             against=field, height=height, surface=found.surface, rate=found.rate, common=height,
             levels=np.array([height]),
         )  # fmt: skip
-    return _each_body(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
+    return _each_component(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:
@@ -185,18 +185,18 @@ def _next_level(level: float, volume: float, slope: float, total: float) -> floa
     return min(max(level + change, -LIMIT), LIMIT)
 
 
-def _each_body(
+def _each_component(
     field: SparseField,
-    data: Bodies,
+    data: Components,
     *,
     spacing: tuple[float, ...],
     targets: NDArray[np.float64],
     common: float,
     threads: int,
 ) -> Levelled:
-    """Return the surface at which every body that is large enough has its own volume."""
+    """Return the surface at which every component that is large enough has its own volume."""
     own = data.cells >= SMALLEST
-    group: NDArray[np.integer] = np.arange(data.count)  # bodies that run together share a level from then on
+    group: NDArray[np.integer] = np.arange(data.count)  # components that run together share a level from then on
     levels = np.full(data.count, common)
     low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # what is known to be below and above
     best: Levelled | None = None
@@ -205,12 +205,12 @@ def _each_body(
         shifted = _lowered(field, data, levels, common, threads)
         found = extract_level(shifted, spacing=spacing, threads=threads)
         parts = shells(found.surface, found.rate)
-        body, together = _body_of(parts, found.surface, shifted, data, spacing)
+        component, together = _component_of(parts, found.surface, shifted, data, spacing)
         joined = _joined(group, together)
         changed = joined != group
         group = joined
         low, high = np.where(changed, -1.0, low), np.where(changed, 1.0, high)
-        volume, slope = (_sums(group, _sums(body, each, data.count)) for each in (parts.volume, parts.slope))
+        volume, slope = (_sums(group, _sums(component, each, data.count)) for each in (parts.volume, parts.slope))
         wanted = _sums(group, targets)
         missed = np.abs(volume - wanted)
         heads = own & (group == np.arange(data.count))
@@ -219,7 +219,7 @@ def _each_body(
             best = Levelled(
                 against=shifted, height=0.0, surface=found.surface, rate=found.rate, common=common, levels=levels
             )
-        off = own & (missed > BODY_TOLERANCE * wanted)
+        off = own & (missed > COMPONENT_TOLERANCE * wanted)
         if not off.any():
             break
         low = np.where(off & (volume > wanted), levels, low)
@@ -234,12 +234,14 @@ def _each_body(
     return best
 
 
-def _lowered(field: SparseField, data: Bodies, levels: NDArray[np.float64], common: float, threads: int) -> SparseField:
-    """Return the field less the level of the nearest body."""
+def _lowered(
+    field: SparseField, data: Components, levels: NDArray[np.float64], common: float, threads: int
+) -> SparseField:
+    """Return the field less the level of the nearest component."""
     out = np.empty_like(field.values)
     in_threads(
-        bodies_kernels.lower_to_levels, field.values.reshape(-1, CELLS), field.where, field.slots, data.bits,
-        data.blocks, data.starts, data.alone, data.names, levels.astype(np.float32), np.float32(common), REACH,
+        components_kernels.lower_to_levels, field.values.reshape(-1, CELLS), field.where, field.slots, data.bits,
+        data.bricks, data.starts, data.alone, data.names, levels.astype(np.float32), np.float32(common), REACH,
         out.reshape(-1, CELLS), threads=threads,
     )  # fmt: skip
     return replace(field, values=out)
@@ -265,25 +267,25 @@ def _joined(group: NDArray[np.integer], together: NDArray[np.integer]) -> NDArra
     return joined
 
 
-def _body_of(
-    parts: Shells, surface: Surface, field: SparseField, data: Bodies, spacing: tuple[float, ...]
+def _component_of(
+    parts: Shells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return for every shell the body of the data that most of its vertices lie at, -1 for none.
+    """Return for every shell the component of the data that most of its vertices lie at, -1 for none.
 
-    And pairs (n, 2) of bodies of a size of their own that have a shell in common.
+    And pairs (n, 2) of components of a size of their own that have a shell in common.
     """
     cells = surface.vertices / np.array(spacing) + 0.5  # on the lattice of cells, whose first lies beyond the grid
-    place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BLOCK - 1)
+    place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BRICK - 1)
     label = np.empty(len(cells), dtype=np.int32)
-    bodies_kernels.label_cells(
-        place, field.slots, data.bits, data.blocks, data.starts, data.alone, data.names, REACH, label
+    components_kernels.label_cells(
+        place, field.slots, data.bits, data.bricks, data.starts, data.alone, data.names, REACH, label
     )
     count = max(data.count, 1)
     known = label >= 0
     key, votes = np.unique(parts.names[known].astype(np.int64) * count + label[known], return_counts=True)
-    shell, body = np.divmod(key, count)
+    shell, component = np.divmod(key, count)
     order = np.argsort(votes, kind="stable")  # the last to be written has most
     found = np.full(len(parts.volume), -1, dtype=np.int64)
-    found[shell[order]] = body[order]
-    other = (found[shell] != body) & (data.cells[body] >= SMALLEST) & (votes >= SMALLEST)
-    return found, np.stack([body[other], found[shell[other]]], axis=1)
+    found[shell[order]] = component[order]
+    other = (found[shell] != component) & (data.cells[component] >= SMALLEST) & (votes >= SMALLEST)
+    return found, np.stack([component[other], found[shell[other]]], axis=1)

@@ -36,7 +36,7 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
     -----
     Edges are collapsed by quadric errors (Garland and Heckbert 1997, fast-simplification, MIT), which keep shape and
     volume best. Where that opens the mesh or changes its Euler number, the manifold library (Apache 2.0)
-    collapses them, which keeps it closed but may take out bodies smaller than the tolerance it needs.
+    collapses them, which keeps it closed but may take out components smaller than the tolerance it needs.
     """
     near = None if tolerance is None else positive("tolerance", tolerance, "mm")
     few = None if triangles is None else whole("the number of triangles", triangles, FEWEST)

@@ -1,4 +1,4 @@
-"""The closed surface of a field in blocks: marching cubes where the surface runs, and nowhere else.
+"""The closed surface of a field in bricks: marching cubes where the surface runs, and nowhere else.
 
 The same surface as `infill.surface.extract` finds on the whole field: the same vertices to rounding and the same
 Euler number. Signs are looked at sixteen cells at a time, as bits of one number; only cubes that the surface
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.kernels import sparse_marching as kernels
-from infill.kernels.sparse import BLOCK, CELLS, SOLID_BLOCK
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
@@ -26,7 +26,7 @@ from infill.surfaces.marching import CLEARANCE, TIE
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
 EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]
 CORNERS = 8
-LARGE = 2000  # blocks: fewer make a surface in some milliseconds
+LARGE = 2000  # bricks: fewer make a surface in some milliseconds
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +60,7 @@ class Level:
     rate: NDArray[np.float32]
 
 
-def extract_blocks(
+def extract_bricks(
     field: SparseField,
     *,
     spacing: tuple[float, ...],
@@ -86,7 +86,7 @@ def extract_level(
     level: float = 0.0,
     threads: int | None = None,
 ) -> Level:
-    """Return what `extract_blocks` returns, and how its vertices move with the level."""
+    """Return what `extract_bricks` returns, and how its vertices move with the level."""
     threads = thread_count(threads)
     cubes = cube_table()
     values = field.values.reshape(-1, CELLS)
@@ -152,7 +152,7 @@ def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
 def rows_above(
     field: SparseField, values: NDArray[Any], level: float, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
-    """Return which cells of the kept blocks have `values` (n, 8, 8, 16) above the level, a row a number: (n, 64)."""
+    """Return which cells of the kept bricks have `values` (n, 8, 8, 16) above the level, a row a number: (n, 64)."""
     bits = np.empty((len(field.where), kernels.ROWS), dtype=np.uint16)
     flat, limit = values.reshape(-1, CELLS), values.dtype.type(level)
     in_threads(kernels.bits_above, flat, field.where, limit, field.shape, bits, threads=thread_count(threads))
@@ -160,11 +160,11 @@ def rows_above(
 
 
 def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
-    """Return the blocks in which, or between which and the next ones, the surface may run: (n, 3)."""
-    kind = (slots == SOLID_BLOCK).astype(np.int8)
+    """Return the bricks in which, or between which and the next ones, the surface may run: (n, 3)."""
+    kind = (slots == SOLID_BRICK).astype(np.int8)
     kind[slots >= 0] = 2
-    for axis, (count, size) in enumerate(zip(shape, BLOCK, strict=True)):
-        # Solid blocks that reach beyond the grid have void in them.
+    for axis, (count, size) in enumerate(zip(shape, BRICK, strict=True)):
+        # Solid bricks that reach beyond the grid have void in them.
         ends = [0] if (count + 1) % size == 0 else [0, (count + 1) // size]
         edge = tuple(ends if a == axis else slice(None) for a in range(3))
         kind[edge] = np.where(kind[edge] == 1, 2, kind[edge])
@@ -231,7 +231,7 @@ def raw_counts() -> NDArray[np.int8]:
 
 
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
-    """Return the Euler number of the surface that the blocks would have if the cells `bits` were +1, all others -1."""
+    """Return the Euler number of the surface that the bricks would have if the cells `bits` were +1, all others -1."""
     places = _crossed(field.slots, field.shape)
     masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
     starts = np.empty(masks.shape, dtype=np.int16)

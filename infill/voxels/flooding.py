@@ -21,7 +21,7 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
     Notes
     -----
-    The void of a row is a few runs of cells. Runs that touch in neighbouring rows are one body of void,
+    The void of a row is a few runs of cells. Runs that touch in neighbouring rows are one component of void,
     so that the memory goes with the surface and not with the cells.
 
     >>> shell = np.zeros((5, 5, 5), dtype=bool)
@@ -45,8 +45,8 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
             others.append((low[run] + place).astype(np.int32))
     one, other = np.concatenate(ones), np.concatenate(others)
     graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(len(start),) * 2)
-    _, body = connected_components(graph, directed=False)
-    inner = body != body[0]
+    _, component = connected_components(graph, directed=False)
+    inner = component != component[0]
     index = np.concatenate([start[inner], end[inner]])
     sign = np.repeat(np.array([1, -1], dtype=np.int8), int(inner.sum()))
     order = np.argsort(index, kind="stable")

@@ -11,7 +11,7 @@ from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
 from infill.machine import require_memory
 from infill.surface import Surface
-from infill.surfaces.capping import bodies, capped
+from infill.surfaces.capping import capped, components
 from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
 from infill.voxels.nesting import inside_out
@@ -29,19 +29,19 @@ class Repairs:
 
     Parameters
     ----------
-    bodies : int
+    components : int
         Parts of the mesh that share no vertex.
     turned : int
-        Bodies that faced inwards beside others that faced outwards.
+        Components that faced inwards beside others that faced outwards.
     holes : int
         Loops of open edges that got a cap. A triangle that stands twice or faces the wrong way is one too.
     hole_share : float
         Area of the caps over the area of mesh and caps. The inside is a guess where this is large.
     volume : float
-        Volume that the mesh and its caps enclose, mm³; where bodies overlap it counts for each.
+        Volume that the mesh and its caps enclose, mm³; where components overlap it counts for each.
     """
 
-    bodies: int
+    components: int
     turned: int
     holes: int
     hole_share: float
@@ -61,7 +61,7 @@ def voxelise(
     Parameters
     ----------
     surface : Surface
-        It may be open, inside out, pass through itself, or have several bodies.
+        It may be open, inside out, pass through itself, or have several components.
     voxel : float, optional
         Cell size, mm.
     resolution : int, optional
@@ -88,9 +88,9 @@ def voxelise(
     Notes
     -----
     A cell is inside if the mesh goes around its centre at least once, counted with sign: the winding
-    number w = sum of the signed crossings of a ray is not 0. Bodies that overlap so are united, an
-    inverted mesh is what it would be the right way out, and a body that faces inwards within another is
-    a cavity. Bodies that face inwards on their own are turned first, and what lies in them with them.
+    number w = sum of the signed crossings of a ray is not 0. Components that overlap so are united, an
+    inverted mesh is what it would be the right way out, and a component that faces inwards within another is
+    a cavity. Components that face inwards on their own are turned first, and what lies in them with them.
 
     Corners of open edges less than a hundredth of a cell apart are one. Holes are closed by fans from the
     middle of their edge before anything is counted, so that w is a whole number everywhere. For flat holes
@@ -149,16 +149,16 @@ def voxelise_reported(
     needed = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
     require_memory(int(needed), max_memory, advice)
     areas = np.linalg.norm(doubled, axis=1)
-    body, volumes = bodies(vertices, faces)
+    component, volumes = components(vertices, faces)
     if not volumes.any():
         raise GeometryError(
             f"the mesh of {len(mesh.faces)} triangles encloses nothing (loose triangles or a flat sheet); "
             "give a closed mesh"
         )
     found = crossings(vertices, faces, shape)
-    turned = inside_out(found, body, volumes)
+    turned = inside_out(found, component, volumes)
     if turned.any():
-        found = replace(found, sign=np.where(turned[body[found.face]], -found.sign, found.sign))
+        found = replace(found, sign=np.where(turned[component[found.face]], -found.sign, found.sign))
     inside = filled(found, shape)
     if not inside.any():
         raise ParameterError(
@@ -166,7 +166,7 @@ def voxelise_reported(
             "cell lies inside; give a voxel of at most half the thinnest wall"
         )
     repairs = Repairs(
-        bodies=len(volumes),
+        components=len(volumes),
         turned=int(turned.sum()),
         holes=holes,
         hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),

@@ -1,4 +1,4 @@
-"""Which bodies of a mesh lie in which, and which of them are inside out."""
+"""Which components of a mesh lie in which, and which of them are inside out."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from numpy.typing import NDArray
 
 from infill.voxels.scanlines import Crossings
 
-SAMPLES = 9  # crossings of a body that are looked at to learn what it lies in
+SAMPLES = 9  # crossings of a component that are looked at to learn what it lies in
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 
-def inside_out(found: Crossings, body: Integers, volumes: Floats) -> NDArray[np.bool_]:
-    """Return which bodies are to be turned: those that face inwards and lie in no other, with all that lies in them.
+def inside_out(found: Crossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
+    """Return which components are to be turned: those that face inwards and lie in no other, and all inside them.
 
     Parameters
     ----------
     found : Crossings
-    body : (F,) int
-        Body of every face.
+    component : (F,) int
+        Component of every face.
     volumes : (B,) float64
         Signed volume of each.
 
@@ -30,13 +30,13 @@ def inside_out(found: Crossings, body: Integers, volumes: Floats) -> NDArray[np.
 
     Notes
     -----
-    A body lies in another if the rows go around it there at every one of some crossings looked at. What
-    faces against the body it lies in is its cavity, and turns with it.
+    A component lies in another if the rows go around it there at every one of some crossings looked at. What
+    faces against the component it lies in is its cavity, and turns with it.
     """
     turned = np.zeros(len(volumes), dtype=bool)
     if (volumes >= 0).all() or (volumes <= 0).all():
         return turned
-    owner = body[found.face]
+    owner = component[found.face]
     order = np.argsort(owner, kind="stable")
     bounds = np.searchsorted(owner, np.arange(len(volumes) + 1), sorter=order)
     for number in np.flatnonzero(volumes):
