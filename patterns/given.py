@@ -16,14 +16,14 @@ BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "n
 NONE = "none"
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """Return advice for a name that is not known: the nearest one, or all.
+def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> str:
+    """Return advice for a name that is not known: the nearest one, of `others` as well, or all that are known.
 
     >>> nearest("wavs", ["cell", "waves"]), nearest("qq", ["cell"]), nearest("qq", [])
     ("did you mean 'waves'?", 'it has cell', 'it has none')
     """
     names = list(known)
-    near = difflib.get_close_matches(name, names, n=1)
+    near = difflib.get_close_matches(name, [*others, *names], n=1)
     return f"did you mean {near[0]!r}?" if near else f"it has {', '.join(names) or 'none'}"
 
 

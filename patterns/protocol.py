@@ -123,6 +123,17 @@ class LevelSet(Protocol):
         ...
 
 
+def lines_of(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
+    """Return the lines of a pattern, or raise PatternError that names it: the code of a plug-in may do anything."""
+    try:
+        return pattern.lines(region, z)
+    except Exception as error:
+        if isinstance(error, PatternError):
+            raise
+        said = " ".join(str(error).split())
+        raise PatternError(f"the pattern {pattern.name} failed: {type(error).__name__}: {said}") from error
+
+
 def gives(pattern: object) -> tuple[str, ...]:
     """Return what a pattern, or a class of patterns, gives of itself: "lines", "level set", or both.
 

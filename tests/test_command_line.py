@@ -337,7 +337,7 @@ def test_flags_win_over_the_file(tmp_path: Path) -> None:
     [
         ("size = 20", "no pattern is given"),
         ('pattern = "honeycomb"\nhieght = 3', "no option 'hieght'; did you mean 'height'"),
-        ('pattern = "honeycomb"\nqqq = 3', "no option 'qqq'; it has pattern, size"),
+        ('pattern = "honeycomb"\nqqq = 3', "no option 'qqq'; it has cell, angle"),
         ('pattern = 3', "pattern is 3; it must be a word"),
         ('pattern = "honeycomb"\nset = 3', "set is 3; it must be a table"),
         ('pattern = "honeycomb"\n[set]\nsell = 3', "honeycomb has no parameter 'sell'; did you mean 'cell'"),

@@ -296,6 +296,15 @@ def test_a_level_set_is_made_at_the_command_line(tmp_path: Path) -> None:
     assert "  level set, the same at every height" in run("list", "ripples").stdout
 
 
+def test_a_plugin_that_fails_to_draw_is_one_clear_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def fails(self: Rings, region: Any, z: float = 0.0) -> None:
+        raise RuntimeError("no\nlines")
+
+    monkeypatch.setattr(Rings, "lines", fails)
+    for words in (["list", "rings"], ["make", "rings", "-o", tmp_path / "a.stl"]):
+        one_line_error(run(*words), "the pattern rings failed: RuntimeError: no lines")
+
+
 # --- completion ------------------------------------------------------------------------------------------
 
 

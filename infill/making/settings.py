@@ -144,7 +144,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     for name in given:
         if name not in common and name not in own:
             word = name.replace("_", "-")
-            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, [*common, *own])}")
+            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, own, others=common)}")
     typed = {name: _typed(name, value, common[name]) for name, value in given.items() if name in common}
     parameters_given = merged(
         kind,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from patterns import Pattern
 from patterns.linework import sample
+from patterns.protocol import lines_of
 
 SIZE = 60.0  # mm: the default block of make
 LINE_WIDTH = 0.45  # mm: its default line
@@ -25,7 +26,7 @@ DOT_BITS = np.array([[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]])
 def default_lines(pattern: Pattern) -> shapely.MultiLineString:
     """Return the lines of a pattern at height 0 in the default block, centred on (0, 0), mm."""
     half = (SIZE - LINE_WIDTH) / 2
-    return pattern.lines(shapely.box(-half, -half, half, half), 0.0)
+    return lines_of(pattern, shapely.box(-half, -half, half, half))
 
 
 def write_drawing(pattern: Pattern, file: BinaryIO) -> None:
