@@ -56,7 +56,15 @@ def modules_after(code: str) -> set[str]:
 
 
 def test_help_loads_nothing_heavy() -> None:
-    assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build(plugins=False)")
+    assert not HEAVY & modules_after("import infill.cli.app; infill.cli.app.build()")
+
+
+def test_the_help_of_make_loads_no_pattern() -> None:
+    """However many there are."""
+    code = "import sys; sys.argv = ['infill', 'make', '--help']; import infill.cli; infill.cli.main()"
+    loaded = modules_after(code)
+    assert "patterns.errors" in loaded
+    assert not {"patterns.catalogue", "patterns.honeycomb", "numpy", "shapely"} & loaded
 
 
 def test_make_needs_neither_a_compiler_nor_trimesh(tmp_path: Path) -> None:

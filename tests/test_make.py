@@ -216,7 +216,7 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
         ("honeycomb", {"waves": 3}, PatternError, "honeycomb has no parameter 'waves'; it has cell, angle, phase, frame"),
         (Honeycomb(), {"cell": 3}, ParameterError, "beside a ready-made pattern"),
         (Honeycomb, {}, ParameterError, "give a name, or a pattern such as"),
-        (7, {}, ParameterError, "7 is no pattern"),
+        (7, {}, ParameterError, "7 is not a pattern"),
         ("honeycomb", {"phase": (1, 2, 3)}, PatternError, "it must be 2 numbers"),
         ("honeycomb", {"cell": "6"}, PatternError, "it must be a number"),
         ("honeycomb", {"frame": 1}, PatternError, "must be True or False"),

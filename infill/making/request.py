@@ -17,6 +17,7 @@ from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.surfaces.stacking import layer_count
 from patterns import PATTERNS, Pattern, PatternError, lacking
+from patterns.protocol import lines_of
 
 if TYPE_CHECKING:
     from shapely import MultiLineString, Polygon
@@ -69,13 +70,7 @@ class Block:
     @cached_property
     def lines(self) -> MultiLineString:
         """The centre lines of the walls, mm."""
-        try:
-            lines = self.pattern.lines(self.region)
-        except Exception as error:
-            if isinstance(error, PatternError):
-                raise
-            said = " ".join(str(error).split())
-            raise PatternError(f"the pattern {self.pattern.name} failed: {type(error).__name__}: {said}") from error
+        lines = lines_of(self.pattern, self.region)
         if lines.is_empty:
             raise PatternError(f"no line of {self.pattern.name} lies in the block; use smaller cells or a larger block")
         return lines
@@ -191,7 +186,7 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters stand for, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):
-            raise ParameterError(f"{pattern!r} is no pattern; give a name, or a pattern such as Honeycomb(cell=5)")
+            raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
             raise ParameterError(
                 f"{', '.join(parameters)} given beside a ready-made pattern; set parameters where the pattern is made"

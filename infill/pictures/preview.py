@@ -35,7 +35,7 @@ SUFFIXES = (".png",)
 
 
 def check_preview(path: str | os.PathLike[str]) -> Path:
-    """Return the path, or raise FormatError if it is no picture we can write."""
+    """Return the path, or raise FormatError if it is not a picture we can write."""
     target = Path(path)
     if target.suffix.lower() not in SUFFIXES:
         raise FormatError(f"a preview cannot be written as {target.name!r}; use a name that ends in {SUFFIXES[0]}")
