@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from infill import Smoothing
 from infill.inspection.changes import verdict
+from infill.kernels.sparse import BRICK
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import smooth_bricks
 from infill.surfaces.components import components, cores, data_bits, fate, opened, shells, solid_bits, without
@@ -69,8 +70,46 @@ def test_two_components_before_and_after() -> None:
     before = components(field, data_bits(field))
     same = fate(before, components(field, solid_bits(field)))
     assert [len(each) for each in (same.vanished, same.broken, same.joined, same.appeared)] == [0, 0, 0, 0]
-    whole = smooth_bricks(np.ones_like(f), Smoothing(steps=0))
-    assert whole.slots.shape == field.slots.shape
+
+
+ONE, OTHER = (slice(2, 10),) * 3, (slice(2, 10), slice(2, 10), slice(20, 28))
+BRIDGE = (slice(5, 7), slice(5, 7), slice(10, 20))
+
+
+def cubes(*parts: tuple[slice, ...]) -> np.ndarray:
+    solid = np.zeros((12, 14, 40), dtype=bool)
+    for part in parts:
+        solid[part] = True
+    return solid
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "counts"),
+    [
+        ([ONE, OTHER], [ONE], (1, 0, 0, 0)),
+        ([ONE, OTHER, BRIDGE], [ONE, OTHER], (0, 1, 0, 0)),
+        ([ONE, OTHER], [ONE, OTHER, BRIDGE], (0, 0, 1, 0)),
+        ([ONE], [ONE, OTHER], (0, 0, 0, 1)),
+        ([ONE], [OTHER], (1, 0, 0, 1)),
+        ([ONE, BRIDGE], [ONE], (0, 0, 0, 0)),  # what is cut off and gone leaves one part
+    ],
+)
+def test_what_became_of_components(before: list, after: list, counts: tuple[int, ...]) -> None:
+    """Vanished, broken, joined, appeared: on the same bricks, as `verdict` asks for it."""
+    field = smooth_bricks(np.indices((12, 14, 40)).sum(axis=0) % 2 == 0, Smoothing(steps=0))  # every brick is kept
+    was, now = (components(field, rows_of(cubes(*parts), len(field.where))) for parts in (before, after))
+    found = fate(was, now)
+    assert tuple(len(each) for each in (found.vanished, found.broken, found.joined, found.appeared)) == counts
+
+
+def rows_of(solid: np.ndarray, bricks: int) -> np.ndarray:
+    """The bits of a field of which every brick is kept, in the order of the lattice."""
+    count = [-(-(n + 2) // side) for n, side in zip(solid.shape, BRICK, strict=True)]
+    whole = np.zeros([n * side for n, side in zip(count, BRICK, strict=True)], dtype=bool)
+    whole[tuple(slice(1, n + 1) for n in solid.shape)] = solid
+    parts = whole.reshape(count[0], BRICK[0], count[1], BRICK[1], count[2], BRICK[2]).transpose(0, 2, 4, 1, 3, 5)
+    assert np.prod(count) == bricks
+    return np.packbits(parts.reshape(bricks, -1, BRICK[2]), axis=-1, bitorder="little").view(np.uint16)[:, :, 0]
 
 
 def test_shells_of_a_ball_in_a_hollow_ball() -> None:
@@ -83,7 +122,7 @@ def test_shells_of_a_ball_in_a_hollow_ball() -> None:
 
 @pytest.mark.parametrize("steps", [10, 20, 40])
 def test_a_ball_keeps_its_volume_and_comes_nearer_to_the_truth(steps: int) -> None:
-    """The bound on the distance is that of issue and design for radii of 80 cells; this one has 32."""
+    """Faces of cells lie 0.29 cells off (rms of an even spread over one cell); a fifth of that may be left."""
     f = ball(80, (40, 40, 40), 32)
     field = smooth_bricks(f, Smoothing(steps=steps))
     data = components(field, data_bits(field))
@@ -156,7 +195,7 @@ def judged(f: np.ndarray, steps: int) -> dict:
     ("thickness", "steps", "lost"), [(6, 20, False), (3, 5, False), (3, 40, True), (2, 20, True), (1, 10, False)]
 )
 def test_a_wall_more_than_one_cell_thick_that_vanishes_is_a_problem(thickness: int, steps: int, lost: bool) -> None:
-    """The design's table: 3 cells are gone after 40 steps, 1 after 5, which is no problem but is told."""
+    """Walls of 3 cells are gone after 40 steps, walls of 1 after 5, which is no problem but is told."""
     f = ball(60, (30, 30, 30), 20)
     f[30 : 30 + thickness, 2:58, 2:58] = True
     found = judged(f, steps)
