@@ -28,7 +28,7 @@ from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import Pattern, Registry, parameter
 from patterns.registry import RESERVED
 
-COMMANDS = ["make", "list", "check"]
+COMMANDS = ["make", "smooth", "list", "check"]
 SMALL = ["--size", "20", "--height", "2"]
 RUN = [sys.executable, "-m", "infill.cli"]
 
@@ -79,6 +79,7 @@ def test_help_has_an_example_and_exits_0(command: str) -> None:
 def test_help_names_every_command() -> None:
     text = plain(run("--help").stdout)
     assert all(command in text for command in COMMANDS)
+    assert {command.name for command in build(plugins=False).registered_commands} == set(COMMANDS)
     assert "Example: infill make" in text
 
 
@@ -232,8 +233,11 @@ def test_dry_run_writes_nothing(tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert "1667 x 1400 cells of 0.15 mm" in result.stdout
     assert list(tmp_path.iterdir()) == []
-    facts = json.loads(run(*words, "--json").stdout)
-    assert facts["stl_bytes"] == 50 * facts["triangles"]
+    path = tmp_path / "a.stl"
+    facts = json.loads(run("make", "zigzag", "--size", "50x40", "-o", path, "--dry-run", "--json").stdout)
+    assert list(tmp_path.iterdir()) == []
+    assert run("make", "zigzag", "--size", "50x40", "-o", path).exit_code == 0
+    assert facts["stl_bytes"] == pytest.approx(path.stat().st_size, rel=0.25)  # as near as the plan is
 
 
 def test_every_parameter_of_a_pattern_is_an_option() -> None:
