@@ -164,9 +164,12 @@ def test_check_tells_what_it_cannot_read(tmp_path: Path) -> None:
 # --- make ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", BUILT_IN)
-@pytest.mark.parametrize("suffix", [".stl", ".3mf", ".obj", ".ply", ".glb"])
+@pytest.mark.parametrize(
+    ("name", "suffix"),
+    [*((name, ".stl") for name in BUILT_IN), *((BUILT_IN[0], other) for other in (".3mf", ".obj", ".ply", ".glb"))],
+)
 def test_make_writes_a_closed_mesh(name: str, suffix: str, tmp_path: Path) -> None:
+    """Every pattern, and every format."""
     path = tmp_path / f"block{suffix}"
     result = run("make", name, *SMALL, "-o", path)
     assert result.exit_code == 0, result.output
