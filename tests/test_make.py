@@ -245,7 +245,7 @@ def test_memory_is_refused_for_triangles_too() -> None:
     """The grid alone would fit; the triangles on top of it do not."""
     block = plan_of("honeycomb", (60, 60), 1.4)
     between = (block.memory + 130_000_000 + 100 * block.grid.cells) // 2
-    with pytest.raises(MemoryLimitError):
+    with pytest.raises(MemoryLimitError, match="is allowed; .*fewer cells per line"):
         make("honeycomb", cell=1.4, max_memory=between)
 
 
