@@ -216,6 +216,74 @@ def test_a_hole_that_breaks_through_a_wall_is_a_problem() -> None:
     assert any("between voids broke" in problem for problem in found["problems"])
 
 
+def boxes(shape: tuple[int, ...], *sides: tuple[tuple[int, int], ...]) -> np.ndarray:
+    solid = np.zeros(shape, dtype=bool)
+    for each in sides:
+        solid[tuple(slice(*side) for side in each)] = True
+    return solid
+
+
+def membrane() -> np.ndarray:
+    """A plate with a round hole in it that a skin of three cells closes."""
+    solid = boxes((48, 48, 24), ((4, 44), (4, 44), (4, 20)))
+    hole = np.hypot(*(np.indices((48, 48)) - 23.5)) < 12
+    solid[hole, :10] = solid[hole, 13:] = False
+    return solid
+
+
+ENDS = (((4, 20), (4, 26), (4, 26)), ((40, 56), (4, 26), (4, 26)))
+CHANGED = {
+    "nothing": (ball(50, (18, 18, 18), 13), 20, {}, []),
+    "a small ball goes": (
+        ball(50, (18, 18, 18), 13) | ball(50, (40, 40, 40), 2.9), 20,
+        {"vanished": 1, "walls_lost": 1}, ["1 component vanished", "1 wall vanished"],
+    ),
+    "a bar between two blocks goes": (
+        boxes((60, 30, 30), *ENDS, ((20, 40), (13, 17), (13, 17))), 20,
+        {"broken": 1, "walls_lost": 1}, ["1 component fell apart", "1 wall vanished"],
+    ),
+    "two blocks run together": (
+        boxes((60, 30, 30), ((4, 28), (4, 26), (4, 26)), ((30, 54), (4, 26), (4, 26))), 20,
+        {"fused": 1}, ["1 component ran together out of several"],
+    ),
+    "a skin gets a hole": (membrane(), 40, {"walls_pierced": 1}, ["1 hole broke through walls"]),
+    "the same skin before": (membrane(), 20, {}, []),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("what", CHANGED)
+def test_each_change_is_told_and_no_other(what: str) -> None:
+    solid, steps, changes, problems = CHANGED[what]
+    found = judged(solid, steps)
+    assert {name: count for name, count in found["changes"].items() if count} == changes
+    assert found["problems"] == [f"{problem} in smoothing" for problem in problems]
+
+
+@pytest.mark.parametrize(("steps", "faint"), [(10, 0), (20, 1)])
+def test_a_component_that_only_a_low_level_holds_is_faint(steps: int, faint: int) -> None:
+    """The small ball of above keeps its volume, at a level of -0.78 after 10 steps and of -0.98 after 20."""
+    field = smooth_bricks(ball(50, (18, 18, 18), 13) | ball(50, (40, 40, 40), 2.9), Smoothing(steps=steps))
+    data = components(field, data_bits(field), thickness=True)
+    targets = data.cells.astype(float)
+    kept = at_volume(straightened(field), data, spacing=UNIT, targets=targets)
+    found = verdict(kept, data, targets, "volume", steps, UNIT, None)
+    assert found["changes"]["faint"] == faint
+    assert found["changes"]["vanished"] == 0
+    assert (found["level"]["lowest"] < -0.9) == bool(faint)
+
+
+@pytest.mark.parametrize("thin", [2, 3, 5])
+def test_the_thinnest_wall_is_that_of_a_small_part_of_the_surface(thin: int) -> None:
+    """A fin of a tenth of the surface on a block too thick to be a wall, in cells of 0.5 mm, found to half a cell."""
+    solid = boxes((40, 60, 40), ((5, 35), (5, 35), (5, 35)), ((18, 18 + thin), (35, 55), (10, 30)))
+    field = smooth_bricks(solid, Smoothing(steps=0), spacing=(0.5, 0.5, 0.5))
+    data = components(field, data_bits(field), thickness=True)
+    size = (0.5, 0.5, 0.5)
+    found = verdict(at_level(field, data, spacing=size, level=0.0), data, data.cells * 0.125, 0.0, 0, size, None)
+    assert found["thinnest_wall"]["data"] == pytest.approx(thin * 0.5, abs=0.25)
+    assert found["thinnest_wall"]["result"] == pytest.approx(thin * 0.5, abs=0.25)
+
+
 def test_the_report_counts_a_speck_that_went() -> None:
     f = ball(40, (20, 20, 20), 12)
     f[2, 2, 2] = True

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -12,6 +15,7 @@ from scipy.ndimage import convolve1d, map_coordinates
 from infill import Smoothing
 from infill.kernels import components as parts
 from infill.kernels import refining
+from infill.kernels.compiling import njit
 from infill.kernels.sparse import (
     B2,
     BRICK,
@@ -25,6 +29,7 @@ from infill.kernels.sparse import (
     repeat_edges,
 )
 from infill.kernels.sparse_marching import place, volumes
+from infill.kernels.threads import MOST, VARIABLE, in_threads, thread_count
 from infill.kernels.transfer import gather
 from infill.phasefield.sparse import SparseField, smooth_bricks, states_of
 from infill.surfaces.components import Components, cells_of, components, cores, data_bits, grown, opened
@@ -371,3 +376,55 @@ def test_bricks_repeat_the_edge_of_what_they_are_taken_from() -> None:
     gather(whole, where, signs, 3, 0.2, 0, 1)
     assert np.array_equal(values.reshape(-1, *BRICK), expected)
     assert np.array_equal(signs.reshape(-1, *BRICK), np.where(expected > 0.2, 1, -1))
+
+
+# --- compiling, and sharing among threads ----------------------------------------------------------------
+
+
+def test_where_nothing_can_be_kept_it_is_compiled_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As numba says it of a folder that cannot be written to."""
+    compiler, asked = numba.njit, []
+
+    def unkept(*function: Any, **options: Any) -> Any:
+        if "cache" in options:
+            asked.append(options["cache"])
+        if options.get("cache"):
+            raise RuntimeError("cannot cache function 'twice': no locator available")
+        return compiler(*function, **options)
+
+    monkeypatch.setattr(numba, "njit", unkept)
+    assert njit(cache=True)(lambda x: 2 * x)(21) == 42
+    assert asked == [True, False]
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_every_piece_is_taken_once_and_answers_come_in_order(threads: int) -> None:
+    taken: list[int] = []
+
+    def kernel(count: int, thread: int, of: int) -> int:
+        taken.extend(range(thread, count, of))
+        return thread
+
+    assert in_threads(kernel, 23, threads=threads) == list(range(threads))
+    assert sorted(taken) == list(range(23))
+
+
+@pytest.mark.parametrize("failing", [0, 1, 2])
+def test_a_thread_that_fails_is_heard(failing: int) -> None:
+    def kernel(thread: int, of: int) -> None:
+        if thread == failing:
+            raise ZeroDivisionError(f"thread {thread} of {of}")
+
+    with pytest.raises(ZeroDivisionError, match=f"thread {failing} of 3"):
+        in_threads(kernel, threads=3)
+
+
+def test_how_many_threads_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("infill.kernels.threads.usable_cores", lambda: 7)
+    for said, expected in (("3", 3), ("0", 7), ("many", 7), ("", 7), ("100000", MOST)):
+        monkeypatch.setenv(VARIABLE, said)
+        assert thread_count() == expected
+        assert thread_count(2) == 2
+    monkeypatch.delenv(VARIABLE)
+    assert thread_count() == 7
+    assert thread_count(10**6) == MOST
