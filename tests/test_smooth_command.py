@@ -6,6 +6,7 @@ import json
 import logging
 import math
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -29,21 +30,29 @@ MIDDLE = (12.0, 10.0, 11.0)
 BALL = ((np.indices(CELLS) - np.reshape(MIDDLE, (3, 1, 1, 1))) ** 2).sum(axis=0) <= 8.0**2
 
 
-@pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with one small input of each kind, in which the command runs."""
-    monkeypatch.chdir(tmp_path)
-    np.save("ball.npy", BALL)
-    np.save("ct.npy", np.where(BALL, 1000, -1000).astype(np.int16))
-    np.savez("two.npz", a=BALL, b=~BALL)
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One small input of each kind."""
+    folder = tmp_path_factory.mktemp("inputs")
+    np.save(folder / "ball.npy", BALL)
+    np.save(folder / "ct.npy", np.where(BALL, 1000, -1000).astype(np.int16))
+    np.savez(folder / "two.npz", a=BALL, b=~BALL)
     sphere = trimesh.creation.icosphere(subdivisions=3, radius=10.0)
-    sphere.export("s.stl")
-    np.savetxt("p.xyz", sphere.vertices)
-    trimesh.PointCloud(sphere.vertices).export("p.ply")
-    (tmp_path / "nothing").mkdir()
-    (tmp_path / "junk").mkdir()
-    (tmp_path / "junk" / "notes.md").write_text("hello")
-    (tmp_path / "old.stl").write_text("precious")
+    sphere.export(folder / "s.stl")
+    np.savetxt(folder / "p.xyz", sphere.vertices)
+    trimesh.PointCloud(sphere.vertices).export(folder / "p.ply")
+    (folder / "nothing").mkdir()
+    (folder / "junk").mkdir()
+    (folder / "junk" / "notes.md").write_text("hello")
+    (folder / "old.stl").write_text("precious")
+    return folder
+
+
+@pytest.fixture
+def folder(inputs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a copy of the inputs, in which the command runs."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(inputs, tmp_path, dirs_exist_ok=True)
     return tmp_path
 
 
@@ -73,9 +82,12 @@ def test_usage_errors_exit_2(words: list[str], folder: Path) -> None:
     assert not (folder / "a.stl").exists()
 
 
-@pytest.mark.parametrize("source", ["ball.npy", "s.stl", "p.xyz", "p.ply"])
-@pytest.mark.parametrize("suffix", [".stl", ".3mf", ".obj", ".ply", ".glb"])
-def test_every_kind_gives_every_format(source: str, suffix: str, folder: Path) -> None:
+@pytest.mark.parametrize(
+    ("source", "suffix"),
+    [("ball.npy", ".stl"), ("s.stl", ".3mf"), ("p.xyz", ".obj"), ("p.ply", ".ply"), ("ball.npy", ".glb")],
+)
+def test_every_kind_is_smoothed_and_every_format_written(source: str, suffix: str, folder: Path) -> None:
+    """Each once: what is written knows nothing of what was read."""
     words = [] if source == "ball.npy" else ["--resolution", "24"]
     result = run("smooth", source, *words, "-o", f"a{suffix}")
     assert result.exit_code == 0, result.output
