@@ -183,13 +183,13 @@ def test_threads_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch, rng: 
     f = smooth_noise(rng, (90, 70))
     alone = smooth(f, Smoothing(steps=7), method="inplace")
     monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 3)
     assert np.array_equal(smooth(f, Smoothing(steps=7), method="inplace"), alone)
 
 
 def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 2)
+    monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 2)
     real = np.sqrt
     calls = []
 
@@ -426,7 +426,7 @@ def test_settings_are_plain_numbers() -> None:
 def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the main thread comes out as such, not as the failure of another thread."""
     monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 3)
     real, main = np.sqrt, threading.main_thread()
 
     def interrupted(*args: Any, **options: Any) -> Any:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from infill.inspection.changes import Changes, Counts
 from infill.inspection.fates import Fate, Overlaps, fate, summed
-from infill.kernels.threads import concurrently
+from infill.kernels.threads import thread_count, together
 from infill.phasefield.sparse import SparseField
 from infill.surfaces.components import (
     Components,
@@ -178,7 +178,7 @@ def _states(found: Levelled, before: Components, reach: int, threads: int | None
     core = cores(field, raw, threads=threads)
     thick = opened(field, core, threads=threads)
     lost = thick & ~grown(field, now, reach, threads=threads)
-    solid, after, walls, sturdy, voids, sturdy_voids, voids_after, gone = concurrently(
+    solid, after, walls, sturdy, voids, sturdy_voids, voids_after, gone = together(
         lambda: with_thickness(field, before),
         lambda: components(field, now),
         lambda: components(field, core),
@@ -187,7 +187,7 @@ def _states(found: Levelled, before: Components, reach: int, threads: int | None
         lambda: components(field, thick, void=True, thickness=True),
         lambda: components(field, now, void=True),
         lambda: components(field, lost, whole=False),
-        threads=threads,
+        threads=thread_count(threads),
     )
     return _States(
         solid=solid,

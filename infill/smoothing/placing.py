@@ -42,7 +42,10 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
     """
     if request.tolerance is None and request.max_triangles is None:
         return full, None
-    light = replace(simplified(full, tolerance=request.tolerance, triangles=request.max_triangles), space=full.space)
+    light = replace(
+        simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads),
+        space=full.space,
+    )
     change = light.volume / full.volume - 1
     if abs(change) > SIMPLER and not request.allow_broken:
         raise GeometryError(
@@ -53,7 +56,7 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
         "triangles_before": len(full.faces),
         "volume_change": change,
         "shells": shell_names(light)[1],
-        "distance": summary(distances(some(full.vertices), light)),
+        "distance": summary(distances(some(full.vertices), light, threads=request.threads)),
     }
 
 
@@ -87,11 +90,11 @@ def moved(
     """Return how far the voxels and the result lie from the mesh they were made from, or from one another, mm."""
     raw = raw_surface(field, data, threads)
     if reference is None:
-        return {"from": "voxels", "result": summary(distances(some(surface.vertices), raw))}
+        return {"from": "voxels", "result": summary(distances(some(surface.vertices), raw, threads=threads))}
     return {
         "from": "mesh",
-        "data": summary(distances(some(raw.vertices), reference)),
-        "result": summary(distances(some(surface.vertices), reference)),
+        "data": summary(distances(some(raw.vertices), reference, threads=threads)),
+        "result": summary(distances(some(surface.vertices), reference, threads=threads)),
     }
 
 

@@ -201,7 +201,14 @@ def smooth_points(
         See `smooth_volume`.
     """
     cloud = np.asarray(points, dtype=np.float64)
-    solid = voxelise_points(cloud, voxel=voxel, shell=shell, margin=MARGIN, max_memory=options.get("max_memory"))
+    solid = voxelise_points(
+        cloud,
+        voxel=voxel,
+        shell=shell,
+        margin=MARGIN,
+        max_memory=options.get("max_memory"),
+        threads=options.get("threads"),
+    )
     facts = {"source": "points", "points": len(cloud), "shell": shell}
     return _smooth(Given(data=solid, facts=facts), Request(**options))
 

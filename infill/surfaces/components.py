@@ -18,6 +18,7 @@ from infill.kernels.sparse_marching import ROWS, volumes
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
+from infill.surfaces.shells import vertex_components
 from infill.surfaces.sparse_marching import rows_above
 
 
@@ -210,10 +211,7 @@ def shells(surface: Surface, rate: NDArray[np.float32]) -> Shells:
 
 def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
     """Return for every vertex (V,) the number of the connected part it belongs to, and how many parts there are."""
-    parent = np.arange(len(surface.vertices))
-    kernels.join_faces(surface.faces.astype(np.int32, copy=False), parent)
-    names = np.empty(len(parent), dtype=np.int32)
-    return names, int(kernels.name_sets(parent, names))
+    return vertex_components(surface.faces, len(surface.vertices), compiled=True)
 
 
 def face_sums(
