@@ -260,8 +260,8 @@ def test_a_plugin_may_name_its_parameters_as_it_likes(tmp_path: Path) -> None:
     done = run("make", "rings", *SMALL, *words, "-o", mesh, "--save-config", config, "--json")
     assert done.exit_code == 0, done.output
     report = json.loads(done.stdout)
-    assert report["parameters"]["size"] == 2
-    assert report["parameters"]["pattern"] == 10
+    assert report["request"]["parameters"]["size"] == 2
+    assert report["request"]["parameters"]["pattern"] == 10
     assert read_mesh(mesh).to_trimesh().body_count == 2
     again = resolve({}, config)
     assert (again.pattern, again.size, again.steps) == ("rings", (20.0, 20.0), 8)
