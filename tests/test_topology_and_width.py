@@ -58,6 +58,15 @@ def test_a_saddle_decides_who_is_joined() -> None:
     assert topology(strong_solid).euler_number == 1
 
 
+@pytest.mark.parametrize("much", [1e-6, 1e-4])
+def test_a_saddle_that_is_all_but_undecided_is_that_of_the_mesh(much: float) -> None:
+    """Solid counts 1e-5 less, here as in the surface: what is nearer to a tie is parted."""
+    void = -0.5 * (1 - much)
+    layer = np.array([[0.5, void], [void, 0.5]])
+    mesh = extrude(layer, 3, 1)
+    assert topology(layer).components == mesh.body_count == (2 if much < 1e-5 else 1)
+
+
 def test_saddles_join_rings() -> None:
     ring = np.array([[-1, 0.9, -1.0], [0.9, -1, 0.9], [-1, 0.9, -1.0]])
     assert topology(ring) == Topology(components=4, holes=0)
