@@ -292,6 +292,13 @@ def test_the_thinnest_wall_is_that_of_a_small_part_of_the_surface(thin: int) -> 
     assert found["thinnest_wall"]["result"] == pytest.approx(thin * 0.5, abs=0.25)
 
 
+def test_a_wall_that_smoothing_thins_is_thinner_in_the_result() -> None:
+    fin = boxes((40, 60, 40), ((5, 35), (5, 35), (5, 35)), ((18, 21), (35, 55), (10, 30)))
+    found = judged(fin, 20)["thinnest_wall"]
+    assert found["data"] > 2
+    assert found["result"] < 0.6 * found["data"]
+
+
 @pytest.mark.xfail(strict=True, reason="a ray that begins a step late and never leaves counts as a wall of 15.75 cells")
 def test_what_is_no_wall_has_no_thinnest_one() -> None:
     assert judged(ball(50, (25, 25, 25), 20), 5)["thinnest_wall"] == {"data": None, "result": None}
