@@ -74,6 +74,17 @@ def test_two_components_before_and_after() -> None:
 
 ONE, OTHER = (slice(2, 10),) * 3, (slice(2, 10), slice(2, 10), slice(20, 28))
 BRIDGE = (slice(5, 7), slice(5, 7), slice(10, 20))
+LOW_BRIDGE = (slice(2, 4), slice(2, 4), slice(10, 20))
+
+
+def row(cells: int) -> tuple[slice, ...]:
+    """So many cells behind the bridge."""
+    return (slice(5, 6), slice(5, 6), slice(20, 20 + cells))
+
+
+def block(*sides: int) -> tuple[slice, ...]:
+    """A block behind the low bridge."""
+    return tuple(slice(first, first + side) for first, side in zip((2, 2, 20), sides, strict=True))
 
 
 def cubes(*parts: tuple[slice, ...]) -> np.ndarray:
@@ -92,6 +103,10 @@ def cubes(*parts: tuple[slice, ...]) -> np.ndarray:
         ([ONE], [ONE, OTHER], (0, 0, 0, 1)),
         ([ONE], [OTHER], (1, 0, 0, 1)),
         ([ONE, BRIDGE], [ONE], (0, 0, 0, 0)),  # what is cut off and gone leaves one part
+        ([ONE, BRIDGE, row(7)], [ONE, row(7)], (0, 0, 0, 0)),  # a crumb is no part
+        ([ONE, BRIDGE, row(8)], [ONE, row(8)], (0, 1, 0, 0)),
+        ([ONE, block(3, 3, 11)], [ONE, LOW_BRIDGE, block(3, 3, 11)], (0, 0, 0, 0)),  # 99 cells may join unseen
+        ([ONE, block(4, 5, 5)], [ONE, LOW_BRIDGE, block(4, 5, 5)], (0, 0, 1, 0)),
     ],
 )
 def test_what_became_of_components(before: list, after: list, counts: tuple[int, ...]) -> None:
