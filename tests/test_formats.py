@@ -45,7 +45,9 @@ def test_trimesh_reads_it_too(suffix: str, block: trimesh.Trimesh, tmp_path: Pat
     back = trimesh.load_mesh(path)
     back.merge_vertices()
     assert back.is_volume
-    assert back.volume == pytest.approx(block.volume, rel=1e-5)
+    unit = 1e-3 if suffix == ".glb" else 1.0  # glTF is in metres
+    assert back.volume == pytest.approx(block.volume * unit**3, rel=1e-5)
+    assert back.extents == pytest.approx(block.extents * unit, rel=1e-5)
 
 
 @every_format

@@ -129,7 +129,8 @@ def test_triangles_with_two_equal_corners_are_a_warning() -> None:
 
 
 @pytest.mark.parametrize(
-    ("largest", "unit"), [(0.047, "m"), (0.8, "in"), (1.0, "mm"), (250, "mm"), (2001, "µm"), (150000, "µm")]
+    ("largest", "unit"),
+    [(0.047, "m"), (0.8, "in"), (1.0, "in"), (2.0, "mm"), (250, "mm"), (2001, "µm"), (150000, "µm")],
 )
 def test_the_unit_is_guessed_by_size(largest: float, unit: str) -> None:
     assert guess_unit(largest) == unit

@@ -50,7 +50,10 @@ def smooth(
     ] = None,
     units: Annotated[
         str | None,
-        typer.Option(help="Unit of a mesh or of points: um, mm, cm, m, in. (default: mm)", rich_help_panel=FILES),
+        typer.Option(
+            help="Unit of a mesh or of points: um, mm, cm, m, in. (default: as in the file, or mm)",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     array: Annotated[
         str | None, typer.Option(help="Name of the array, if a .npz holds several.", rich_help_panel=FILES)
@@ -170,10 +173,11 @@ def smooth(
 
         if progress is not None:
             progress("read", 0.0)
-        given = read_source(
-            source, kind=kind, units=units, array=array, series=series,
-            spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
-        )  # fmt: skip
+        with log_said(shown=not quiet):
+            given = read_source(
+                source, kind=kind, units=units, array=array, series=series,
+                spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
+            )  # fmt: skip
         from infill.smoothing.placing import field_volume
 
         held = {} if fidelity is None else {"fidelity": fidelity}

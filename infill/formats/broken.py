@@ -7,6 +7,7 @@ import math
 import os
 import struct
 import tokenize
+import traceback
 import zipfile
 import zlib
 from collections.abc import Iterable, Iterator
@@ -16,16 +17,31 @@ from xml.etree import ElementTree
 
 from numpy.typing import NDArray
 
-from infill.errors import FormatError, InfillError, ParameterError
+from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterError
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"
-# What the readers of NumPy, tifffile and Pillow raise for files that hold something else than they should.
+# What the libraries that read for us raise for files that hold something else than they should.
 BROKEN = (
-    ValueError, LookupError, TypeError, AttributeError, ArithmeticError, EOFError, RuntimeError, MemoryError,
-    SyntaxError, AssertionError, struct.error, zlib.error, tokenize.TokenError, zipfile.BadZipFile,
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    NameError,
+    ImportError,
+    ArithmeticError,
+    EOFError,
+    RuntimeError,
+    SyntaxError,
+    AssertionError,
+    struct.error,
+    zlib.error,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
     ElementTree.ParseError,
-)  # fmt: skip
+)
+# Of these, what our own lines raise for such files: numbers that are none or infinite, and files that end too early.
+BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
 COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
@@ -40,19 +56,40 @@ def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -
 
 
 @contextlib.contextmanager
-def told_broken(path: Path) -> Iterator[None]:
-    """Turn what a reader says of a broken file into an error of ours."""
+def told_broken(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
+    """Turn what a reader says of a broken file into an error of ours; an error in our own lines stays what it is.
+
+    Parameters
+    ----------
+    path : Path
+    what : str, optional
+        What to say of it, such as "is broken".
+    advice : str
+    """
     try:
         yield
     except InfillError:
         raise
+    except MemoryError as error:
+        raise MemoryLimitError(f"{path} needs more memory than there is; check it, or give a smaller one") from error
     except BROKEN as error:
-        raise FormatError(f"{path} is broken or no {path.suffix} file ({one_line(error)}); save it again") from error
+        if is_ours(error) and not isinstance(error, BY_DATA):
+            raise
+        said = what or f"is broken or no {path.suffix} file"
+        raise FormatError(f"{path} {said} ({one_line(error)}); {advice}") from error
+
+
+def is_ours(error: BaseException) -> bool:
+    """Return whether an error was raised by a line of this package, and not by a library that it calls."""
+    names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
+    return bool(names) and names[-1].split(".")[0] == __name__.split(".")[0]
 
 
 def one_line(error: Exception) -> str:
     """Return what an error says, in one line that is not too long."""
-    words = " ".join(str(error).split()) or type(error).__name__
+    words = " ".join(str(error).split())
+    if isinstance(error, LookupError) or not words:  # whose words are but a key
+        words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return words if len(words) <= 200 else words[:200] + "…"
 
 

@@ -1,18 +1,15 @@
-"""Meshes that trimesh reads: OBJ, PLY, OFF and binary glTF."""
+"""Meshes that trimesh reads: OBJ, PLY and OFF."""
 
 from __future__ import annotations
 
 import io
-import struct
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError
+from infill.formats.broken import told_broken
 
-# What the readers of trimesh raise for files that hold something else than they should.
-BROKEN = (ValueError, LookupError, TypeError, AttributeError, EOFError, struct.error, NotImplementedError)
 TEXT_FORMATS = {".obj", ".off"}
 
 
@@ -20,13 +17,11 @@ def read_by_trimesh(path: Path) -> tuple[NDArray[np.floating], NDArray[np.intege
     """Return vertices and faces as they stand in the file."""
     import trimesh
 
-    try:
+    with told_broken(path, "is broken", "export the mesh again"):
         if path.suffix.lower() in TEXT_FORMATS:
             # Only comments and names can hold what is not ASCII; their encoding does not matter.
             text = path.read_bytes().decode("ascii", errors="replace")
             mesh = trimesh.load_mesh(io.StringIO(text), file_type=path.suffix.lower()[1:], process=False)
         else:
             mesh = trimesh.load_mesh(path, process=False)
-    except BROKEN as error:
-        raise FormatError(f"{path} is broken ({type(error).__name__}: {error}); export the mesh again") from error
     return np.asarray(mesh.vertices), np.asarray(mesh.faces)

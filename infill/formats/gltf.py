@@ -1,17 +1,45 @@
-"""Binary glTF 2.0: a JSON chunk that describes one mesh, and a chunk of its numbers."""
+"""Binary glTF 2.0: a JSON chunk that describes one mesh, and a chunk of its numbers.
+
+glTF is in metres. Vertices are written in millimetres, which 32 bits keep as they do in all other formats, and a node
+that is scaled by 1/1000 makes metres of them.
+"""
 
 from __future__ import annotations
 
 import json
 import struct
+from pathlib import Path
 from typing import BinaryIO
 
-from infill.formats.foreign import read_by_trimesh
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.formats.broken import told_broken
 from infill.surface import Surface
 from infill.version import __version__
 
 FLOAT, UNSIGNED, VERTICES, INDICES = 5126, 5125, 34962, 34963
-read_glb = read_by_trimesh
+MILLIMETRE = 0.001  # of a metre
+
+
+def read_glb(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
+    """Return vertices in mm and faces, every mesh in each of its places in the scene."""
+    import trimesh
+
+    with told_broken(path, "is broken", "export the mesh again"):
+        scene = trimesh.load_scene(path, process=False)
+        parts = [(scene.geometry[name], place) for place, name in map(scene.graph.get, scene.graph.nodes_geometry)]
+    vertices, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
+    count = 0
+    for mesh, place in parts:
+        if not isinstance(mesh, trimesh.Trimesh):  # points or lines
+            continue
+        matrix = np.asarray(place, dtype=np.float64)[:3] / MILLIMETRE
+        vertices.append(np.asarray(mesh.vertices, dtype=np.float64) @ matrix[:, :3].T + matrix[:, 3])
+        # A mirrored part would face inwards: its corners are taken in the other order.
+        faces.append(np.asarray(mesh.faces)[:, :: -1 if np.linalg.det(matrix[:, :3]) < 0 else 1] + count)
+        count += len(mesh.vertices)
+    return np.concatenate(vertices), np.concatenate(faces)
 
 
 def write_glb(surface: Surface, file: BinaryIO) -> None:
@@ -22,7 +50,7 @@ def write_glb(surface: Surface, file: BinaryIO) -> None:
         "asset": {"version": "2.0", "generator": f"phasefill {__version__}"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
+        "nodes": [{"mesh": 0, "scale": [MILLIMETRE] * 3}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "accessors": [
             {"bufferView": 0, "componentType": FLOAT, "count": len(vertices), "type": "VEC3",

@@ -15,7 +15,7 @@ from typing import IO, Any, BinaryIO, cast
 import numpy as np
 
 from infill.errors import FormatError
-from infill.formats.broken import SMALLER, checked_volume, told_broken
+from infill.formats.broken import SMALLER, checked_volume, is_ours, told_broken
 from infill.machine import require_memory
 from infill.version import __version__
 from infill.volume import AXES, Volume
@@ -54,6 +54,8 @@ def _quiet(sitk: ModuleType, path: Path) -> Iterator[None]:
     try:
         yield
     except RuntimeError as error:
+        if is_ours(error):
+            raise
         lines = [line for line in str(error).splitlines() if line.strip() and not line.startswith("Reason:")]
         said = re.sub(r"^.*ERROR: |\w+\(0x\w+\): |\[nrrd\] ", "", lines[-1] if lines else "no reason given")
         raise FormatError(f"cannot read {path} ({said.strip()}); check the file, or save it again") from error

@@ -33,8 +33,8 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
     ----------
     mesh : trimesh.Trimesh or Surface, mm
     path : str or Path
-        .stl, .3mf, .obj, .ply or .glb. A .glb holds millimetres too, as slicers and CAD write it,
-        though glTF means metres.
+        .stl, .3mf, .obj, .ply or .glb. A .3mf says that it is in millimetres; a .glb is in metres, as glTF means
+        it; the others say no unit and hold millimetres.
     ascii : bool
         Text instead of binary; STL only.
 
@@ -79,8 +79,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Parameters
     ----------
     path : str or Path
-        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF says its unit and comes out in
-        millimetres; the others say none and are taken as they are.
+        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF says its unit and glTF is in metres: they come
+        out in millimetres. The others say no unit and are taken as they are.
 
     Returns
     -------

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import csv
 import itertools
 import os
 import re
-import tokenize
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -17,11 +16,9 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import readable
+from infill.formats.broken import readable, told_broken
 
 AXES = 3
-# What NumPy raises for files that hold something else than they should.
-BROKEN = (ValueError, LookupError, TypeError, EOFError, ArithmeticError, SyntaxError, MemoryError, tokenize.TokenError)
 PLY_TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4", "float": "f4",
     "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
@@ -73,16 +70,9 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
     return coordinates
 
 
-@contextlib.contextmanager
-def _told(path: Path) -> Iterator[None]:
+def _told(path: Path) -> AbstractContextManager[None]:
     """Turn what NumPy says of a broken file into an error of ours."""
-    try:
-        yield
-    except FormatError:
-        raise
-    except BROKEN as error:
-        said = " ".join(str(error).split())[:200] or type(error).__name__
-        raise FormatError(f"{path} is broken or holds no points ({said}); export them again") from error
+    return told_broken(path, "is broken or holds no points", "export them again")
 
 
 # --- text ------------------------------------------------------------------------------------------------
@@ -178,13 +168,13 @@ def _ply_header(path: Path, file: BinaryIO) -> tuple[list[tuple[str, int, Proper
         match words:
             case ["end_header"] if order is not None:
                 return elements, order
-            case ["format", kind, *_]:
+            case ["format", kind, *_] if kind in PLY_ORDERS:
                 order = PLY_ORDERS[kind]
             case ["element", name, count]:
                 elements.append((name, int(count), []))
-            case ["property", "list", _, _, name]:
+            case ["property", "list", _, _, name] if elements:
                 elements[-1][2].append((name, None))
-            case ["property", kind, name]:
+            case ["property", kind, name] if elements and kind in PLY_TYPES:
                 elements[-1][2].append((name, PLY_TYPES[kind]))
             case ["comment" | "obj_info", *_]:
                 pass

@@ -59,6 +59,8 @@ def _tiff_pages(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
 
     with _no_complaints(path), told_broken(path), tifffile.TiffFile(path) as tiff:
         found = tiff.series
+        if not found:
+            raise FormatError(f"{path} holds no pages; save it again")
         if len(found) > 1:
             shapes = ", ".join(str(each.shape) for each in found[:4])
             raise FormatError(f"{path} holds pages of different kinds, {shapes}; save one stack of equal pages")
@@ -84,8 +86,9 @@ def _tiff_spacing(tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.Ti
         return tuple(float(size) * MILLIMETRES.get(unit.lower(), 1.0) if size else 1.0 for size, unit in sizes)
     if tiff.imagej_metadata:
         unit = MILLIMETRES.get(str(tiff.imagej_metadata.get("unit", "")).lower(), 1.0)
-        tags = [tiff.pages[0].tags.get(name) for name in ("XResolution", "YResolution")]
-        per_cell = [tag.value[1] / tag.value[0] if tag is not None and tag.value[0] else 1.0 for tag in tags]
+        values = [getattr(tiff.pages[0].tags.get(name), "value", None) for name in ("XResolution", "YResolution")]
+        fractions = [each if isinstance(each, tuple) and len(each) == 2 else (0, 1) for each in values]
+        per_cell = [lengths / cells if cells else 1.0 for cells, lengths in fractions]
         return tuple(size * unit for size in (*per_cell, abs(float(tiff.imagej_metadata.get("spacing", 1.0)))))
     return (1.0,) * AXES
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zipfile
-import zlib
 from pathlib import Path
 from typing import BinaryIO
 from xml.etree import ElementTree
@@ -12,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.broken import told_broken
 from infill.formats.rows import write_rows
 from infill.surface import Surface
 from infill.version import __version__
 
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
-BROKEN = (zipfile.BadZipFile, ElementTree.ParseError, EOFError, zlib.error, RuntimeError, LookupError, ValueError)
+AGAIN = "export the mesh again"
 TYPES = """<?xml version="1.0" encoding="UTF-8"?>
 <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
  <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
@@ -44,18 +44,15 @@ TAIL = """</triangles></mesh></object></resources>
 def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     """Read the build of a 3MF: objects, components and their transforms; core specification."""
     # The standard parser fetches nothing from outside, and what it makes is only counted and multiplied.
-    try:
-        with zipfile.ZipFile(path) as package:
-            models = [name for name in package.namelist() if name.lower().endswith(".model")]
-            roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
-            start = _start_part(package)
-    except BROKEN as error:
-        raise FormatError(f"{path} is no 3MF file ({error}); export the mesh again") from error
+    with told_broken(path, "is no 3MF file", AGAIN), zipfile.ZipFile(path) as package:
+        models = [name for name in package.namelist() if name.lower().endswith(".model")]
+        roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
+        start = _start_part(package)
     built = [part for part, each in roots.items() if each.find("{*}build/{*}item") is not None]
     main = start if start in roots else next(iter(built), "")
     root = roots.get(main)
     if root is None or root.find("{*}build") is None:
-        raise FormatError(f"{path} has nothing to build in it; export the mesh again")
+        raise FormatError(f"{path} has nothing to build in it; {AGAIN}")
     objects = {
         (part, each.get("id")): each
         for part, model in roots.items()
@@ -67,7 +64,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     def place(part: str, number: str | None, outer: NDArray[np.floating], depth: int = 0) -> None:
         each = objects.get((part, number))
         if each is None or depth > 20:
-            raise FormatError(f"{path} refers to an object {number} that it does not hold; export the mesh again")
+            raise FormatError(f"{path} refers to an object {number} that it does not hold; {AGAIN}")
         corners = [
             [float(v.get(axis, "nan")) for axis in "xyz"] for v in each.iterfind("{*}mesh/{*}vertices/{*}vertex")
         ]
@@ -77,7 +74,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
         ]
         if triangles:
             if max(map(max, triangles)) >= len(corners) or min(map(min, triangles)) < 0:
-                raise FormatError(f"{path} has triangles with corners that do not exist; export the mesh again")
+                raise FormatError(f"{path} has triangles with corners that do not exist; {AGAIN}")
             # A mirrored part would face inwards: its corners are taken in the other order.
             ordered = np.array(triangles)[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
             faces.append(ordered + sum(len(some) for some in vertices))
@@ -87,15 +84,11 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
             joined = np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]])
             place(_path(component, part), component.get("objectid"), joined, depth + 1)
 
-    try:
+    with told_broken(path, "holds a number that is none", AGAIN):
         for item in root.iterfind("{*}build/{*}item"):
             if item.get("printable") == "0":
                 continue
             place(_path(item, main), item.get("objectid"), _transform(item.get("transform", IDENTITY)))
-    except ValueError as error:
-        if isinstance(error, FormatError):
-            raise
-        raise FormatError(f"{path} holds a number that is none ({error}); export the mesh again") from error
     if not faces:
         return np.empty((0, 3)), np.empty((0, 3), dtype=int)
     return np.concatenate(vertices) * UNITS.get(root.get("unit", "millimeter"), 1.0), np.concatenate(faces)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
+from infill.formats.units import STATED, guess_unit
 from infill.inspection.intersections import self_intersections
 from infill.surface import Edges, Surface
 from infill.surfaces.merging import closed_or_merged, merged, surface_of
@@ -19,14 +21,12 @@ from infill.surfaces.shells import vertex_components
 if TYPE_CHECKING:
     import trimesh
 
-# Largest side of a part, mm. Outside, another unit than millimetres is likelier.
-SMALLEST_IN_MM, LARGEST_IN_MM, LARGEST_IN_METRES = 1.0, 2000.0, 0.5
 FLAT = 1e-12  # a triangle of less than this share of its longest side squared has no area
 
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """What `check` found; lengths in the unit of the file.
+    """What `check` found; lengths in the unit of the file, or in mm if the file says its unit.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Inspection:
     volume, area : float
     extents, bounds : list of float
     unit_guess : str
-        "mm", or what the size looks like instead.
+        "mm", or what the size looks like instead where the file does not say.
     """
 
     printable: bool
@@ -88,8 +88,10 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     triangles, parts of a mesh that pass through each other and an unlikely size are warnings: slicers
     drop the first, print the union of the second, and take the third for what it is.
     """
+    stated = False
     if isinstance(mesh, (str, os.PathLike)):
         read = read_mesh(mesh)
+        stated = Path(mesh).suffix.lower() in STATED
     else:
         given = surface_of(mesh)
         read = closed_or_merged(given.vertices, given.faces)
@@ -108,7 +110,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
     extents = bounds[1] - bounds[0]
-    unit = guess_unit(float(extents.max()))
+    unit = "mm" if stated else guess_unit(float(extents.max()))
     problems = {
         f"{open_edges} edge(s) without exactly two faces: the mesh is not closed": open_edges,
         "neighbouring faces disagree about which side is out": not open_edges and not surface.closed,
@@ -140,19 +142,6 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         bounds=bounds.tolist(),
         unit_guess=unit,
     )
-
-
-def guess_unit(largest: float) -> str:
-    """Return the unit that a part whose largest side is `largest` was probably made in.
-
-    >>> guess_unit(60.0), guess_unit(0.047)
-    ('mm', 'm')
-    """
-    if largest > LARGEST_IN_MM:
-        return "µm"
-    if largest >= SMALLEST_IN_MM:
-        return "mm"
-    return "m" if largest <= LARGEST_IN_METRES else "in"
 
 
 def _flat(surface: Surface) -> NDArray[np.bool_]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ from infill.checks import whole
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.formats.mesh_files import READERS, read_mesh
 from infill.formats.point_files import read_points
+from infill.formats.units import STATED, UNITS, guess_unit
 from infill.formats.volume_files import read_volume
 from infill.grid import spacing_of
 from infill.surface import Surface
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
 Kind = Literal["mesh", "points", "volume"]
 Source = Surface | Volume | NDArray[np.float64]
 
-UNITS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
+LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
 FITTING = {
     "volume": ("threshold", "range", "label", "otsu", "grey"),
@@ -35,7 +37,6 @@ FITTING = {
     "points": ("resolution", "voxel", "shell"),
 }
 RESOLUTION = 200  # voxels along the longest side
-LIKE_METRES = 2.0  # what is smaller than this many units may well be meant in metres
 KINDS = ("mesh", "points", "volume")
 
 
@@ -56,7 +57,8 @@ def read_source(
     kind : {"mesh", "points", "volume"}, optional
         What to take it for; told by the file if left out.
     units : {"um", "mm", "cm", "m", "in"}, optional
-        Unit of the coordinates of a mesh or of points; mm if left out and the size is credible.
+        Unit of the coordinates of a mesh or of points, whatever the file says; if left out, the one that a .3mf or
+        .glb says, else mm if the size is credible.
     spacing : float or (hx, hy, hz), optional
         Cell size of a volume, mm; what the file says if left out.
     array, series : str, optional
@@ -67,8 +69,8 @@ def read_source(
     FormatError
         For a file that cannot be read, or whose kind cannot be told.
     ParameterError
-        If no unit is given and the part would be smaller than 2 mm, as one in metres is; for a unit of a volume,
-        or a spacing of something else.
+        If no unit is given and the part would be smaller than 2 mm, as one in metres is (one over 2 m is only
+        told of); for a unit of a volume, or a spacing of something else.
     """
     source = Path(path)
     if kind is not None and kind not in KINDS:
@@ -87,8 +89,9 @@ def read_source(
         points = read_points(source)
         return points * _scale(source, points, units)
     mesh = read_mesh(source)
-    if source.suffix.lower() == ".3mf":  # which says its unit, and has been turned into mm
-        return replace(mesh, vertices=mesh.vertices * UNITS[units]) if units else mesh
+    stated = STATED.get(source.suffix.lower())
+    if stated is not None:
+        return replace(mesh, vertices=mesh.vertices * (UNITS[units] / stated)) if units else mesh
     return replace(mesh, vertices=mesh.vertices * _scale(source, mesh.vertices, units))
 
 
@@ -175,7 +178,12 @@ def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float
     if units is not None:
         return UNITS[units]
     longest = float(np.ptp(points, axis=0).max())
-    if 0 < longest < LIKE_METRES:
+    unit = guess_unit(longest)
+    if unit == "µm":  # as likely to be large on purpose as not, and easily seen
+        LOG.warning(
+            "%s is %.4g mm long if its numbers are millimetres; give --units um if they are micrometres", path, longest
+        )
+    elif unit != "mm" and longest > 0:
         raise ParameterError(
             f"{path} is {longest:.3g} mm long if its numbers are millimetres; "
             f"give --units m if they are metres ({longest * 1000:.3g} mm), or --units mm if it is so small"
