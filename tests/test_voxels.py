@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -174,11 +175,11 @@ def test_overlapping_balls_are_united(turned: tuple[bool, bool]) -> None:
     one, other = ball(inward=turned[0]), ball(at=(12, 0, 0), inward=turned[1])
     both = voxelise_reported(surface(one, other), voxel=0.5)
     reference = voxelise(surface(ball(), ball(at=(12, 0, 0))), voxel=0.5)
-    assert np.array_equal(both[0].values, reference.values)
+    assert np.array_equal(both.volume.values, reference.values)
     apart = np.abs(winding(surface(ball()), centres(reference)[::997])) > 0.5
     apart |= np.abs(winding(surface(ball(at=(12, 0, 0))), centres(reference)[::997])) > 0.5
     assert np.array_equal(reference.values.ravel()[::997], apart)
-    assert both[1].components == 2
+    assert both.repairs.components == 2
 
 
 @pytest.mark.parametrize("all_inward", [False, True])
@@ -195,7 +196,8 @@ def test_a_ball_that_faces_as_the_one_around_it_adds_nothing(inward: bool) -> No
 
 def test_an_inverted_ball_beside_a_larger_one_keeps_its_cavity() -> None:
     mesh = surface(ball(20), ball(at=(40, 0, 0), inward=True), ball(5, at=(40, 0, 0)))
-    volume, repairs = voxelise_reported(mesh, voxel=0.5)
+    found = voxelise_reported(mesh, voxel=0.5)
+    volume, repairs = found.volume, found.repairs
     expected = BALL.volume * (8 + 1 - 1 / 8)
     assert size(volume) == pytest.approx(expected, rel=0.002)
     assert repairs.turned == 2
@@ -211,7 +213,8 @@ def test_solid_in_a_cavity_is_solid() -> None:
 def test_a_box_without_a_triangle_is_the_box(missing: int) -> None:
     whole = surface(box(5, 4, 3))
     holed = Surface(vertices=whole.vertices, faces=np.delete(whole.faces, missing, axis=0))
-    volume, repairs = voxelise_reported(holed, voxel=0.25)
+    found = voxelise_reported(holed, voxel=0.25)
+    volume, repairs = found.volume, found.repairs
     assert np.array_equal(volume.values, voxelise(whole, voxel=0.25).values)
     assert repairs.holes == 1
     assert 0 < repairs.hole_share < 0.2
@@ -248,7 +251,8 @@ def test_cracks_change_nothing(rng: np.random.Generator) -> None:
         vertices=(corners + rng.uniform(-1e-12, 1e-12, corners.shape)).reshape(-1, 3),
         faces=np.arange(corners.size // 3).reshape(-1, 3),
     )
-    volume, repairs = voxelise_reported(apart, voxel=1.03)
+    found = voxelise_reported(apart, voxel=1.03)
+    volume, repairs = found.volume, found.repairs
     assert np.array_equal(volume.values, voxelise(surface(BALL), voxel=1.03).values)
     assert repairs.components == 1
 
@@ -257,7 +261,8 @@ def test_a_pipe_without_ends_is_filled() -> None:
     pipe = trimesh.creation.cylinder(radius=5, height=20, sections=64)
     mesh = surface(pipe)
     wall = Surface(vertices=mesh.vertices, faces=mesh.faces[np.abs(pipe.face_normals[:, 2]) < 0.5])
-    volume, repairs = voxelise_reported(wall, voxel=0.3)
+    found = voxelise_reported(wall, voxel=0.3)
+    volume, repairs = found.volume, found.repairs
     assert np.array_equal(volume.values, voxelise(mesh, voxel=0.3).values)
     assert repairs.holes == 2
 
@@ -356,14 +361,16 @@ def test_broken_meshes_have_the_volume_of_the_part(data: Path, name: str, expect
 
 
 def test_an_open_mesh_is_the_same_mesh_filled(data: Path) -> None:
-    volume, repairs = voxelise_reported(read_mesh(data / "models/pig_open.stl"))
+    found = voxelise_reported(read_mesh(data / "models/pig_open.stl"))
+    volume, repairs = found.volume, found.repairs
     assert repairs.holes == 432
     assert np.array_equal(volume.values, voxelise(read_mesh(data / "models/pig_filled.stl")).values)
 
 
 def test_overlapping_bones_are_united(data: Path) -> None:
     mesh = read_mesh(data / "medical/foot_right_bodyparts3d.stl")
-    volume, repairs = voxelise_reported(mesh, resolution=40)
+    found = voxelise_reported(mesh, resolution=40)
+    volume, repairs = found.volume, found.repairs
     assert (repairs.components, repairs.turned, repairs.holes) == (24, 0, 0)
     some = np.random.default_rng(4).choice(volume.values.size, 20, replace=False)
     some = np.concatenate([some, np.flatnonzero(volume.values.ravel())[::50][:30]])
@@ -373,3 +380,36 @@ def test_overlapping_bones_are_united(data: Path) -> None:
 def test_triangles_without_volume_are_refused(data: Path) -> None:
     with pytest.raises(GeometryError, match="encloses nothing"):
         voxelise(read_mesh(data / "nasty/triangle_soup.stl"))
+
+
+def test_the_mesh_that_was_voxelised_is_closed_and_encloses_what_was_told() -> None:
+    """As it stands where it is closed, its vertices merged where that closes it, and else with its caps."""
+    whole = surface(box(5, 4, 3))
+    soup = Surface(vertices=whole.vertices[whole.faces].reshape(-1, 3), faces=np.arange(36).reshape(-1, 3))
+    holed = Surface(vertices=whole.vertices, faces=whole.faces[:-1])
+    for mesh in (whole, soup, holed):
+        found = voxelise_reported(mesh, voxel=0.25)
+        assert found.closed.closed
+        assert found.closed.volume == pytest.approx(60)
+        assert found.repairs.volume == pytest.approx(60)
+        assert found.closed.bounds == pytest.approx(mesh.bounds)
+
+
+def test_a_mesh_with_holes_is_capped_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    from infill import smooth_mesh
+    from infill.voxels import from_mesh
+
+    calls = []
+
+    def counted(*arguments: Any) -> Any:
+        calls.append(1)
+        return capped(*arguments)
+
+    for module in ("infill.voxels.from_mesh", "infill.smoothing.solids"):
+        monkeypatch.setattr(f"{module}.capped", counted, raising=False)
+    assert from_mesh.capped is counted
+    whole = surface(BALL)
+    report = smooth_mesh(Surface(vertices=whole.vertices, faces=whole.faces[3:]), resolution=30).report
+    assert report["repairs"]["holes"] >= 1
+    assert report["distance"]["data"]["max"] < 1.5 * max(report["spacing"])
+    assert len(calls) == 1

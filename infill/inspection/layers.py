@@ -97,9 +97,11 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     line_cells : int
         Cells across a line: what is as wide as a line is no pinhole.
     """
+    from scipy import ndimage
+
     found = overlaps(before.void, after.void)
     solid, voids = fate(overlaps(before.solid, after.solid)), fate(found)
-    room = _opened(before.void > 0, min(PINHOLE, line_cells))
+    room = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
     cores = _components(room, np.empty((0, 2), dtype=np.intp))
     wide = np.zeros(found.before, dtype=bool)
     wide[np.unique(before.void[room]) - 1] = True
@@ -184,21 +186,3 @@ def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[n
     # Number 0, the cells outside, is in no pair: it stays alone, and the others are counted from 1.
     _, renumbered = np.unique(merged[1:], return_inverse=True)
     return np.asarray(np.concatenate([[0], renumbered + 1])[numbers])
-
-
-def _opened(inside: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
-    """Return the cells that lie in some square of `size` cells, all inside."""
-    if min(inside.shape) < size:
-        return np.zeros_like(inside)
-    found = inside
-    for axis in range(2):
-        along = np.moveaxis(found, axis, 0)
-        count = len(along) - size + 1
-        found = np.moveaxis(np.logical_and.reduce([along[shift : shift + count] for shift in range(size)]), 0, axis)
-    for axis in range(2):
-        along = np.moveaxis(found, axis, 0)
-        grown = np.zeros((len(along) + size - 1, along.shape[1]), dtype=bool)
-        for shift in range(size):
-            grown[shift : shift + len(along)] |= along
-        found = np.moveaxis(grown, 0, axis)
-    return found

@@ -34,10 +34,9 @@ from infill.smoothing.placing import lightened, moved, placed
 from infill.smoothing.request import Given, Options, Request
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
-from infill.surfaces.capping import capped
-from infill.surfaces.merging import closed_or_merged, surface_of
+from infill.surfaces.merging import surface_of
 from infill.volume import Volume
-from infill.voxels.from_mesh import Repairs, voxelise_reported
+from infill.voxels.from_mesh import voxelise_reported
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.segmentation import grey as grey_levels
 from infill.voxels.segmentation import threshold as segment
@@ -170,15 +169,15 @@ def smooth_mesh(
     1
     """
     surface = surface_of(mesh)
-    solid, repairs = voxelise_reported(
+    found = voxelise_reported(
         surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=options.get("max_memory")
     )
     given = Given(
-        data=solid,
-        facts={"source": "mesh", "repairs": asdict(repairs)},
-        reference=_closed(surface, solid, repairs),
-        volume=repairs.volume,
-        overlapping=repairs.components > 1,
+        data=found.volume,
+        facts={"source": "mesh", "repairs": asdict(found.repairs)},
+        reference=found.closed,
+        volume=found.repairs.volume,
+        overlapping=found.repairs.components > 1,
     )
     return _smooth(given, Request(**options))
 
@@ -326,13 +325,3 @@ def _walls(judged: Verdict, surfaced: Surfaced, data: Volume, *, spacing: tuple[
     before, after = thinnest_walls(found.against, found.surface, spacing, found.height)
     lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in judged.lost]
     return {"thinnest": {"data": before, "result": after}, "lost": lost}
-
-
-def _closed(mesh: Surface, solid: Volume, repairs: Repairs) -> Surface:
-    """Return a mesh with its holes capped as for the voxels."""
-    if not repairs.holes:
-        return mesh
-    size, origin = solid.cell_size, np.array(solid.origin)
-    whole = closed_or_merged(mesh.vertices, mesh.faces)
-    vertices, faces, _ = capped((whole.vertices - origin) / size - 0.5, whole.faces)
-    return Surface(vertices=(vertices + 0.5) * size + origin, faces=faces)

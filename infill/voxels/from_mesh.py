@@ -48,6 +48,26 @@ class Repairs:
     volume: float
 
 
+@dataclass(frozen=True, kw_only=True)
+class Voxelised:
+    """The cells inside a mesh, and how they came about.
+
+    Parameters
+    ----------
+    volume : Volume
+        Booleans, True inside.
+    repairs : Repairs
+        What had to be assumed.
+    closed : Surface
+        The mesh whose inside they are, mm: equal vertices merged where that is needed to close it, else with caps on
+        its holes.
+    """
+
+    volume: Volume
+    repairs: Repairs
+    closed: Surface
+
+
 def voxelise(
     surface: Surface,
     *,
@@ -105,7 +125,7 @@ def voxelise(
     >>> voxelise(Surface(vertices=corners, faces=faces), voxel=1.0).values.shape
     (8, 8, 8)
     """
-    return voxelise_reported(surface, voxel=voxel, resolution=resolution, margin=margin, max_memory=max_memory)[0]
+    return voxelise_reported(surface, voxel=voxel, resolution=resolution, margin=margin, max_memory=max_memory).volume
 
 
 def voxelise_reported(
@@ -115,8 +135,8 @@ def voxelise_reported(
     resolution: int | None = None,
     margin: int = 2,
     max_memory: int | None = None,
-) -> tuple[Volume, Repairs]:
-    """Return the cells inside a mesh, and what had to be assumed: see `voxelise`."""
+) -> Voxelised:
+    """Return the cells inside a mesh, what had to be assumed, and the mesh that was: see `voxelise`."""
     if voxel is not None and resolution is not None:
         raise ParameterError("both voxel and resolution are given; give one of them")
     margin = whole("margin", margin, 0)
@@ -172,4 +192,7 @@ def voxelise_reported(
         hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),
         volume=abs(float(np.where(turned, -volumes, volumes).sum())) * size**3,
     )
-    return Volume(values=inside, spacing=size, origin=tuple(origin.tolist())), repairs
+    closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
+    return Voxelised(
+        volume=Volume(values=inside, spacing=size, origin=tuple(origin.tolist())), repairs=repairs, closed=closed
+    )
