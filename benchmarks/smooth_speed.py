@@ -1,4 +1,4 @@
-"""The figures of issue "smooth", speed: ``python -m benchmarks.smooth_speed [--sizes 400,800] [--large]``.
+"""The speed of smoothing: ``python -m benchmarks.smooth_speed [--sizes 400,800] [--large]``.
 
 A binary sphere of 0.8 of the half side, 10 steps, volume in, mesh out, in one process and in turn with its peers.
 VTK is left out where it is not installed.

@@ -41,7 +41,7 @@ def main(folder: Path) -> int:
     """Write a block and return the number of cells in it."""
     result = make(Squares(cell=6), size=30, height=4, stamp="exact")
     result.save(folder / "squares.3mf")
-    return int(result.report["result"]["holes"])
+    return int(result.report["topology"]["result"]["tunnels"])
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -14,6 +13,48 @@ if TYPE_CHECKING:
     import trimesh
 
 AT_ONCE = 50_000  # faces measured at a time, so that they stay in the cache
+
+
+@dataclass(frozen=True, kw_only=True)
+class Edges:
+    """The edges of triangles, each once, in the order of their vertices; sides without length are left out.
+
+    Parameters
+    ----------
+    ends : (E, 2) int64
+        Two vertices, the lower one first.
+    ahead, back : (E,) int64
+        How many faces run along it from the lower vertex to the higher, and how many the other way.
+    """
+
+    ends: NDArray[np.int64]
+    ahead: NDArray[np.int64]
+    back: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, faces: NDArray[np.integer]) -> Edges:
+        """Return the edges of faces (F, 3).
+
+        >>> edges = Edges.of(np.array([[0, 1, 2], [0, 2, 3]]))
+        >>> edges.ends[edges.faces == 2].tolist()
+        [[0, 2]]
+        """
+        key, reverse = np.divmod(_sides(faces), 2)
+        first = np.flatnonzero(np.diff(key, prepend=-1))
+        faces_of, back = np.diff(first, append=len(key)), np.add.reduceat(reverse, first)
+        ends = np.stack(np.divmod(key[first], int(faces.max()) + 1), axis=1)
+        kept = ends[:, 0] != ends[:, 1]
+        return cls(ends=ends[kept], ahead=(faces_of - back)[kept], back=back[kept])
+
+    @property
+    def faces(self) -> NDArray[np.int64]:
+        """How many faces an edge has: two, in a closed surface."""
+        return self.ahead + self.back
+
+    @property
+    def surplus(self) -> NDArray[np.int64]:
+        """How many more faces run along it ahead than back: none, in what is closed as a sum."""
+        return self.ahead - self.back
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,23 +76,10 @@ class Surface:
     @cached_property
     def closed(self) -> bool:
         """True if every edge has two faces that run along it in opposite directions."""
-        if len(self.faces) == 0:
+        if len(self.faces) == 0 or len(self.faces) % 2:
             return False
-        count = len(self.vertices)
-        rising, falling = [], []
-        for i in range(3):
-            start, end = self.faces[:, i].astype(np.int64), self.faces[:, (i + 1) % 3].astype(np.int64)
-            if (start == end).any():
-                return False
-            up = start < end
-            rising.append((start * count + end)[up])
-            falling.append((end * count + start)[~up])
-        there, back = np.concatenate(rising), np.concatenate(falling)
-        helper = threading.Thread(target=back.sort)
-        helper.start()
-        there.sort()
-        helper.join()
-        return np.array_equal(there, back) and not bool((there[1:] == there[:-1]).any())
+        ahead, back = _sides(self.faces).reshape(-1, 2).T
+        return bool((back == ahead + 1).all() and not (ahead & 1).any() and (ahead[1:] != ahead[:-1]).all())
 
     @cached_property
     def _volume_and_area(self) -> tuple[float, float]:
@@ -86,8 +114,40 @@ class Surface:
         """Lower and upper corner, (2, 3), mm."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=np.float64)
 
+    def moved(self, vertices: NDArray[np.floating], *, space: str = "", mirrored: bool = False) -> Surface:
+        """Return the same faces with other vertices (V, 3), turned over if those are mirrored.
+
+        What is known of how the faces hang together stays known.
+        """
+        faces = self.faces[:, ::-1] if mirrored else self.faces
+        other = Surface(vertices=vertices, faces=faces, space=space)
+        if "closed" in self.__dict__:
+            other.__dict__["closed"] = self.closed
+        return other
+
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return the same mesh as a trimesh.Trimesh; vertices are neither merged nor reordered."""
         import trimesh
 
         return trimesh.Trimesh(vertices=self.vertices, faces=self.faces, process=False)
+
+
+def _sides(faces: NDArray[np.integer]) -> NDArray[np.int64]:
+    """Return the sides of all faces as numbers (3 F,), sorted.
+
+    From vertex i to j > i it is 2 (i n + j), with n the number of vertices, and from j to i one more. So sides of
+    one edge stand together, those from its lower vertex first, and those of a closed surface come in pairs: an
+    even number and the next one.
+    """
+    count = int(faces.max()) + 1
+    found = np.empty((3, len(faces)), dtype=np.int64)
+    corners = [faces[:, i].astype(np.int64) for i in range(3)]
+    for out, start, end in zip(found, corners, (corners[1], corners[2], corners[0]), strict=True):
+        np.minimum(start, end, out=out)
+        out *= count
+        out += np.maximum(start, end)
+        out *= 2
+        out += start > end
+    numbers = found.ravel()
+    numbers.sort()
+    return numbers

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -18,14 +19,74 @@ settings.register_profile(
 settings.load_profile("suite")
 
 
+# What `make quick` leaves out, by the beginning of a test's name: what came first in `pytest -n 2 --durations=0` on two
+# cores, added up by file and by test, until the rest took less than 40 s. Whole files are those that start processes,
+# read many files or draw. To measure again: `make quick` with `--durations=20` after it.
+SLOW = (
+    "tests/test_command_line_posix.py",
+    "tests/test_data.py::test_a",
+    "tests/test_examples.py",
+    "tests/test_mathematics.py",
+    "tests/test_site.py",
+    "tests/test_slicers.py",
+    "tests/test_smooth_command_posix.py",
+    "tests/test_smooth_files.py",
+    "tests/test_kernels.py::test_sparse_is_dense_to_the_last_bit",
+    "tests/test_kernels.py::test_the_log_tells_of_compiling",
+    "tests/test_make.py::test_the_designs_are_printable_at_many_sizes",
+    "tests/test_make.py::test_the_exact_stamp_keeps_its_width",
+    "tests/test_smooth_library.py::test_memory_does_not_matter_and_nothing_is_changed",
+    "tests/test_topology_and_width.py::test_a_straight_wall_has_its_width",
+    "tests/test_topology_and_width.py::test_the_exact_stamp_keeps_the_width_through_smoothing",
+    "tests/test_voxels.py::test_closed_meshes_have_their_volume",
+    "tests/test_voxels.py::test_overlapping_bones_are_united",
+)
+
+ROOT = Path(__file__).resolve().parents[1]
+HOMES = (ROOT / "data", ROOT.parent / "shared" / "data")
+ADVICE = "run `make data`, or set INFILL_DATA"
+
+
+def pytest_configure() -> None:
+    """Find the data once, for the tests and for what they run."""
+    if "INFILL_DATA" not in os.environ:
+        found = next((home for home in HOMES if home.is_dir()), None)
+        if found:
+            os.environ["INFILL_DATA"] = str(found)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if item.nodeid.startswith(SLOW):
+            item.add_marker("slow")
+
+
+def known_data() -> set[str]:
+    """Return the names of the real files, with the folders they lie in."""
+    table = tomllib.loads((ROOT / "tools" / "data.toml").read_text(encoding="utf-8"))
+    files = {Path(entry["path"]) for entry in (*table["public"], *table["other"])}
+    return {path.as_posix() for file in files for path in (file, *file.parents)}
+
+
+class Data(type(Path())):  # type: ignore[misc]
+    """A folder of which some files may not have been fetched: the test that asks for one is skipped."""
+
+    def __truediv__(self, name: str | os.PathLike[str]) -> Path:
+        path = super().__truediv__(name)
+        inside = path.relative_to(os.environ["INFILL_DATA"]).as_posix()
+        if not path.exists() and inside in known_data():
+            pytest.skip(f"no {path}; {ADVICE}")
+        return path if path.is_dir() else Path(path)
+
+
 @pytest.fixture(scope="session")
 def data() -> Path:
-    """The folder of real meshes and scans; tests that need it skip where it is absent."""
-    default = Path(__file__).resolve().parents[2] / "shared" / "data"
-    folder = Path(os.environ.get("INFILL_DATA", default))
+    """The folder of real meshes and scans; tests that need what it lacks skip."""
+    folder = Path(os.environ.get("INFILL_DATA", HOMES[0]))
     if not folder.is_dir():
-        pytest.skip(f"no test data at {folder}; set INFILL_DATA to the folder that holds it")
-    return folder
+        pytest.skip(f"no test data at {folder}; {ADVICE}")
+    return Data(folder)
 
 
 @pytest.fixture

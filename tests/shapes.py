@@ -93,7 +93,7 @@ REGIONS: list[Polygon] = [
     Polygon([(0, 0), (40, 5), (30, 35), (15, 12), (2, 30)]),
 ]
 
-# Ten sizes and cells beside the defaults, as in the first issue: uneven, small, large, elongated.
+# Ten sizes and cells beside the defaults: uneven, small, large, elongated.
 SIZES: list[tuple[tuple[float, float], float]] = [
     ((40, 40), 4),
     ((60, 40), 5),

@@ -28,7 +28,7 @@ from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import PATTERNS, parameters
 from patterns.shared import SHARED
 
-COMMANDS = ["make", "list", "check"]
+COMMANDS = ["make", "smooth", "list", "check"]
 SMALL = ["--size", "20", "--height", "2"]
 RUN = [sys.executable, "-m", "infill.cli"]
 
@@ -65,6 +65,7 @@ def test_help_has_an_example_and_exits_0(command: str) -> None:
 def test_help_names_every_command() -> None:
     text = plain(run("--help").stdout)
     assert all(command in text for command in COMMANDS)
+    assert {command.name for command in build(plugins=False).registered_commands} == set(COMMANDS)
     assert "Example: infill make" in text
 
 
@@ -215,9 +216,12 @@ def test_check_tells_what_it_cannot_read(tmp_path: Path) -> None:
 # --- make ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", BUILT_IN)
-@pytest.mark.parametrize("suffix", [".stl", ".3mf", ".obj", ".ply", ".glb"])
+@pytest.mark.parametrize(
+    ("name", "suffix"),
+    [*((name, ".stl") for name in BUILT_IN), *((BUILT_IN[0], other) for other in (".3mf", ".obj", ".ply", ".glb"))],
+)
 def test_make_writes_a_closed_mesh(name: str, suffix: str, tmp_path: Path) -> None:
+    """Every pattern, and every format."""
     path = tmp_path / f"block{suffix}"
     result = run("make", name, *SMALL, "-o", path)
     assert result.exit_code == 0, result.output
@@ -231,7 +235,7 @@ def test_make_reports_as_json(tmp_path: Path) -> None:
     result = run("make", "honeycomb", *SMALL, "--angle", "30", "-o", path, "--json")
     report = json.loads(result.stdout)
     assert report["files"] == [str(path)]
-    assert report["parameters"]["angle"] == 30
+    assert report["request"]["parameters"]["angle"] == 30
     assert report["closed"] is True
     assert read_mesh(path).volume == pytest.approx(report["volume"], rel=1e-5)
 
@@ -284,8 +288,11 @@ def test_dry_run_writes_nothing(tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert "1667 x 1400 cells of 0.15 mm" in result.stdout
     assert list(tmp_path.iterdir()) == []
-    facts = json.loads(run(*words, "--json").stdout)
-    assert facts["stl_bytes"] == 50 * facts["triangles"]
+    path = tmp_path / "a.stl"
+    facts = json.loads(run("make", "zigzag", "--size", "50x40", "-o", path, "--dry-run", "--json").stdout)
+    assert list(tmp_path.iterdir()) == []
+    assert run("make", "zigzag", "--size", "50x40", "-o", path).exit_code == 0
+    assert facts["stl_bytes"] == pytest.approx(path.stat().st_size, rel=0.25)  # as near as the plan is
 
 
 # --- settings --------------------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ from infill.phasefield.allen_cahn import laplacian
 from infill.phasefield.dense import parts_of_one
 from infill.phasefield.methods import KERNELS
 
-FAST = 2e-5  # what the issue allows a float32 kernel over 30 steps
+FAST = 2e-5  # what float32 may lose over 30 steps
 EXACT = 1e-10
 
 every_kernel = pytest.mark.parametrize("method", list(KERNELS))
@@ -183,13 +183,13 @@ def test_threads_do_not_change_the_result(monkeypatch: pytest.MonkeyPatch, rng: 
     f = smooth_noise(rng, (90, 70))
     alone = smooth(f, Smoothing(steps=7), method="inplace")
     monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 3)
     assert np.array_equal(smooth(f, Smoothing(steps=7), method="inplace"), alone)
 
 
 def test_a_thread_that_fails_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 2)
+    monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 2)
     real = np.sqrt
     calls = []
 
@@ -330,7 +330,7 @@ def test_diffusion_keeps_the_sum(rng: np.random.Generator) -> None:
 def test_straight_walls_shrink_as_measured_beforehand(
     method: str, width: int, steps: int, fidelity: float, expected: float
 ) -> None:
-    """The widths that the design gives for walls of 1, 3 and 5 cells, to their last digit (4.77 for 4.76)."""
+    """Golden widths of walls of 1, 3 and 5 cells, older than every kernel, to their last digit (4.77 for 4.76)."""
     f = -np.ones(61)
     f[30 - width // 2 : 31 + width // 2] = 1
     phi = smooth(f, Smoothing(steps=steps, fidelity=fidelity), method=method)
@@ -426,7 +426,7 @@ def test_settings_are_plain_numbers() -> None:
 def test_an_interrupt_is_an_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the main thread comes out as such, not as the failure of another thread."""
     monkeypatch.setattr("infill.phasefield.inplace.BLOCK", 512)
-    monkeypatch.setattr("infill.phasefield.inplace.usable_cores", lambda: 3)
+    monkeypatch.setattr("infill.phasefield.inplace.thread_count", lambda _: 3)
     real, main = np.sqrt, threading.main_thread()
 
     def interrupted(*args: Any, **options: Any) -> Any:

@@ -222,7 +222,7 @@ def test_fields_are_written_whole_or_not(tmp_path: Path, monkeypatch: pytest.Mon
         write_field(field, tmp_path / "a.stl")
     with pytest.raises(FormatError, match="has no suffix"):
         write_field(field, tmp_path / "a")
-    with pytest.raises(OutputError):
+    with pytest.raises(OutputError, match="cannot write .*No such file"):
         write_field(field, tmp_path / "missing" / "a.npz")
 
     def fails(volume: Volume, file: Any) -> None:
@@ -338,7 +338,7 @@ def test_slices_that_do_not_belong_together(tmp_path: Path) -> None:
         one_line(caught)
     broken = folder("broken", ("1.png", grey)) / "2.png"
     broken.write_bytes((broken.parent / "1.png").read_bytes()[:-30])
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match=r"cannot .*2\.png"):
         read_volume(broken.parent)
 
 
@@ -535,7 +535,17 @@ def test_broken_and_single_dicom_files(sitk: Any, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="single slice"):
         read_volume(tmp_path / "1_99.dcm")
     (tmp_path / "1_95.dcm").write_bytes((tmp_path / "1_95.dcm").read_bytes()[:-20])
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match="missing, doubled"):
+        read_volume(tmp_path)
+
+
+@pytest.mark.xfail(strict=True, reason="files that are no whole DICOM are left out of the series, and nobody is told")
+@pytest.mark.parametrize("end", ["1_99.dcm", "1_93.dcm"])
+def test_a_dicom_slice_at_the_end_that_is_cut_off_is_told(end: str, sitk: Any, tmp_path: Path) -> None:
+    """It leaves no gap behind, and a volume of one slice less."""
+    write_series(sitk, tmp_path, "1.2.826.0.1.1", image_of(sitk, numbers()))
+    (tmp_path / end).write_bytes((tmp_path / end).read_bytes()[:-20])
+    with pytest.raises(FormatError, match="cut off|broken|missing"):
         read_volume(tmp_path)
 
 

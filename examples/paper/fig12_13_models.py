@@ -43,7 +43,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             )
             for level, refine in ((0, False), ("volume", False), ("volume", True))
         )
-        raw, solid = staircase(plain), f > 0
+        raw, solid = staircase(plain.stages), f > 0
         change, held = (result.report["volume_change"] for result in (plain, kept))
         found = [result.report["problems"] for result in (plain, refined)]
         readings = {

@@ -211,8 +211,9 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
 
 def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     """Return the short table on stderr."""
+    request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
-    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
+    size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
     measured = (
         "not measured: no wall stands clear of others"
         if width["mean"] is None
@@ -221,10 +222,10 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     )
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
-        f"{report['components']} component(s), Euler number {report['euler_number']}",
+        f"{report['components']} component(s), Euler number {report['mesh']['euler_number']}",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
-        "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, "
+        "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
         f"volume {report['volume_change']:+.2%} (rims apart)",
     }
     if change["pinholes"]:
@@ -233,11 +234,10 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
-        rows["grid"] = f"{' x '.join(map(str, report['grid']))} cells of {report['spacing']:.4g} mm"
-        for name in ("stamp", "result"):
-            counts = report[name]
-            rows[name] = f"{counts['components']} component(s), {counts['holes']} holes"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {grid['spacing'][0]:.4g} mm"
+        for name, counts in (("stamp", topology["data"]), ("result", topology["result"])):
+            rows[name] = f"{counts['components']} component(s), {counts['tunnels']} holes"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return table(rows, title=f"{report['pattern']}, {size} mm")
+    return table(rows, title=f"{request['pattern']}, {size} mm")

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
 from infill.inspection.intersections import self_intersections
-from infill.surface import Surface
+from infill.surface import Edges, Surface
 from infill.surfaces.merging import closed_or_merged, merged, surface_of
+from infill.surfaces.shells import vertex_components
 
 if TYPE_CHECKING:
     import trimesh
@@ -100,9 +101,9 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     where = merged(surface.vertices, surface.faces[~flat])
     duplicate = len(where.faces) - len(np.unique(np.sort(where.faces, axis=1), axis=0))
     crossings = self_intersections(where.vertices, where.faces)
-    open_edges = _open_edges(surface.faces)
-    component = _components(surface)
-    outward = _outward(surface, component)
+    open_edges = int((Edges.of(surface.faces).faces != 2).sum())
+    names, components = vertex_components(surface.faces, len(surface.vertices))
+    outward = _outward(surface, names[surface.faces[:, 0]])
     status = _manifold_status(surface)
     degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
@@ -125,7 +126,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         problems=tuple(text for text, holds in problems.items() if holds),
         warnings=tuple(text for text, holds in warnings.items() if holds),
         triangles=len(read.faces),
-        components=int(component.max()) + 1,
+        components=components,
         closed=surface.closed,
         outward=outward,
         open_edges=open_edges,
@@ -159,24 +160,6 @@ def _flat(surface: Surface) -> NDArray[np.bool_]:
     doubled = np.linalg.norm(np.cross(b - a, c - a), axis=1)
     longest = np.max([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))], axis=0)
     return np.asarray(doubled <= FLAT * longest)
-
-
-def _open_edges(faces: NDArray[np.integer]) -> int:
-    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    _, counts = np.unique(edges[:, 0].astype(np.int64) * (faces.max() + 1) + edges[:, 1], return_counts=True)
-    return int((counts != 2).sum())
-
-
-def _components(surface: Surface) -> NDArray[np.integer]:
-    """Return for every face the number, from 0, of the component it belongs to."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    faces, count = surface.faces, len(surface.vertices)
-    one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
-    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
-    _, component = connected_components(graph, directed=False)
-    return np.asarray(component[faces[:, 0]])
 
 
 def _outward(surface: Surface, component: NDArray[np.integer]) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.inspection.rays import way_inside
 from infill.kernels.sparse import BRICK, SOLID_BRICK
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
@@ -13,6 +14,7 @@ SAMPLES = 4000
 STEP = 0.25  # cells
 FARTHEST = 16.0  # cells: what is thicker is no wall
 THIN = 0.01  # the thinnest wall is that of this part of the surface
+LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface in which a ray enters: it lies up to a cell off the data
 
 
 def thinnest_walls(
@@ -32,54 +34,49 @@ def thinnest_walls(
     Returns
     -------
     float or None
-        None if what is behind is thicker than 16 cells everywhere, or, for the data, if none is solid there.
+        None if what is behind is thicker than 16 cells, those of the shortest side; or, for the data, if none is
+        solid there.
 
     Notes
     -----
-    From points all over the surface rays go inwards, along the normal, until they leave the solid.
+    From points all over the surface rays go inwards, along the normal, until they leave the solid. One that does not
+    leave within the reach is longer than all that do: it says nothing but that there is no wall.
     """
     size = np.array(spacing)
     some = np.random.default_rng(0).permutation(len(surface.faces))[:SAMPLES]
-    corners = surface.vertices[surface.faces[some]]
+    corners = surface.vertices[surface.faces[some]].astype(np.float64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     keep = length[:, 0] > 0
     inwards, start = -normals[keep] / length[keep], corners[keep].mean(axis=1)
-    step = STEP * float(size.min())
-    at = np.arange(1, round(FARTHEST / STEP) + 1) * step
-    cells = np.floor((start[:, None] + inwards[:, None] * at[:, None]) / size).astype(np.int64)
-    smoothed, data = solid_at(field, cells.reshape(-1, 3), level)
-    return tuple(
-        _thin(inside.reshape(len(start), len(at)), step, leeway) for inside, leeway in ((data, 4), (smoothed, 1))
-    )  # type: ignore[return-value]
+    # In the middles of the steps, so that a wall of whole cells along an axis is found as thick as it is.
+    places = round(FARTHEST / STEP) + LEEWAY_OF_DATA + 1  # to the first one beyond a wall that begins late
+    at = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
+
+    def thin(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
+        def value(points: NDArray[np.float64]) -> NDArray[np.float64]:
+            solid = solid_at(field, values, np.floor(points / size).astype(np.int64), height)
+            return np.where(solid, 1.0, -1.0)
+
+        found = way_inside(value, start, inwards, at, leeway=leeway)
+        found = found[found > 0]
+        if len(found) == 0:
+            return None
+        thinnest = float(np.quantile(found, THIN, method="inverted_cdf"))
+        return thinnest if thinnest <= FARTHEST * float(size.min()) else None
+
+    return thin(field.data, 0.0, LEEWAY_OF_DATA), thin(field.values, level, LEEWAY)
 
 
-def _thin(inside: NDArray[np.bool_], step: float, leeway: int) -> float | None:
-    """Return the first hundredth of the lengths of the first stretch inside that begins within `leeway` steps."""
-    begun = inside[:, : leeway + 1].any(axis=1)
-    first = inside.argmax(axis=1)
-    ahead = np.arange(inside.shape[1]) >= first[:, None]
-    out = ahead & ~inside
-    ends = np.where(out.any(axis=1), out.argmax(axis=1), inside.shape[1])
-    lengths = (ends - first)[begun] * step
-    if len(lengths) == 0:
-        return None
-    thin = float(np.quantile(lengths, THIN))
-    return None if thin >= inside.shape[1] * step else thin
-
-
-def solid_at(field: SparseField, cells: NDArray[np.int64], level: float) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return for cells (N, 3) of the grid whether they are solid, smoothed and in the data; beyond it none is."""
+def solid_at(
+    field: SparseField, values: NDArray[np.generic], cells: NDArray[np.int64], level: float
+) -> NDArray[np.bool_]:
+    """Return for cells (N, 3) of the grid whether `values` of the bricks are above a level there; beyond it none is."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     place = np.where(inside[:, None], cells, 0) + 1
     brick, cell = np.divmod(place, BRICK)
     slot = field.slots[tuple(brick.T)]
     kept = slot >= 0
-    alone = (slot == SOLID_BRICK) & inside
-    found = []
-    for values, height in ((field.values, level), (field.data, 0.0)):
-        solid = alone.copy()
-        above: NDArray[np.bool_] = values[slot[kept], cell[kept, 0], cell[kept, 1], cell[kept, 2]] > height
-        solid[kept] = above & inside[kept]
-        found.append(solid)
-    return found[0], found[1]
+    solid: NDArray[np.bool_] = (slot == SOLID_BRICK) & inside
+    solid[kept] = (values[slot[kept], cell[kept, 0], cell[kept, 1], cell[kept, 2]] > level) & inside[kept]
+    return solid

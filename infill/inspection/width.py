@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +13,9 @@ from shapely import MultiLineString
 
 from infill.errors import ParameterError
 from infill.grid import VOID, Grid
+from infill.inspection.rays import way_inside
+
+Floats = NDArray[np.float64]
 
 MOST_SAMPLES = 4000
 # Line widths that a ray across a wall, and its foot, keep from nodes, ends and other lines: nearer,
@@ -75,8 +79,10 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
     places, normals = places[pick], normals[pick]
     size = float(grid.cell_size.min())
     distance = np.arange(0, reach, size / STEPS_PER_CELL)
-    field = np.pad(layer, 1, constant_values=VOID)
-    widths = sum(_reach(field, grid, places, side * normals, distance) for side in (1, -1))
+    value = _sampler(layer, grid)
+    # A wall that goes on beyond the reach is as wide as that.
+    both = [way_inside(value, places, side * normals, distance).clip(0, distance[-1]) for side in (1, -1)]
+    widths = both[0] + both[1]
     p5, p95 = np.percentile(widths, [5, 95])
     return WallWidth(
         requested=requested, mean=float(np.mean(widths)), p5=float(p5), p95=float(p95), samples=len(places)
@@ -123,26 +129,15 @@ def _segments(lines: MultiLineString) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(np.stack([ends[:-1][follows], ends[1:][follows]], axis=1)))
 
 
-def _reach(
-    field: NDArray[np.floating],
-    grid: Grid,
-    places: NDArray[np.float64],
-    directions: NDArray[np.float64],
-    distance: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return how far the solid goes from each place, 0 if the place itself is void."""
-    points = places[:, None] + distance[:, None] * directions[:, None]
-    cell = (points - grid.origin) / grid.cell_size + 0.5  # the first cell of the padded field is centred on 0
-    cell = cell.clip(0, np.array(field.shape) - 1.000001)
-    low = cell.astype(np.intp)
-    x, y = np.moveaxis(cell - low, -1, 0)
-    i, j = np.moveaxis(low, -1, 0)
-    values = (1 - x) * ((1 - y) * field[i, j] + y * field[i, j + 1])
-    values += x * ((1 - y) * field[i + 1, j] + y * field[i + 1, j + 1])
-    void = values <= 0
-    first = np.where(void.any(axis=1), void.argmax(axis=1), values.shape[1] - 1)
-    row, before = np.arange(len(values)), (first - 1).clip(0)
-    inner, outer = values[row, before], values[row, first]
-    part = np.where(inner > outer, inner / np.where(inner > outer, inner - outer, 1), 0).clip(0, 1)
-    crossing = distance[before] + part * (distance[first] - distance[before])
-    return np.where(void[:, 0], 0.0, np.where(void.any(axis=1), crossing, distance[-1]))
+def _sampler(layer: NDArray[np.floating], grid: Grid) -> Callable[[Floats], Floats]:
+    """Return the function that gives the bilinear value of a layer at points (N, 2), mm; void lies beyond it."""
+    from scipy.ndimage import map_coordinates
+
+    field = np.pad(layer, 1, constant_values=VOID)
+
+    def value(points: Floats) -> Floats:
+        cell = (points - grid.origin) / grid.cell_size + 0.5  # the first cell of the padded field is centred on 0
+        found: Floats = map_coordinates(field, cell.T, output=np.float64, order=1, mode="nearest")
+        return found
+
+    return value

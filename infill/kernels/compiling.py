@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import logging
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any
 
 LOG = logging.getLogger("infill")
+TOLD = threading.Event()  # said in this process
 _WATCHED = ContextVar("watched", default=False)
 
 
@@ -29,19 +31,17 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
 def told_of_compiling(what: str) -> Iterator[None]:
     """Tell the log "infill" as soon as something inside is compiled, and not found compiled on disk.
 
-    Once, by the outermost of several; also a decorator. `what` stands after "compiling".
+    Once in a process, by the outermost of several; also a decorator. `what` stands after "compiling".
     """
-    if _WATCHED.get():
+    if _WATCHED.get() or TOLD.is_set():
         yield
         return
     from numba.core import event
 
     class Listener(event.Listener):
-        told = False
-
         def on_start(self, event: object) -> None:  # noqa: ARG002 - what is compiled does not matter
-            if not self.told:
-                self.told = True
+            if not TOLD.is_set():
+                TOLD.set()
                 LOG.warning("compiling %s, the first time on this machine only", what)
 
         def on_end(self, event: object) -> None:

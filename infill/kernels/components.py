@@ -274,9 +274,10 @@ def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels
 
 
 @njit(nogil=True, cache=True)
-def join_faces(faces, parent):  # pragma: no cover
-    """Join the corners of every triangle."""
+def join_faces(faces, parent, used):  # pragma: no cover
+    """Join the corners of every triangle, and mark them."""
     for f in range(len(faces)):
+        used[faces[f, 0]] = used[faces[f, 1]] = used[faces[f, 2]] = True
         join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 1]))
         join(parent, np.int64(faces[f, 0]), np.int64(faces[f, 2]))
 

@@ -1,11 +1,11 @@
-"""Compiled work shared among threads: a kernel is called once a thread, and takes every so-manieth piece."""
+"""Work shared among threads: one pool, one way to share, and never more threads than are allowed."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 from infill.checks import whole
@@ -30,13 +30,33 @@ def thread_count(asked: int | None = None) -> int:
 def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> list[Any]:  # noqa: ANN401 - hands on
     """Call `kernel(*arguments, thread, threads)` for each thread and return what they return.
 
-    The kernel has to let go of the interpreter, and no two threads may write to the same place.
+    A kernel takes every n-th piece of the work, n the number of threads. It has to let go of the interpreter, and
+    no two calls may write to the same place.
     """
-    if threads == 1:
-        return [kernel(*arguments, 0, 1)]
-    started = [_pool(threads, os.getpid()).submit(kernel, *arguments, thread, threads) for thread in range(1, threads)]
-    first = kernel(*arguments, 0, threads)
-    return [first, *(each.result() for each in started)]
+    return together(*(partial(kernel, *arguments, thread, threads) for thread in range(threads)), threads=threads)
+
+
+def together(*works: Callable[[], Any], threads: int) -> list[Any]:
+    """Do several works at once, this thread and `threads` - 1 others, and return what they return, in order.
+
+    A work may share out parts of its own: what no thread has begun yet is done by the one that waits for it. So
+    threads are never more than allowed, however deep works are nested, and none waits for another that is waiting.
+
+    >>> together(lambda: 1, lambda: 2, threads=2)
+    [1, 2]
+    """
+    if threads == 1 or len(works) < 2:
+        return [work() for work in works]
+    pool = _pool(threads, os.getpid())
+    handed = [pool.submit(work) for work in works[1:]]
+    try:
+        done = [works[0]()]
+        for work, future in zip(works[1:], handed, strict=True):
+            done.append(work() if future.cancel() else future.result())
+    finally:
+        for future in handed:  # after a failure or an interrupt nobody begins what is left
+            future.cancel()
+    return done
 
 
 @cache

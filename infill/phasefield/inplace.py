@@ -14,21 +14,19 @@ that is zero Neumann.
 from __future__ import annotations
 
 import math
-import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.grid import spacing_of
-from infill.machine import usable_cores
+from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
 
 Flat = NDArray[np.float32]
 
 BLOCK = 180000  # cells handled at once: long enough that threads seldom wait for the interpreter
-TOGETHER = 8  # steps that a thread does alone: fewer meetings against a wider halo
+AT_ONCE = 8  # steps that a thread does alone: fewer meetings against a wider halo
 
 
 def smooth_inplace(
@@ -38,6 +36,7 @@ def smooth_inplace(
     spacing: float | tuple[float, ...] = 1.0,
     initial: NDArray[np.generic] | None = None,
     mask: NDArray[np.bool_] | None = None,
+    threads: int | None = None,
 ) -> NDArray[np.float32]:
     """Return what `smooth_reference` returns, to 2e-5, in float32; benchmarks/make.py says how much faster."""
     weights = smoothing.weights(spacing_of(spacing, f.ndim))
@@ -84,61 +83,48 @@ def smooth_inplace(
         np.add(v, known[low:high], out=new[at:to])
         new[missing[slice(*np.searchsorted(missing, (low, high)))] - base] = 0
 
-    u = _march(u, smoothing.steps, margin, advance)
+    u = _march(u, smoothing.steps, margin, thread_count(threads), advance)
     result: NDArray[np.float32] = u.reshape(field.shape)[interior] * np.float32(1 / scale)
     np.clip(result, -1, 1, out=result)  # of which rounding leaves the last bit: what comes out is a phase field again
     return result if mask is None else np.where(mask, result, start).astype(np.float32)
 
 
 def _march(
-    u: Flat, steps: int, margin: int, advance: Callable[[Flat, Flat, int, int, int, tuple[Flat, Flat]], None]
+    u: Flat,
+    steps: int,
+    margin: int,
+    threads: int,
+    advance: Callable[[Flat, Flat, int, int, int, tuple[Flat, Flat]], None],
 ) -> Flat:
     """Return `u` after `steps`, the cells shared out to threads.
 
-    A thread takes its cells and a halo of `together` times `margin` cells on both sides, and does that many
-    steps alone: what is wrong at the edge of the halo comes nearer by one margin a step and never
-    reaches its own cells. Then all meet.
+    A thread takes its cells and a halo of `count` times `margin` cells on both sides, and does that many steps
+    alone: what is wrong at the edge of the halo comes nearer by one margin a step and never reaches its own
+    cells. Then all meet.
     """
     first, last = margin, len(u) - margin
-    threads = max(1, min(usable_cores(), (last - first) // (BLOCK // 2)))
+    threads = max(1, min(threads, (last - first) // (BLOCK // 2)))
     cuts = np.linspace(first, last, threads + 1).astype(int).tolist()
-    together = steps if threads == 1 else max(1, min(TOGETHER, (cuts[1] - cuts[0]) // (8 * margin)))
-    new = np.zeros_like(u)
-    barrier = threading.Barrier(threads)
+    at_once = steps if threads == 1 else max(1, min(AT_ONCE, (cuts[1] - cuts[0]) // (8 * margin)))
+    buffers = [(np.empty(BLOCK, dtype=np.float32), np.empty(BLOCK, dtype=np.float32)) for _ in range(threads)]
 
-    def sweep(part: int) -> None:
-        whole, result = u, new
-        buffers = np.empty(BLOCK, dtype=np.float32), np.empty(BLOCK, dtype=np.float32)
+    def sweep(whole: Flat, result: Flat, count: int, part: int, _: int) -> None:
         own_first, own_last = cuts[part], cuts[part + 1]
-        done = False
-        try:
-            for begin in range(0, steps, together):
-                count = min(together, steps - begin)
-                low, high = max(first, own_first - count * margin), min(last, own_last + count * margin)
-                base = low - margin
-                source = whole[base : high + margin].copy()
-                target = source.copy()
-                for _ in range(count):
-                    for at in range(low, high, BLOCK):
-                        advance(source, target, base, at, min(at + BLOCK, high), buffers)
-                    source, target = target, source
-                result[own_first:own_last] = source[own_first - base : own_last - base]
-                barrier.wait()
-                whole, result = result, whole
-            done = True
-        finally:
-            if not done:
-                barrier.abort()  # nobody waits for a thread that failed or was interrupted
+        low, high = max(first, own_first - count * margin), min(last, own_last + count * margin)
+        base = low - margin
+        source = whole[base : high + margin].copy()
+        target = source.copy()
+        for _ in range(count):
+            for at in range(low, high, BLOCK):
+                advance(source, target, base, at, min(at + BLOCK, high), buffers[part])
+            source, target = target, source
+        result[own_first:own_last] = source[own_first - base : own_last - base]
 
-    with ThreadPoolExecutor(threads) as pool:
-        helpers = [pool.submit(sweep, part) for part in range(1, threads)]
-        try:
-            sweep(0)
-        except threading.BrokenBarrierError:
-            for helper in helpers:
-                helper.result()  # one of them says why
-            raise
-    return u if -(-steps // together) % 2 == 0 else new
+    new = np.zeros_like(u)
+    for begin in range(0, steps, at_once):
+        in_threads(sweep, u, new, min(at_once, steps - begin), threads=threads)
+        u, new = new, u
+    return u
 
 
 def _padded(values: NDArray[np.generic], interior: tuple[slice, ...], factor: float = 1.0) -> NDArray[np.float32]:

@@ -37,7 +37,7 @@ from infill.grid import spacing_of
 from infill.kernels import refining as kernels
 from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count
-from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, laplacian
+from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, diffused, reacted
 from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
 from infill.phasefield.profile import REFINED
 from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
@@ -305,8 +305,8 @@ def filtered_reference(
     weights, decay = smoothing.weights(spacing_of(spacing, phi.ndim)), smoothing.decay
     before, found = phi, [np.zeros_like(phi) for _ in schedule.weights]
     for k in range(schedule.last):
-        v = phi + schedule.momentum(k) * (phi - before) + laplacian(phi, weights)
-        before, phi = phi, v / np.sqrt(decay + (1 - decay) * v**2)
+        v = diffused(phi, weights) + schedule.momentum(k) * (phi - before)
+        before, phi = phi, reacted(v, decay)
         for total, shares in zip(found, schedule.weights, strict=True):
             total += shares.get(k + 1, 0.0) * phi
     return tuple(found)

@@ -21,7 +21,8 @@ from infill.volume import Volume
 
 if TYPE_CHECKING:
     from infill.result import Result
-    from infill.smoothing.solids import Options
+    from infill.smoothing.request import Options
+    from infill.smoothing.stages import SmoothStages
 
 Kind = Literal["mesh", "points", "volume"]
 Source = Surface | Volume | NDArray[np.float64]
@@ -103,7 +104,7 @@ def smooth_source(
     otsu: bool = False,
     grey: bool = False,
     **options: Unpack[Options],
-) -> Result:
+) -> Result[SmoothStages]:
     """Smooth what `read_source` returned; raise ParameterError for what does not fit its kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 

@@ -7,6 +7,9 @@ from collections import defaultdict
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.surface import Edges
+from infill.surfaces.shells import vertex_components
+
 FLAT = 1e-9  # a component of less than this share of its longest side cubed has no volume
 
 WELD = 0.01  # of a cell: corners of open edges that are nearer to one another are one
@@ -17,15 +20,9 @@ Integers = NDArray[np.integer]
 
 def open_edges(faces: Integers) -> Integers:
     """Return the edges (E, 2) that faces run along more often in this direction than back, as often as that."""
-    start, end = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    differs = start != end
-    start, end = start[differs].astype(np.int64), end[differs].astype(np.int64)
-    count = int(faces.max()) + 1
-    key, index = np.unique(np.minimum(start, end) * count + np.maximum(start, end), return_inverse=True)
-    surplus = np.bincount(index, weights=np.where(start < end, 1, -1)).astype(np.int64)
-    low, high = key // count, key % count
-    one, other = np.where(surplus > 0, low, high), np.where(surplus > 0, high, low)
-    return np.repeat(np.column_stack([one, other]), np.abs(surplus), axis=0)
+    edges = Edges.of(faces)
+    directed = np.where(edges.surplus[:, None] > 0, edges.ends, edges.ends[:, ::-1])
+    return np.repeat(directed, np.abs(edges.surplus), axis=0)
 
 
 def agreeing(faces: Integers) -> Integers:
@@ -164,14 +161,8 @@ def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
     volumes : (B,) float64
         0 for a component that encloses nothing but rounding errors.
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    one, other = faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel()
-    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(len(vertices),) * 2)
-    _, label = connected_components(graph, directed=False)
-    component = np.unique(label[faces[:, 0]], return_inverse=True)[1]
-    count = int(component.max()) + 1
+    of_vertex, count = vertex_components(faces, len(vertices))
+    component = of_vertex[faces[:, 0]]
     # Seen from a corner of its own, so that a small component far out loses no digits.
     first = np.unique(component, return_index=True)[1]
     a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][component] for i in range(3))

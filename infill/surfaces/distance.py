@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.kernels.threads import thread_count
 from infill.ragged import spread
 from infill.surface import Surface
 
@@ -14,13 +15,15 @@ NEAREST = 6  # samples whose triangles are looked at for every point
 FEW, PER_POINT, MOST = 10_000, 10, 200_000  # samples of a surface, about, beside one for each triangle
 
 
-def distances(points: NDArray[np.floating], surface: Surface) -> Floats:
+def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | None = None) -> Floats:
     """Return the distance of each point from the nearest triangle, (N,) mm.
 
     Parameters
     ----------
     points : (N, 3) float, mm
     surface : Surface, mm
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
 
     Notes
     -----
@@ -31,7 +34,7 @@ def distances(points: NDArray[np.floating], surface: Surface) -> Floats:
 
     corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
     sample, face = _samples(corners, min(MOST, FEW + PER_POINT * len(points)))
-    _, near = cKDTree(sample).query(points, k=min(NEAREST, len(sample)), workers=-1)
+    _, near = cKDTree(sample).query(points, k=min(NEAREST, len(sample)), workers=thread_count(threads))
     near = near.reshape(len(points), -1)
     best = np.full(len(points), np.inf)
     for column in near.T:

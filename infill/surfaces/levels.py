@@ -8,7 +8,6 @@ true surface. Components differ, so each one gets a level of its own.
 from __future__ import annotations
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,8 +17,8 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.kernels import components as components_kernels
 from infill.kernels.sparse import BRICK, CELLS
-from infill.kernels.threads import in_threads, thread_count
-from infill.phasefield.profile import REFINED, STRAIGHT
+from infill.kernels.threads import in_threads, thread_count, together
+from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
@@ -73,12 +72,6 @@ def straightened(
     return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
 
 
-def as_straightened(found: Levelled) -> Levelled:
-    """Return a surface of a refined field with its levels as they would be named on a straightened one."""
-    share = REFINED.scale / STRAIGHT.scale
-    return replace(found, common=found.common * share, levels=found.levels * share)
-
-
 def volume_of(found: Level, threads: int) -> tuple[float, float]:
     """Return the volume a surface encloses, mm³, and how it changes when the level rises by one."""
     own, change = face_sums(found.surface, found.rate, threads=threads)
@@ -90,13 +83,20 @@ def counted(
 ) -> tuple[Components, SparseField, tuple[float, float] | None]:
     """Return the components of the data, the field on a straight profile, and its volume and slope at level 0.
 
-    Components are looked for by a thread of its own meanwhile. A field that is straightened gives up its values.
+    Components are looked for meanwhile. A field that is straightened gives up its values.
     """
-    with ThreadPoolExecutor(1) as aside:
-        found = aside.submit(components, field, data_bits(field, threads=threads))
+    threads = thread_count(threads)
+    bits = data_bits(field, threads=threads)
+
+    def looked_for() -> Components:
+        return components(field, bits)
+
+    def straight_and_measured() -> tuple[SparseField, tuple[float, float] | None]:
         straight = straightened(field, out=field.values, threads=threads) if straighten else field
-        guess = measured(straight, spacing=spacing, level=0.0, threads=threads)
-        return found.result(), straight, guess
+        return straight, measured(straight, spacing=spacing, level=0.0, threads=threads)
+
+    (straight, guess), found = together(straight_and_measured, looked_for, threads=threads)
+    return found, straight, guess
 
 
 def volumes_of(

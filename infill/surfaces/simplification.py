@@ -16,7 +16,9 @@ HALVINGS = 8
 COMPARED = 20_000  # vertices of which the distance is measured
 
 
-def simplified(surface: Surface, *, tolerance: float | None = None, triangles: int | None = None) -> Surface:
+def simplified(
+    surface: Surface, *, tolerance: float | None = None, triangles: int | None = None, threads: int | None = None
+) -> Surface:
     """Return a surface of fewer triangles.
 
     Parameters
@@ -26,6 +28,8 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
         mm by which the surface may move: no vertex lies further from the result, as far as is looked.
     triangles : int, optional
         Most triangles to have.
+    threads : int, optional
+        To measure distances with; see `infill.kernels.threads.thread_count`.
 
     Raises
     ------
@@ -43,7 +47,7 @@ def simplified(surface: Surface, *, tolerance: float | None = None, triangles: i
     some = surface.vertices[:: max(1, len(surface.vertices) // COMPARED)]
 
     def fits(found: Surface | None) -> bool:
-        return found is not None and (near is None or bool(distances(some, found).max() <= near))
+        return found is not None and (near is None or bool(distances(some, found, threads=threads).max() <= near))
 
     found = _by_quadrics(surface, few, near, fits)
     if found is None:

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
-from infill.machine import require_memory, usable_cores
+from infill.kernels.threads import thread_count
+from infill.machine import require_memory
 from infill.ragged import spread
 from infill.volume import Volume
 from infill.voxels.flooding import enclosed
@@ -33,7 +34,13 @@ Cells = NDArray[np.bool_]
 
 
 def voxelise_points(
-    points: ArrayLike, *, voxel: float, shell: float | None = None, margin: int = 2, max_memory: int | None = None
+    points: ArrayLike,
+    *,
+    voxel: float,
+    shell: float | None = None,
+    margin: int = 2,
+    max_memory: int | None = None,
+    threads: int | None = None,
 ) -> Volume:
     """Return the cells near points of a surface, or inside it.
 
@@ -49,6 +56,8 @@ def voxelise_points(
         Empty cells beyond the points, or beyond their shell, on every side.
     max_memory : int, optional
         Bytes; what is at hand if left out.
+    threads : int, optional
+        To look for neighbours with; see `infill.kernels.threads.thread_count`.
 
     Returns
     -------
@@ -83,7 +92,7 @@ def voxelise_points(
     margin = whole("margin", margin, 0)
     if shell is not None:
         return _shell(positions, size, length("shell", shell), margin, max_memory)
-    return _solid(positions, size, margin, max_memory)
+    return _solid(positions, size, margin, max_memory, thread_count(threads))
 
 
 def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
@@ -168,7 +177,7 @@ def _shell(positions: Floats, size: float, shell: float, margin: int, limit: int
     return Volume(values=balls(placed, radius, shape), spacing=size, origin=tuple(origin.tolist()))
 
 
-def _solid(positions: Floats, size: float, margin: int, limit: int | None) -> Volume:
+def _solid(positions: Floats, size: float, margin: int, limit: int | None, threads: int) -> Volume:
     from scipy.spatial import KDTree
 
     middle = positions.mean(axis=0)
@@ -195,7 +204,7 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None) -> Vo
         pad = margin + math.ceil(radius / size) + 2
         shape, origin, placed = _grid(distinct, size, pad)
         _require(shape, len(positions), SOLID_BYTES, limit)
-        values, share = _filled(placed, radius / size, shape, best)
+        values, share = _filled(placed, radius / size, shape, best, threads)
         leaking = max(leaking, share)
         if values is not None:
             cut = slice(pad - margin, margin - pad)
@@ -212,7 +221,9 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None) -> Vo
     )
 
 
-def _filled(points: Floats, radius: float, shape: tuple[int, ...], least: float) -> tuple[Cells | None, float]:
+def _filled(
+    points: Floats, radius: float, shape: tuple[int, ...], least: float, threads: int
+) -> tuple[Cells | None, float]:
     """Return the solid inside a shell, or None, and how many points have an inside, per point with an outside.
 
     None if that share is under `least`.
@@ -224,8 +235,8 @@ def _filled(points: Floats, radius: float, shape: tuple[int, ...], least: float)
     if not core.any():
         return None, 0.0
     tree = KDTree(points)
-    inner, seen_inside = _rolled(tree, _beside(core, shell), radius)
-    outer, seen_outside = _rolled(tree, _beside(~(shell | core), shell), radius)
+    inner, seen_inside = _rolled(tree, _beside(core, shell), radius, threads)
+    outer, seen_outside = _rolled(tree, _beside(~(shell | core), shell), radius, threads)
     share = seen_inside / seen_outside
     if share < least:
         return None, share
@@ -237,9 +248,8 @@ def _filled(points: Floats, radius: float, shape: tuple[int, ...], least: float)
     solid &= ~balls(outer, radius, shape)
     lens = np.argwhere(undecided)
     if len(lens):
-        cores = usable_cores()
-        nearer = KDTree(inner).query(lens, workers=cores)[0] < KDTree(outer).query(lens, workers=cores)[0]
-        solid[tuple(lens.T)] = nearer
+        inside, outside = (KDTree(centres).query(lens, workers=threads)[0] for centres in (inner, outer))
+        solid[tuple(lens.T)] = inside < outside
     return solid, share
 
 
@@ -255,9 +265,9 @@ def _beside(cells: Cells, others: Cells) -> NDArray[np.int64]:
     return np.argwhere(near)
 
 
-def _rolled(tree: KDTree, cells: NDArray[np.int64], radius: float) -> tuple[Floats, int]:
+def _rolled(tree: KDTree, cells: NDArray[np.int64], radius: float, threads: int) -> tuple[Floats, int]:
     """Return centres of balls that touch the points from the side of the cells, and how many points they touch."""
-    distance, nearest = tree.query(cells, workers=usable_cores())
+    distance, nearest = tree.query(cells, workers=threads)
     # On the ball around the nearest point, not at the cell: no part of a cell is lost.
     centres = tree.data[nearest] + (cells - tree.data[nearest]) * (radius / distance)[:, None]
     # Between balls s apart a ridge of s² / 8 R is left: large balls need not stand in every cell.

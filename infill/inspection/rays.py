@@ -1,0 +1,66 @@
+"""Rays that are followed until they leave the solid, in any number of dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+def way_inside(
+    value: Callable[[Floats], NDArray[np.floating]],
+    start: Floats,
+    direction: Floats,
+    distance: Floats,
+    *,
+    leeway: int = 0,
+) -> Floats:
+    """Return how far the solid goes along rays, (N,) mm.
+
+    Parameters
+    ----------
+    value : callable
+        For points (M, d), mm, a value above 0 where they are solid.
+    start, direction : (N, d) float64
+        Where the rays begin, mm, and unit vectors.
+    distance : (n,) float64
+        Where along a ray it is looked, mm, rising evenly from less than a step.
+    leeway : int
+        By how many of those places later a ray may enter the solid than at the first.
+
+    Returns
+    -------
+    (N,) float64
+        The length of the first stretch inside; 0 for rays that do not enter within the leeway, infinite for those
+        that have not left where the places end.
+
+    Notes
+    -----
+    Between two places the value is taken for linear. A ray that is inside at the first place is so from its start.
+
+    >>> ball = lambda points: 4 - np.linalg.norm(points, axis=1)
+    >>> way_inside(ball, np.zeros((1, 2)), np.array([[0.6, 0.8]]), np.arange(0, 8, 0.5)).tolist()
+    [4.0]
+    """
+    points = start[:, None] + distance[:, None] * direction[:, None]
+    values = np.asarray(value(points.reshape(-1, start.shape[1]))).reshape(points.shape[:2])
+    inside = values > 0
+    row, place = np.arange(len(start)), np.arange(len(distance))
+    first = inside.argmax(axis=1)
+    out = ~inside & (place > first[:, None])
+    last = out.argmax(axis=1)
+
+    def crossing(after: NDArray[np.intp]) -> Floats:
+        """Return where the value is 0 in front of a place."""
+        before = np.maximum(after - 1, 0)
+        here, there = values[row, before], values[row, after]
+        step = np.where(here == there, 1, here - there)
+        found: Floats = distance[before] + here / step * (distance[after] - distance[before])
+        return found
+
+    length = crossing(last) - np.where(first > 0, crossing(first), 0.0)
+    length = np.where(out.any(axis=1), length, np.inf)
+    return np.where(inside[:, : leeway + 1].any(axis=1), length, 0.0)

@@ -1,0 +1,48 @@
+"""Compiling is told once in a process, and only where something is compiled."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+MODULE = """
+from infill.kernels.compiling import njit, told_of_compiling
+
+@njit(cache=True)
+def one(x): return x + 1
+
+@njit(cache=True)
+def two(x): return x * 2
+
+with told_of_compiling("nothing"):
+    pass
+for what, kernel in (("one", one), ("two", two), ("one", one)):
+    with told_of_compiling(what):
+        kernel(3)
+with told_of_compiling("one for other numbers"):
+    one(0.5)
+"""
+
+
+def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
+    (tmp_path / "kernels.py").write_text(MODULE)
+    root = str(Path(__file__).resolve().parents[1])
+    environment = {
+        **os.environ,
+        "NUMBA_CACHE_DIR": str(tmp_path / "cache"),
+        "PYTHONPATH": f"{root}{os.pathsep}{tmp_path}",
+    }
+    first, second = (
+        subprocess.run(
+            [sys.executable, "-c", "import kernels"],
+            env=environment,
+            capture_output=True,
+            encoding="utf-8",
+            check=True,
+        )
+        for _ in range(2)
+    )
+    assert first.stderr == "compiling one, the first time on this machine only\n"
+    assert second.stderr == ""  # found compiled

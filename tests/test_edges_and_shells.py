@@ -1,0 +1,115 @@
+"""Edges and components of a mesh: one count of faces along edges, one finder of what hangs together."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given
+from hypothesis import strategies as st
+
+from infill import check
+from infill.surface import Edges, Surface
+from infill.surfaces.capping import open_edges
+from infill.surfaces.shells import vertex_components
+
+faces_of = st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=20).map(
+    lambda faces: np.array(faces, dtype=np.int32)
+)
+
+
+def runs(faces: np.ndarray) -> Counter[tuple[int, int]]:
+    """How often faces run from one vertex to another: written out, side by side."""
+    return Counter((int(face[i]), int(face[(i + 1) % 3])) for face in faces for i in range(3))
+
+
+def solid(*places: float) -> np.ndarray:
+    """Faces of one cube for each place, each with vertices of its own."""
+    box = trimesh.creation.box().faces
+    return np.concatenate([box + 8 * n for n in range(len(places))])
+
+
+@given(faces_of)
+def test_faces_are_counted_along_every_edge_in_both_directions(faces: np.ndarray) -> None:
+    found, expected = Edges.of(faces), runs(faces)
+    sides = {(min(side), max(side)) for side in expected if side[0] != side[1]}
+    assert [tuple(each) for each in found.ends.tolist()] == sorted(sides)
+    for (i, j), ahead, back in zip(found.ends.tolist(), found.ahead, found.back, strict=True):
+        assert (ahead, back) == (expected[i, j], expected[j, i])
+    assert np.array_equal(found.faces, found.ahead + found.back)
+
+
+@given(faces_of)
+def test_closed_is_one_face_there_and_one_back(faces: np.ndarray) -> None:
+    expected = all(
+        count == 1 and start != end and runs(faces)[end, start] == 1 for (start, end), count in runs(faces).items()
+    )
+    surface = Surface(vertices=np.zeros((10, 3)), faces=faces)
+    assert surface.closed == expected
+    edges = Edges.of(faces)
+    whole = not (faces == np.roll(faces, 1, axis=1)).any()
+    assert surface.closed == (whole and bool((edges.ahead == 1).all() and (edges.back == 1).all()))
+
+
+@given(faces_of)
+def test_open_edges_are_what_is_run_along_too_often(faces: np.ndarray) -> None:
+    expected = runs(faces)
+    for (start, end), count in Counter(map(tuple, open_edges(faces).tolist())).items():
+        assert count == expected[start, end] - expected[end, start]
+    surplus = sum(max(0, n - expected[end, start]) for (start, end), n in expected.items() if start != end)
+    assert len(open_edges(faces)) == surplus
+
+
+def test_closed_surfaces_and_how_they_open() -> None:
+    faces = solid(0, 0)
+    here = np.zeros((16, 3))
+    assert Surface(vertices=here, faces=faces).closed
+    for broken in (
+        faces[1:],
+        faces[2:],
+        np.concatenate([faces, faces[:2]]),
+        np.concatenate([faces[:1, ::-1], faces[1:]]),
+    ):
+        assert not Surface(vertices=here, faces=broken).closed
+    assert not Surface(vertices=here, faces=np.empty((0, 3), dtype=int)).closed
+
+
+@given(faces_of, st.integers(0, 3))
+def test_components_by_the_kernel_are_those_of_scipy(faces: np.ndarray, more: int) -> None:
+    vertices = int(faces.max()) + 1 + more
+    names, count = vertex_components(faces, vertices)
+    fast, same = vertex_components(faces, vertices, compiled=True)
+    assert (count, names.dtype) == (same, fast.dtype)
+    assert np.array_equal(names, fast)
+    used = np.unique(faces)
+    assert set(np.flatnonzero(names >= 0)) == set(used)
+    firsts = [int(names[v]) for n, v in enumerate(used) if names[v] not in names[used[:n]]]
+    assert firsts == list(range(count))  # numbered by their first vertices
+    assert (names[faces] == names[faces[:, :1]]).all()
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_two_cubes_are_two_components(compiled: bool) -> None:
+    names, count = vertex_components(solid(0, 0), 16, compiled=compiled)
+    assert count == 2
+    assert names.tolist() == [0] * 8 + [1] * 8
+
+
+def test_a_collapsed_triangle_of_its_own_is_no_component() -> None:
+    """It is left out of the count, and so are its corners, although they come first."""
+    box = trimesh.creation.box()
+    vertices = np.concatenate([[[9.0, 9, 9], [8, 8, 8]], box.vertices])
+    faces = np.concatenate([[[0, 1, 1]], box.faces + 2])
+    found = check(trimesh.Trimesh(vertices, faces, process=False))
+    assert (found.components, found.degenerate, found.closed) == (1, 1, True)
+
+
+def test_check_needs_no_compiler() -> None:
+    import subprocess
+    import sys
+
+    code = "import sys, trimesh, infill; infill.check(trimesh.creation.box()); print('numba' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True)
+    assert done.stdout.strip() == "False"
