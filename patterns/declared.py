@@ -11,12 +11,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import Any, ClassVar, Literal, Protocol, get_args
 
 from patterns.errors import PatternError
-
-if TYPE_CHECKING:
-    from patterns.protocol import Pattern
 
 Unit = Literal["mm", "rad", ""]
 UNITS = get_args(Unit)
@@ -113,8 +110,8 @@ def parameter(
 Described = tuple["dataclasses.Field[Any]", Parameter]
 
 
-def parameters(pattern: type[Pattern] | Pattern) -> dict[str, Described]:
-    """Return the described fields of a pattern by name, in the order of the class."""
+def parameters(pattern: object) -> dict[str, Described]:
+    """Return the described fields of a pattern, or of a class of patterns, by name, in the order of the class."""
     if not dataclasses.is_dataclass(pattern):
         return {}
     return {
@@ -122,6 +119,12 @@ def parameters(pattern: type[Pattern] | Pattern) -> dict[str, Described]:
         for field in dataclasses.fields(pattern)
         if "parameter" in field.metadata
     }
+
+
+class Named(Protocol):
+    """What messages can call by its name."""
+
+    name: ClassVar[str]
 
 
 def wanted(default: object, described: Parameter) -> str:
@@ -137,7 +140,7 @@ def wanted(default: object, described: Parameter) -> str:
     return f"{some} {described.range}".rstrip() + (", or none" if default is None else "")
 
 
-def check_parameters(pattern: Pattern) -> None:
+def check_parameters(pattern: Named) -> None:
     """Turn the described fields of a pattern into plain numbers, or raise PatternError.
 
     A number must be finite and in its range, a flag True or False, a tuple as long as its default.

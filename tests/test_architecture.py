@@ -29,6 +29,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
+ANSWERS = {"result", "report"}
 HALL = {"version", "errors", "checks", "machine", "ragged", "grid", "volume", "surface"}
 MOST_FLOORS = 12
 
@@ -109,8 +110,10 @@ def room_of(name: str) -> str | None:
         return "patterns"
     if not rest:
         return "front"
-    if rest[0] in HALL and len(rest) == 1:
+    if len(rest) == 1 and rest[0] in HALL:
         return "hall"
+    if len(rest) == 1 and rest[0] in ANSWERS:
+        return "result"
     return rest[0] if rest[0] in FLOOR and rest[0] not in ("hall", "patterns") else None
 
 

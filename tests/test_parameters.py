@@ -110,7 +110,7 @@ def test_a_parameter_can_be_set_to_all_of_its_range(kind: str, name: str) -> Non
     for value in good_values(kind, name):
         settings = resolve({"pattern": kind}, assigned=[f"{name}={as_text(value)}"])
         assert settings.parameters == {name: value}
-        made = in_degrees(settings._pattern())[name]
+        made = in_degrees(settings.build_pattern())[name]
         assert made == pytest.approx(list(value) if isinstance(value, tuple) else value)
 
 
@@ -145,7 +145,7 @@ def test_a_parameter_survives_the_file(kind: str, name: str, tmp_path: Path) -> 
         (tmp_path / "a.toml").write_text(settings.to_toml())
         again = resolve({}, tmp_path / "a.toml")
         assert again.to_toml() == settings.to_toml()
-        assert_same(again._pattern(), settings._pattern())
+        assert_same(again.build_pattern(), settings.build_pattern())
         assert again.steps == 7
 
 
@@ -226,7 +226,7 @@ def test_what_is_typed_wins_over_the_file(tmp_path: Path) -> None:
     assert resolve({}, config, ["waves=3", "angle=20"]).parameters == {"waves": 3.0, "angle": 20.0, "frame": False}
     assert resolve({}, config, ["cell=5"]).parameters == {"cell": 5.0, "angle": 10, "frame": False}
     assert resolve({"cell": 5.0}, config, ["waves=none"]).parameters["cell"] == 5.0
-    assert resolve({}, config, ["waves=none"])._pattern().cell == 6.0
+    assert resolve({}, config, ["waves=none"]).build_pattern().cell == 6.0
     config.write_text('pattern = "zigzag"\n[set]\ncell = 8\n')
     assert resolve({}, config, ["waves=none"]).parameters == {"cell": 8.0, "waves": None}
     assert resolve({}, config, ["waves=2"]).parameters == {"waves": 2.0}
@@ -260,8 +260,8 @@ def test_a_plugin_may_name_its_parameters_as_it_likes(tmp_path: Path) -> None:
     done = run("make", "rings", *SMALL, *words, "-o", mesh, "--save-config", config, "--json")
     assert done.exit_code == 0, done.output
     report = json.loads(done.stdout)
-    assert report["parameters"]["size"] == 2
-    assert report["parameters"]["pattern"] == 10
+    assert report["request"]["parameters"]["size"] == 2
+    assert report["request"]["parameters"]["pattern"] == 10
     assert read_mesh(mesh).to_trimesh().body_count == 2
     again = resolve({}, config)
     assert (again.pattern, again.size, again.steps) == ("rings", (20.0, 20.0), 8)

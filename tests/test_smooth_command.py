@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 import trimesh
 from shapes import assert_printable
-from test_command_line import one_line_error, plain, run
+from test_command_line import one_line_error, run
 
 from infill import Volume, read_mesh, read_volume
 from infill.cli.console import log_said
@@ -66,14 +66,6 @@ def report(*words: str | Path) -> dict[str, Any]:
 
 
 # --- what it says ----------------------------------------------------------------------------------------
-
-
-def test_help_has_an_example_and_exits_0() -> None:
-    for flag in ("--help", "-h"):
-        result = run("smooth", flag)
-        assert result.exit_code == 0
-        assert "Example: infill smooth" in plain(result.stdout)
-    assert "infill smooth" in (Path(__file__).resolve().parents[1] / "README.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("words", [[], ["ball.npy"], ["ball.npy", "--nonsense"], ["ball.npy", "-o", "a.stl", "--steps", "few"]])  # fmt: skip

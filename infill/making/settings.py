@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.errors import FormatError, ParameterError
-from infill.making.parameters import Source, assignments, merged, values
+from infill.making.assigning import Source, assignments, merged, values
 from patterns import PATTERNS, Pattern, in_degrees, parameters
 from patterns.given import from_degrees, nearest
 
@@ -68,7 +68,8 @@ class MakeSettings:
     alpha: float = 1 / 7
     parameters: dict[str, Any] = field(default_factory=dict)
 
-    def _pattern(self) -> Pattern:
+    def build_pattern(self) -> Pattern:
+        """Return the pattern with its parameters, angles in radians."""
         kind = PATTERNS.find(self.pattern)
         return kind(**from_degrees(kind, self.parameters))
 
@@ -77,7 +78,7 @@ class MakeSettings:
 
         smoothing = Smoothing(steps=self.steps, fidelity=self.fidelity, interface=self.interface, alpha=self.alpha)
         return {
-            "pattern": self._pattern(),
+            "pattern": self.build_pattern(),
             "size": self.size,
             "height": self.height,
             "line_width": self.line_width,
@@ -104,7 +105,7 @@ class MakeSettings:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = dataclasses.asdict(self)
         del plain["parameters"]
-        own = in_degrees(self._pattern())
+        own = in_degrees(self.build_pattern())
         lines = ["# infill make --config THIS_FILE -o OUT", *_rows(plain), "", f"[{SET}]", *_rows(own), ""]
         return "\n".join(lines)
 
