@@ -191,7 +191,7 @@ def test_a_bad_spacing_of_lines_is_refused(spacing: float) -> None:
 def test_a_block_is_made_of_a_level_set(stamp: str) -> None:
     result = make(Ripples(), size=30, height=3, stamp=stamp)
     assert_printable(result.mesh)
-    assert result.report["pattern"] == "ripples"
+    assert result.report["request"]["pattern"] == "ripples"
     assert result.report["problems"] == []
 
 

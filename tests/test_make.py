@@ -220,7 +220,7 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
         (7, {}, ParameterError, "7 is not a pattern"),
         ("honeycomb", {"phase": (1, 2, 3)}, PatternError, "it must be 2 numbers"),
         ("honeycomb", {"cell": "6"}, PatternError, "it must be a number"),
-        ("honeycomb", {"frame": 1}, PatternError, "must be True or False"),
+        ("honeycomb", {"frame": 1}, PatternError, "must be true or false"),
         ("concentric-heart", {"hearts": 2.5}, PatternError, "hearts of concentric-heart is 2.5; it must be a whole number"),
         ("honeycomb", {"size": (1, 2, 3)}, ParameterError, "size has 3 numbers"),
         ("honeycomb", {"size": 1e300}, ParameterError, "from 1e-06 to 1e.06 mm"),
