@@ -84,7 +84,6 @@ def test_an_interrupted_file_leaves_nothing(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.xfail(strict=True, reason="files that are in place already stay when a later one cannot take its place")
 @pytest.mark.parametrize("error", [OSError(errno.EACCES, "Permission denied"), KeyboardInterrupt()], ids=repr)
 def test_files_of_one_run_take_their_places_together(
     error: BaseException, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
