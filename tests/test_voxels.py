@@ -201,6 +201,7 @@ def test_an_inverted_ball_beside_a_larger_one_keeps_its_cavity() -> None:
     expected = BALL.volume * (8 + 1 - 1 / 8)
     assert size(volume) == pytest.approx(expected, rel=0.002)
     assert repairs.turned == 2
+    assert repairs.volume == pytest.approx(expected, rel=1e-9)  # of the triangles, in mm³, as they are turned
 
 
 def test_solid_in_a_cavity_is_solid() -> None:
