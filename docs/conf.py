@@ -56,11 +56,11 @@ python_maximum_signature_line_length = 88
 default_role = "code"  # single backquotes in docstrings are names of arguments as often as of functions
 
 # What public functions take or return and the packages do not export.
-NOT_EXPORTED = ("Inspection", "Options", "WallWidth")
+NOT_EXPORTED = ("MakeStages", "Named", "Options", "SmoothStages", "Stages")
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
 OTHERS = ("collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
 OTHERS += ("shapely", "trimesh", "typing")
-SHORT = ("Any", "ArrayLike", "Callable", "DTypeLike", "Literal", "MultiLineString", "MultiPolygon", "NDArray", "Path")
+SHORT = ("Any", "ArrayLike", "Callable", "DTypeLike", "EntryPoint", "Literal", "MultiLineString", "MultiPolygon", "NDArray", "Path")
 SHORT += ("Polygon",)
 nitpicky = True
 nitpick_ignore_regex = [
@@ -127,7 +127,7 @@ class CommandLine(SphinxDirective):
 
         from infill.cli.app import build
 
-        command = typer.main.get_command(build(plugins=False))
+        command = typer.main.get_command(build())
         context = command.make_context("infill", [], resilient_parsing=True)
         text = get_docs_for_click(obj=command, ctx=context, name="infill")
         # The page has its own title, and a list of the commands beside it.

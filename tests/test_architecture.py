@@ -301,84 +301,103 @@ def test_no_private_name_comes_into_a_test(folder: str) -> None:
 
 WRONG = {
     "up": (
-        "infill/surface.py", "from infill.surfaces.merging import surface_of",
+        "infill/surface.py",
+        "from infill.surfaces.merging import surface_of",
         "infill.surface -> infill.surfaces.merging: up, from hall to surfaces",
     ),
     "a module of a room above": (
-        "infill/phasefield/inplace.py", "from infill.surfaces import marching",
+        "infill/phasefield/inplace.py",
+        "from infill.surfaces import marching",
         "infill.phasefield.inplace -> infill.surfaces.marching: up, from phasefield to surfaces",
     ),
     "lazily": (
-        "infill/formats/stl.py", "def f():\n    import infill.cli.words",
+        "infill/formats/stl.py",
+        "def f():\n    import infill.cli.words",
         "infill.formats.stl -> infill.cli.words: up, from formats to cli",
     ),
     "for types only": (
-        "infill/result.py", "if TYPE_CHECKING:\n    from infill.making.request import Block",
+        "infill/result.py",
+        "if TYPE_CHECKING:\n    from infill.making.request import Block",
         "infill.result -> infill.making.request: up, from result to making",
     ),
     "across": (
-        "infill/voxels/from_mesh.py", "from infill.formats.stl import read_stl",
+        "infill/voxels/from_mesh.py",
+        "from infill.formats.stl import read_stl",
         "infill.voxels.from_mesh -> infill.formats.stl: across, from voxels to formats",
     ),
     "patterns to the hall": (
-        "patterns/linework.py", "from infill.errors import InfillError",
+        "patterns/linework.py",
+        "from infill.errors import InfillError",
         "patterns.linework -> infill.errors: across, from patterns to hall",
     ),
     "the hall to patterns": (
-        "infill/grid.py", "from patterns.protocol import Pattern",
+        "infill/grid.py",
+        "from patterns.protocol import Pattern",
         "infill.grid -> patterns.protocol: across, from hall to patterns",
     ),
     "through the front door": (
-        "infill/making/block.py", "from infill import save",
+        "infill/making/block.py",
+        "from infill import save",
         "infill.making.block -> infill: through the front door",
     ),
     "relatively": (
-        "infill/formats/obj.py", "from .rows import write_rows",
+        "infill/formats/obj.py",
+        "from .rows import write_rows",
         "infill.formats.obj -> .rows: relative",
     ),
     "in a circle": (
-        "infill/formats/whole_files.py", "def f():\n    from infill.formats.mesh_files import save",
+        "infill/formats/whole_files.py",
+        "def f():\n    from infill.formats.mesh_files import save",
         "circle: infill.formats.mesh_files -> infill.formats.whole_files",
     ),
     "numba": (
-        "infill/phasefield/dense.py", "def f():\n    from numba.core import event",
+        "infill/phasefield/dense.py",
+        "def f():\n    from numba.core import event",
         "infill.phasefield.dense -> numba: only infill.kernels imports it",
     ),
     "SimpleITK": (
-        "infill/formats/volume_files.py", "import SimpleITK",
+        "infill/formats/volume_files.py",
+        "import SimpleITK",
         "infill.formats.volume_files -> SimpleITK: only infill.formats.medical imports it",
     ),
     "a terminal": (
-        "infill/making/settings.py", "import rich.console",
+        "infill/making/settings.py",
+        "import rich.console",
         "infill.making.settings -> rich: only infill.cli imports it",
     ),
     "scipy for patterns": (
-        "patterns/zigzag.py", "def f():\n    import scipy.spatial",
+        "patterns/zigzag.py",
+        "def f():\n    import scipy.spatial",
         "patterns.zigzag -> scipy: patterns take numpy, shapely and the standard library",
     ),
     "a private name": (
-        "infill/pictures/preview.py", "from infill.pictures.render import _shade",
+        "infill/pictures/preview.py",
+        "from infill.pictures.render import _shade",
         "infill.pictures.preview -> _shade: private",
     ),
     "a private name of a module": (
-        "infill/pictures/preview.py", "import infill.pictures.render as r\nr._shade()",
+        "infill/pictures/preview.py",
+        "import infill.pictures.render as r\nr._shade()",
         "infill.pictures.preview -> _shade: private",
     ),
     "a module smooth": (
-        "infill/phasefield/smooth.py", "",
+        "infill/phasefield/smooth.py",
+        "",
         "infill.phasefield.smooth: has the name of a public function",
     ),
     "a module fill": (
-        "infill/making/fill.py", "",
+        "infill/making/fill.py",
+        "",
         "infill.making.fill: has the name of a public function",
     ),
     "a module in no room": ("infill/helpers.py", "", "infill.helpers: in no room"),
     "an unknown room": ("infill/utils/strings.py", "", "infill.utils.strings: in no room"),
     "from nowhere": (
-        "infill/checks.py", "from infill.limits import LARGEST",
+        "infill/checks.py",
+        "from infill.limits import LARGEST",
         "infill.checks -> infill.limits: no such module",
     ),
-}  # fmt: skip
+}
 
 
 def broken(root: Path) -> set[str]:

@@ -69,7 +69,9 @@ def test_help_names_every_command() -> None:
     assert "Example: infill make" in text
 
 
-@pytest.mark.parametrize("words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]])  # fmt: skip
+@pytest.mark.parametrize(
+    "words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]]
+)
 def test_usage_errors_exit_2(words: list[str]) -> None:
     assert run(*words).exit_code == 2
 
@@ -174,8 +176,12 @@ def test_list_as_json() -> None:
     found = json.loads(run("list", "--json").stdout)["patterns"]
     assert set(found) == set(BUILT_IN)
     assert found["honeycomb"]["options"]["angle"] == {
-        "help": "turns the pattern counter-clockwise", "unit": "degrees", "default": 0.0, "low": -180.0, "high": 180.0
-    }  # fmt: skip
+        "help": "turns the pattern counter-clockwise",
+        "unit": "degrees",
+        "default": 0.0,
+        "low": -180.0,
+        "high": 180.0,
+    }
     assert found["zigzag"]["options"]["waves"]["default"] is None
     assert found["zigzag"]["options"]["phase"]["default"] == [0.0, 0.0]
     assert found["zigzag"]["prismatic"] is True
@@ -345,10 +351,13 @@ def test_flags_win_over_the_file(tmp_path: Path) -> None:
         ("size = 20", "no pattern is given"),
         ('pattern = "honeycomb"\nhieght = 3', "no option 'hieght'; did you mean 'height'"),
         ('pattern = "honeycomb"\nqqq = 3', "no option 'qqq'; it has cell, angle"),
-        ('pattern = 3', "pattern is 3; it must be a word"),
+        ("pattern = 3", "pattern is 3; it must be a word"),
         ('pattern = "honeycomb"\nset = 3', "set is 3; it must be a table"),
         ('pattern = "honeycomb"\n[set]\nsell = 3', "honeycomb has no parameter 'sell'; did you mean 'cell'"),
-        ('pattern = "honeycomb"\ncell = 5\n[set]\ncell = 6', "cell = 5 in the config file and cell = 6 in .set. of the config file differ"),
+        (
+            'pattern = "honeycomb"\ncell = 5\n[set]\ncell = 6',
+            "cell = 5 in the config file and cell = 6 in .set. of the config file differ",
+        ),
         ('pattern = "zigzag"\ncell = 5\n[set]\nwaves = 6', "waves replaces cell: leave one out"),
         ('pattern = "honeycomb"\nwaves = 3', "honeycomb has no option 'waves'"),
         ('pattern = "honeycomb"\nheight = "tall"', "height is 'tall'; it must be a number"),
@@ -359,7 +368,7 @@ def test_flags_win_over_the_file(tmp_path: Path) -> None:
         ('pattern = "honeycomb', "is not TOML"),
         ('pattern = "honeycomb"\ncell = true', "cell of honeycomb is True; it must be a number from 0.001"),
     ],
-)  # fmt: skip
+)
 def test_a_bad_config_is_one_clear_line(text: str, says: str, tmp_path: Path) -> None:
     config = tmp_path / "a.toml"
     config.write_text(text)
@@ -404,8 +413,11 @@ def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
     assert "cell" not in config.read_text()
     assert resolve({}, config).parameters["hearts"] == 5
     assert resolve({"cell": 8.0}, config).parameters == {
-        "cell": 8.0, "angle": 10.0, "phase": (0.0, 0.0), "frame": False
-    }  # fmt: skip
+        "cell": 8.0,
+        "angle": 10.0,
+        "phase": (0.0, 0.0),
+        "frame": False,
+    }
     config.write_text('pattern = "concentric-heart"\ncell = 8\n')
     assert resolve({"hearts": 2}, config).parameters == {"hearts": 2}
     with pytest.raises(ParameterError, match="hearts replaces cell: leave one out"):
@@ -417,11 +429,17 @@ def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
 BAD = [
     (["honycomb"], "there is no pattern 'honycomb'; did you mean 'honeycomb'"),
     (["qqqq"], "there is no pattern 'qqqq'; there are concentric-heart, zigzag, honeycomb"),
-    *[(["honeycomb", option, value], "finite number above 0")
-      for option in ("--size", "--height", "--line-width") for value in ("0", "-3", "nan", "inf")],
+    *[
+        (["honeycomb", option, value], "finite number above 0")
+        for option in ("--size", "--height", "--line-width")
+        for value in ("0", "-3", "nan", "inf")
+    ],
     (["honeycomb", "--size", "60x0"], "size y is 0 mm; it must be a finite number above 0"),
     (["honeycomb", "--size", "big"], "size is 'big'; give millimetres as 60x40"),
-    *[(["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.001 to 10000 mm") for value in ("0", "-3", "nan", "inf")],
+    *[
+        (["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.001 to 10000 mm")
+        for value in ("0", "-3", "nan", "inf")
+    ],
     (["honeycomb", "--cells", "4"], "no middle cell; use an odd number"),
     (["honeycomb", "--cells", "0"], "whole number of at least 1"),
     (["honeycomb", "--cell", "1.3"], "1.3 mm apart, under 3 line widths .1.35 mm."),
@@ -437,7 +455,7 @@ BAD = [
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
     (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps or more fidelity"),
     (["honeycomb", "--size", "1"], "no room for walls"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[" ".join(words) for words, _ in BAD])
@@ -522,9 +540,12 @@ def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
     (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
     (folder / "entry_points.txt").write_text("[infill.patterns]\nbroken = no_such_module:Pattern\n")
     done = subprocess.run(
-        [*RUN, "list"], capture_output=True, encoding="utf-8", check=False,
+        [*RUN, "list"],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
         env={**os.environ, "PYTHONPATH": str(folder.parent)},
-    )  # fmt: skip
+    )
     assert done.returncode == 0
     assert done.stderr.count("\n") == 1
     assert done.stderr.startswith("warning: plug-in pattern 'broken' (no_such_module:Pattern)")

@@ -28,9 +28,13 @@ def limited(words: list[str], size: int) -> subprocess.CompletedProcess[str]:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
     return subprocess.run(
-        [*RUN, *words], capture_output=True, encoding="utf-8", preexec_fn=limit, check=False,
+        [*RUN, *words],
+        capture_output=True,
+        encoding="utf-8",
+        preexec_fn=limit,
+        check=False,
         env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("suffix", ["stl", "3mf", "obj", "ply", "glb"])
@@ -112,8 +116,10 @@ def watched(
     """Run a command that gets a signal at so many calls, of those since a file in the folder `writing` was opened."""
     return subprocess.run(
         [sys.executable, "-c", WATCHED, str(int(number)), str(calls), f"{writing or ''}", *words],
-        capture_output=True, encoding="utf-8", check=False,
-    )  # fmt: skip
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
 
 
 def calls_of(words: list[str]) -> int:
@@ -178,8 +184,10 @@ def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
     with open(tmp_path / "report.json", "wb") as stdout:
         process = subprocess.Popen(
             [*RUN, "make", "honeycomb", "--size", "60", "--json", "-o", str(tmp_path / "a.stl")],
-            stdout=stdout, stderr=follower, env={**os.environ, "TERM": "xterm"},
-        )  # fmt: skip
+            stdout=stdout,
+            stderr=follower,
+            env={**os.environ, "TERM": "xterm"},
+        )
     os.close(follower)
     shown = b""
     with contextlib.suppress(OSError):  # which is how the end of a terminal is told on Linux

@@ -259,20 +259,26 @@ ENDS = (((4, 20), (4, 26), (4, 26)), ((40, 56), (4, 26), (4, 26)))
 CHANGED = {
     "nothing": (ball(50, (18, 18, 18), 13), 20, {}, []),
     "a small ball goes": (
-        ball(50, (18, 18, 18), 13) | ball(50, (40, 40, 40), 2.9), 20,
-        {"vanished": 1, "walls_lost": 1}, ["1 component vanished", "1 wall vanished"],
+        ball(50, (18, 18, 18), 13) | ball(50, (40, 40, 40), 2.9),
+        20,
+        {"vanished": 1, "walls_lost": 1},
+        ["1 component vanished", "1 wall vanished"],
     ),
     "a bar between two blocks goes": (
-        boxes((60, 30, 30), *ENDS, ((20, 40), (13, 17), (13, 17))), 20,
-        {"broken": 1, "walls_lost": 1}, ["1 component fell apart", "1 wall vanished"],
+        boxes((60, 30, 30), *ENDS, ((20, 40), (13, 17), (13, 17))),
+        20,
+        {"broken": 1, "walls_lost": 1},
+        ["1 component fell apart", "1 wall vanished"],
     ),
     "two blocks run together": (
-        boxes((60, 30, 30), ((4, 28), (4, 26), (4, 26)), ((30, 54), (4, 26), (4, 26))), 20,
-        {"fused": 1}, ["1 component ran together out of several"],
+        boxes((60, 30, 30), ((4, 28), (4, 26), (4, 26)), ((30, 54), (4, 26), (4, 26))),
+        20,
+        {"fused": 1},
+        ["1 component ran together out of several"],
     ),
     "a skin gets a hole": (membrane(), 40, {"walls_pierced": 1}, ["1 hole broke through walls"]),
     "the same skin before": (membrane(), 20, {}, []),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("what", CHANGED)

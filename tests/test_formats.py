@@ -258,11 +258,23 @@ def test_3mf_parts_in_other_files(tmp_path: Path) -> None:
         ("<model></model>", "nothing to build"),
         (model("", '<item objectid="4"/>'), "refers to an object 4"),
         (model('<object id="1"></object>', '<item objectid="1"/>'), "no triangles"),
-        (model(f'<object id="1">{CUBE_XML.replace("0.5", "half", 1)}</object>', '<item objectid="1"/>'), "number that is none"),
-        (model(f'<object id="1">{CUBE_XML.replace(chr(34) + "3" + chr(34), chr(34) + "99" + chr(34), 1)}</object>', '<item objectid="1"/>'), "do not exist"),
-        (model('<object id="1"><components><component objectid="1"/></components></object>', '<item objectid="1"/>'), "refers to"),
+        (
+            model(f'<object id="1">{CUBE_XML.replace("0.5", "half", 1)}</object>', '<item objectid="1"/>'),
+            "number that is none",
+        ),
+        (
+            model(
+                f'<object id="1">{CUBE_XML.replace(chr(34) + "3" + chr(34), chr(34) + "99" + chr(34), 1)}</object>',
+                '<item objectid="1"/>',
+            ),
+            "do not exist",
+        ),
+        (
+            model('<object id="1"><components><component objectid="1"/></components></object>', '<item objectid="1"/>'),
+            "refers to",
+        ),
     ],
-)  # fmt: skip
+)
 def test_a_broken_3mf_is_one_clear_line(text: str, says: str, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=says):
         read_mesh(package(tmp_path / "broken.3mf", text))

@@ -180,9 +180,21 @@ def test_cells_take_the_nearest_component_and_its_level(field: SparseField) -> N
     values = field.values.reshape(-1, CELLS)
     levels, common, out = rng.uniform(-0.5, 0.5, every.count).astype(np.float32), np.float32(0.25), values.copy()
     parts.lower_to_levels(
-        values, field.where, field.slots, every.bits, every.bricks, every.starts, every.alone, every.names,
-        levels, common, 3, out, 0, 1,
-    )  # fmt: skip
+        values,
+        field.where,
+        field.slots,
+        every.bits,
+        every.bricks,
+        every.starts,
+        every.alone,
+        every.names,
+        levels,
+        common,
+        3,
+        out,
+        0,
+        1,
+    )
     for s, t in zip(rng.integers(0, len(values), 600), rng.integers(0, CELLS, 600), strict=True):
         at = tuple(field.where[s] * BRICK + np.unravel_index(t, BRICK))
         component = nearest(names, at, 3)

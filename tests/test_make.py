@@ -214,14 +214,24 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
     ("pattern", "options", "error", "says"),
     [
         ("honycomb", {}, PatternError, "did you mean 'honeycomb'"),
-        ("honeycomb", {"waves": 3}, PatternError, "honeycomb has no parameter 'waves'; it has cell, angle, phase, frame"),
+        (
+            "honeycomb",
+            {"waves": 3},
+            PatternError,
+            "honeycomb has no parameter 'waves'; it has cell, angle, phase, frame",
+        ),
         (Honeycomb(), {"cell": 3}, ParameterError, "beside a ready-made pattern"),
         (Honeycomb, {}, ParameterError, "give a name, or a pattern such as"),
         (7, {}, ParameterError, "7 is not a pattern"),
         ("honeycomb", {"phase": (1, 2, 3)}, PatternError, "it must be 2 numbers"),
         ("honeycomb", {"cell": "6"}, PatternError, "it must be a number"),
         ("honeycomb", {"frame": 1}, PatternError, "must be true or false"),
-        ("concentric-heart", {"hearts": 2.5}, PatternError, "hearts of concentric-heart is 2.5; it must be a whole number"),
+        (
+            "concentric-heart",
+            {"hearts": 2.5},
+            PatternError,
+            "hearts of concentric-heart is 2.5; it must be a whole number",
+        ),
         ("honeycomb", {"size": (1, 2, 3)}, ParameterError, "size has 3 numbers"),
         ("honeycomb", {"size": 1e300}, ParameterError, "from 1e-06 to 1e.06 mm"),
         ("honeycomb", {"height": 1e39}, ParameterError, "from 1e-06 to 1e.06 mm"),
@@ -235,11 +245,16 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
         ("concentric-heart", {"hearts": 90}, ParameterError, "under 3 line widths"),
         ("honeycomb", {"size": 1}, ParameterError, "no room for walls"),
         ("honeycomb", {"smoothing": Smoothing(alpha=0.3)}, ParameterError, "stable up to 0.25"),
-        ("honeycomb", {"max_memory": 10_000_000}, MemoryLimitError, "needs about .* GiB of memory and 0.01 GiB is allowed"),
+        (
+            "honeycomb",
+            {"max_memory": 10_000_000},
+            MemoryLimitError,
+            "needs about .* GiB of memory and 0.01 GiB is allowed",
+        ),
         ("honeycomb", {"size": 60_000}, MemoryLimitError, "fewer cells per line"),
         ("honeycomb", {"line_width": 1e-4, "cell": 0.01, "size": 40}, MemoryLimitError, "is at hand"),
     ],
-)  # fmt: skip
+)
 def test_bad_requests_are_refused(pattern: Any, options: dict[str, Any], error: type[Exception], says: str) -> None:
     with pytest.raises(error, match=says) as caught:
         make(pattern, **options)

@@ -291,9 +291,15 @@ def fields() -> tuple[np.ndarray, ...]:
     p = np.indices((12, 12, 12)) - 5.5
     waves = [np.sin(p[i] * math.pi / 6) * np.cos(p[(i + 1) % 3] * math.pi / 6) for i in range(3)]
     plane = [
-        away < 10.3, away < 2.2, np.maximum(abs(x), abs(y)) < 9, abs(across) < 1.5, across < 0,
-        rng.random((32, 32)) < 0.5, (away < 10.3) ^ (rng.random((32, 32)) < 0.2), blobs > 0,
-    ]  # fmt: skip
+        away < 10.3,
+        away < 2.2,
+        np.maximum(abs(x), abs(y)) < 9,
+        abs(across) < 1.5,
+        across < 0,
+        rng.random((32, 32)) < 0.5,
+        (away < 10.3) ^ (rng.random((32, 32)) < 0.2),
+        blobs > 0,
+    ]
     grey = [np.clip(3 - 2 * abs(across), -1, 1), rng.uniform(-1, 1, (32, 32))]
     space = [(p**2).sum(axis=0) < 4.3**2, abs(sum(waves)) < 0.6, rng.random((12, 12, 12)) < 0.5]
     return (
@@ -352,9 +358,7 @@ def error_of_time(parts: int) -> float:
     """The largest error of phi on a disc after 20 steps of 1/7, each cut into parts, against Richardson's limit."""
     x = np.arange(28) - 13.5
     f = np.clip(2 * (8.3 - np.hypot(x[:, None], x)), -1, 1)
-    at = {
-        k: smooth_reference(f, Smoothing(steps=20 * k, alpha=1 / 7 / k, fidelity=0.01)) for k in (parts, 32, 64)
-    }  # fmt: skip
+    at = {k: smooth_reference(f, Smoothing(steps=20 * k, alpha=1 / 7 / k, fidelity=0.01)) for k in (parts, 32, 64)}
     return float(np.abs(at[parts] - (2 * at[64] - at[32])).max())
 
 
@@ -369,9 +373,11 @@ def test_the_table_of_the_order() -> None:
 
 
 @given(
-    unit=st.sampled_from([1e-3, 1 / 25.4, 0.7, 25.4, 1e3]), lam=st.floats(0, 1e4), h=st.floats(1e-3, 0.1),
+    unit=st.sampled_from([1e-3, 1 / 25.4, 0.7, 25.4, 1e3]),
+    lam=st.floats(0, 1e4),
+    h=st.floats(1e-3, 0.1),
     seed=st.integers(0, 99),
-)  # fmt: skip
+)
 def test_the_unit_of_length_does_not_matter(unit: float, lam: float, h: float, seed: int) -> None:
     f = np.random.default_rng(seed).uniform(-1, 1, (5, 6))
     one, other = (

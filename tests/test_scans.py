@@ -136,7 +136,7 @@ def test_npz_with_several_arrays_wants_a_name(tmp_path: Path) -> None:
         ({"a": np.full((2, 2, 2), "x")}, "type <U1"),
         ({"a": np.zeros((2, 2, 2), "M8[s]")}, "type datetime64"),
     ],
-)  # fmt: skip
+)
 def test_npz_of_something_else_is_one_clear_line(arrays: dict[str, Any], says: str, tmp_path: Path) -> None:
     path = tmp_path / "a.npz"
     np.savez(path, **arrays)
@@ -203,7 +203,9 @@ def test_a_field_read_back_is_the_same(suffix: str, space: str, dtype: Any, tmp_
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("suffix", list(FIELD_WRITERS))
 def test_simpleitk_finds_each_cell_where_we_say(suffix: str, order: Any, sitk: Any, tmp_path: Path) -> None:
-    field = Volume(values=np.asarray(marked(), order=order), spacing=SPACING, origin=(10, -20, 30), direction=turn(), space="LPS")  # fmt: skip
+    field = Volume(
+        values=np.asarray(marked(), order=order), spacing=SPACING, origin=(10, -20, 30), direction=turn(), space="LPS"
+    )
     path = write_field(field, tmp_path / f"a{suffix}")
     if suffix == ".npz":
         image = sitk.GetImageFromArray(np.load(path)["values"].T)
@@ -255,9 +257,12 @@ def test_pages_of_tiff_are_z(options: dict[str, Any], dtype: Any, tmp_path: Path
 )
 def test_cell_size_of_imagej(unit: str, size: float, tmp_path: Path) -> None:
     tifffile.imwrite(
-        tmp_path / "a.tif", numbers().T, imagej=True, resolution=(1 / 0.5, 1 / 0.25),
+        tmp_path / "a.tif",
+        numbers().T,
+        imagej=True,
+        resolution=(1 / 0.5, 1 / 0.25),
         metadata={"spacing": 2.0, "unit": unit, "axes": "ZYX"},
-    )  # fmt: skip
+    )
     assert read_volume(tmp_path / "a.tif").spacing == pytest.approx((0.5 * size, 0.25 * size, 2 * size))
 
 
@@ -483,12 +488,17 @@ def write_series(
         page = image[:, :, k]
         place = np.array(image.TransformIndexToPhysicalPoint((0, 0, k))) + shear * k * axes[:, 1]
         tags = {
-            "0008|0060": "CT", "0008|0016": "1.2.840.10008.5.1.4.1.1.2", "0008|0018": f"{uid}.{k}",
-            "0020|000d": "1.2.826.0.1", "0020|000e": uid, "0020|0013": str(k),
+            "0008|0060": "CT",
+            "0008|0016": "1.2.840.10008.5.1.4.1.1.2",
+            "0008|0018": f"{uid}.{k}",
+            "0020|000d": "1.2.826.0.1",
+            "0020|000e": uid,
+            "0020|0013": str(k),
             "0020|0037": "\\".join(f"{x:.10f}" for x in axes[:, :2].T.ravel()),
             "0020|0032": "\\".join(f"{x:.8f}" for x in place),
-            "0028|1052": "-1024", "0028|1053": "1",
-        }  # fmt: skip
+            "0028|1052": "-1024",
+            "0028|1053": "1",
+        }
         for tag, text in tags.items():
             page.SetMetaData(tag, text)
         writer.SetFileName(str(folder / f"{uid[-1]}_{99 - k}.dcm"))
@@ -633,9 +643,15 @@ def test_reading_arrays_loads_nothing_medical() -> None:
     import subprocess
 
     done = subprocess.run(
-        [sys.executable, "-c", "import infill.formats.volume_files, infill.formats.arrays, json, sys; print(json.dumps(list(sys.modules)))"],
-        capture_output=True, encoding="utf-8", check=True,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-c",
+            "import infill.formats.volume_files, infill.formats.arrays, json, sys; print(json.dumps(list(sys.modules)))",
+        ],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
     assert not {"SimpleITK", "tifffile", "PIL", "skimage"} & set(json.loads(done.stdout))
 
 

@@ -68,7 +68,9 @@ def report(*words: str | Path) -> dict[str, Any]:
 # --- what it says ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("words", [[], ["ball.npy"], ["ball.npy", "--nonsense"], ["ball.npy", "-o", "a.stl", "--steps", "few"]])  # fmt: skip
+@pytest.mark.parametrize(
+    "words", [[], ["ball.npy"], ["ball.npy", "--nonsense"], ["ball.npy", "-o", "a.stl", "--steps", "few"]]
+)
 def test_usage_errors_exit_2(words: list[str], folder: Path) -> None:
     assert run("smooth", *words).exit_code == 2
     assert not (folder / "a.stl").exists()
@@ -234,10 +236,16 @@ def test_the_mesh_is_the_zero_set_of_the_field(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     "words",
-    [["--threshold", "0"], ["--range", "500,1500"], ["--label", "1000"], ["--label", "7", "--label", "1000"], ["--otsu"],
-     ["--threshold", "0", "--grey"],
-     ["--otsu", "--grey"]],
-)  # fmt: skip
+    [
+        ["--threshold", "0"],
+        ["--range", "500,1500"],
+        ["--label", "1000"],
+        ["--label", "7", "--label", "1000"],
+        ["--otsu"],
+        ["--threshold", "0", "--grey"],
+        ["--otsu", "--grey"],
+    ],
+)
 def test_ways_to_say_what_is_solid(words: list[str], folder: Path) -> None:
     found = report("ct.npy", *words, "--spacing", "0.5")
     assert found["volume"] == pytest.approx(BALL.sum() / 8, rel=0.01 if "--grey" in words else 1e-4)
@@ -320,12 +328,18 @@ def test_a_speck_that_vanishes_is_told(folder: Path) -> None:
 BAD = [
     ("ball.npy --as picture", "there is no kind 'picture'; choose from mesh, points, volume"),
     ("s.stl --units yard", "there is no unit 'yard'; choose from um, mm, cm, m, in"),
-    *[(f"s.stl --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")],
+    *[
+        (f"s.stl --{option}", f"{option.split()[0]} is for")
+        for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")
+    ],
     *[(f"s.stl --{option} 1", "for volumes, and s.stl is taken for") for option in ("spacing", "array", "series")],
     *[(f"ball.npy --{option} 2", f"{option} is for") for option in ("shell", "resolution", "voxel")],
     ("ball.npy --units mm", "give the spacing of a volume in mm"),
     *[(f"p.xyz --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey")],
-    *[(f"{name} --resolution 30 --voxel 1", "both voxel and resolution are given; give one") for name in ("s.stl", "p.xyz")],
+    *[
+        (f"{name} --resolution 30 --voxel 1", "both voxel and resolution are given; give one")
+        for name in ("s.stl", "p.xyz")
+    ],
     ("ct.npy", "from -1000 to 1000 and do not say what is solid; give --threshold X"),
     ("ct.npy --threshold 3 --otsu", "threshold and otsu exclude each other"),
     ("ct.npy --threshold 3 --range 3,4", "threshold and range exclude each other"),
@@ -342,10 +356,16 @@ BAD = [
     ("ball.npy --spacing 1,-1,1", "spacing is -1 mm"),
     ("ball.npy --level middle", "level is? .*'middle'"),
     ("ball.npy --level 2", "level is 2; it must be a number from -0.999 to 0.999"),
-    *[(f"{name} --resolution {number}", f"resolution is {number}; it must be a whole number of at least 1")
-      for name in ("s.stl", "p.xyz") for number in (0, -3)],
-    *[(f"{name} --voxel {number}", rf"voxel is {number} mm; it must be a finite number above 0")
-      for name in ("s.stl", "p.xyz") for number in ("0", "-1", "nan")],
+    *[
+        (f"{name} --resolution {number}", f"resolution is {number}; it must be a whole number of at least 1")
+        for name in ("s.stl", "p.xyz")
+        for number in (0, -3)
+    ],
+    *[
+        (f"{name} --voxel {number}", rf"voxel is {number} mm; it must be a finite number above 0")
+        for name in ("s.stl", "p.xyz")
+        for number in ("0", "-1", "nan")
+    ],
     *[(f"{name} --voxel 1e-9", "voxel is 1e-09; it must be a number from 1e-06") for name in ("s.stl", "p.xyz")],
     *[(f"{name} --voxel 0.001", "GiB is at hand; the grid has .* give larger voxels") for name in ("s.stl", "p.xyz")],
     *[(f"{name} --resolution 1000000", "GiB is at hand; the grid has") for name in ("s.stl", "p.xyz")],
@@ -364,7 +384,10 @@ BAD = [
     ("ball.npy --max-memory lots", "the memory limit is 'lots'"),
     ("ball.npy --max-memory 1K", "is allowed; use larger voxels"),
     ("s.stl --max-memory 1M", "is allowed; the grid has 216 x 216 x 216 cells; give larger voxels"),
-    *[(f"gone{suffix}", f"there is no file gone{suffix}; check the name") for suffix in (".stl", ".npy", ".nrrd", ".xyz", ".ply", ".abc", "")],
+    *[
+        (f"gone{suffix}", f"there is no file gone{suffix}; check the name")
+        for suffix in (".stl", ".npy", ".nrrd", ".xyz", ".ply", ".abc", "")
+    ],
     ("nothing", "nothing holds no files"),
     ("junk", "junk holds no DICOM series and no .tif or .png slices"),
     ("nothing --as mesh", "cannot tell a mesh format from 'nothing'"),
@@ -377,7 +400,7 @@ BAD = [
     ("two.npz --array c", "holds no array 'c'; it holds a, b"),
     ("ball.npy --array a", "only an .npz holds named arrays"),
     ("ball.npy --series 1.2", "give the folder that holds the series"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[words for words, _ in BAD])
@@ -439,9 +462,11 @@ def test_text_is_written_on_request(folder: Path) -> None:
 def test_names_that_a_console_cannot_show(folder: Path) -> None:
     (folder / "ball.npy").rename(folder / "球 ü.npy")
     done = subprocess.run(
-        [*RUN, "smooth", "球 ü.npy", "-o", "网.stl", "--json"], capture_output=True, check=False,
+        [*RUN, "smooth", "球 ü.npy", "-o", "网.stl", "--json"],
+        capture_output=True,
+        check=False,
         env={**os.environ, "PYTHONIOENCODING": "cp1252"},
-    )  # fmt: skip
+    )
     assert done.returncode == 0, done.stderr
     assert read_mesh(folder / "网.stl").closed
 

@@ -87,7 +87,13 @@ def test_a_device_as_output(small: Path) -> None:
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full on this system")
 def test_a_full_stdout_is_told(small: Path) -> None:
     with open("/dev/full", "w") as full:
-        done = subprocess.run([*RUN, "smooth", str(small), "--json", "-q"], stdout=full, stderr=subprocess.PIPE, encoding="utf-8", check=False)  # fmt: skip
+        done = subprocess.run(
+            [*RUN, "smooth", str(small), "--json", "-q"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            encoding="utf-8",
+            check=False,
+        )
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
 
@@ -98,6 +104,11 @@ def test_the_memory_of_a_small_job_is_small(small: Path) -> None:
         "import resource, subprocess, sys; subprocess.run(sys.argv[1:], check=True, capture_output=True);"
         "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
     )
-    done = subprocess.run([sys.executable, "-c", code, *RUN, "smooth", str(small), "--json"], capture_output=True, encoding="utf-8", check=True)  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-c", code, *RUN, "smooth", str(small), "--json"],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
     unit = 1 if sys.platform == "darwin" else 1024
     assert int(done.stdout) * unit < 2**29

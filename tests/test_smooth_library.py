@@ -255,12 +255,15 @@ KINDS: dict[str, tuple[Any, dict[str, Any]]] = {
     "mask of 255": (lambda solid: solid.astype(np.uint8) * np.uint8(255), {}),
     "signs": (lambda solid: np.where(solid, 1, -1).astype(np.int64), {}),
     "labels": (lambda solid: np.where(solid, 7, 2).astype(np.int32), {"label": 7}),
-    "two labels": (lambda solid: np.where(solid, np.indices(solid.shape)[0] % 2 + 3, 0).astype(np.uint16), {"label": (3, 4)}),
+    "two labels": (
+        lambda solid: np.where(solid, np.indices(solid.shape)[0] % 2 + 3, 0).astype(np.uint16),
+        {"label": (3, 4)},
+    ),
     "threshold": (lambda solid: np.where(solid, 1200, -1000).astype(np.int16), {"threshold": 200}),
     "range": (lambda solid: np.where(solid, 300, 3000).astype(np.int16), {"threshold": (200, 900)}),
     "otsu": (lambda solid: np.where(solid, 1200.0, 40.0), {"threshold": "otsu"}),
     "half": (lambda solid: np.where(solid, 5, 1).astype(np.float16), {"threshold": 3}),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -417,7 +420,9 @@ def test_all_solid_but_one_cell(place: tuple[int, int, int]) -> None:
     assert result.report["problems"] == []
 
 
-@pytest.mark.parametrize("shape", [(1, 16, 12), (16, 1, 12), (16, 12, 1), (1, 1, 20), (1, 20, 1), (20, 1, 1), (2, 16, 12)])  # fmt: skip
+@pytest.mark.parametrize(
+    "shape", [(1, 16, 12), (16, 1, 12), (16, 12, 1), (1, 1, 20), (1, 20, 1), (20, 1, 1), (2, 16, 12)]
+)
 def test_one_layer_or_one_row_is_a_volume_too(shape: tuple[int, int, int]) -> None:
     solid = np.zeros(shape, dtype=bool)
     solid[tuple(slice(count // 4, -(count // 4) or None) for count in shape)] = True
@@ -485,7 +490,16 @@ def test_a_speck_that_vanishes_is_told_and_no_error() -> None:
     assert result.mesh.volume == pytest.approx(solid.sum(), rel=VOLUME)
 
 
-@pytest.mark.parametrize("options", [{"tolerance": 0.02}, {"tolerance": 0.1}, {"max_triangles": 2000}, {"max_triangles": 100}, {"tolerance": 0.5, "max_triangles": 1000}])  # fmt: skip
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"tolerance": 0.02},
+        {"tolerance": 0.1},
+        {"max_triangles": 2000},
+        {"max_triangles": 100},
+        {"tolerance": 0.5, "max_triangles": 1000},
+    ],
+)
 def test_simplified_meshes_stay_closed_and_close(options: dict[str, Any]) -> None:
     solid = ball((40, 40, 40), (19.5,) * 3, 13) | brick((40, 40, 40), (15, 25), (5, 35), (15, 25))
     full = smooth_volume(solid)
@@ -584,7 +598,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     (pear().astype(int) * 9, {"label": 4}, "no cell would be solid by label 4"),
     (pear().astype(int) * 9, {"label": 9, "grey": True}, "one threshold"),
     (pear(), {"grey": True}, "one threshold"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(
@@ -599,7 +613,10 @@ def test_what_cannot_be_smoothed_is_one_clear_line(values: Any, options: dict[st
 def test_too_little_memory_is_told_before_the_work() -> None:
     with pytest.raises(MemoryLimitError, match=r"needs about .* GiB .* is allowed; use larger voxels"):
         smooth_volume(smooth_noise(np.random.default_rng(3), (60, 60, 60)) > 0, max_memory=10_000)
-    cube = Surface(vertices=np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]]), faces=np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))  # fmt: skip
+    cube = Surface(
+        vertices=np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]]),
+        faces=np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]),
+    )
     with pytest.raises(MemoryLimitError, match="larger voxels or a lower resolution"):
         smooth_mesh(cube, voxel=1e-5)
     with pytest.raises(MemoryLimitError, match="larger voxels"):

@@ -333,9 +333,17 @@ def test_errors_say_what_to_do(mesh: Surface, options: dict[str, float], error: 
 
 @pytest.mark.parametrize(
     "name",
-    ["models/bunny_75k.off", "models/armadillo_52k.off", "models/horse_97k.ply", "models/pig_filled.stl",
-     "medical/femur.stl", "medical/skull_d.stl", "medical/mandible_repaired_mm.stl", "printable/m3x10_screw.stl"],
-)  # fmt: skip
+    [
+        "models/bunny_75k.off",
+        "models/armadillo_52k.off",
+        "models/horse_97k.ply",
+        "models/pig_filled.stl",
+        "medical/femur.stl",
+        "medical/skull_d.stl",
+        "medical/mandible_repaired_mm.stl",
+        "printable/m3x10_screw.stl",
+    ],
+)
 def test_closed_meshes_have_their_volume(data: Path, name: str) -> None:
     mesh = read_mesh(data / name)
     # 200 cells along the longest side; faces that lie along the grid may all round one way.

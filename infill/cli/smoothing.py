@@ -175,24 +175,38 @@ def smooth(
             progress("read", 0.0)
         with log_said(shown=not quiet):
             given = read_source(
-                source, kind=kind, units=units, array=array, series=series,
+                source,
+                kind=kind,
+                units=units,
+                array=array,
+                series=series,
                 spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
-            )  # fmt: skip
+            )
         from infill.smoothing.placing import field_volume
 
         held = {} if fidelity is None else {"fidelity": fidelity}
         with log_said(shown=not quiet):
             result = smooth_source(
                 given,
-                resolution=resolution, voxel=voxel, shell=shell, threshold=threshold,
+                resolution=resolution,
+                voxel=voxel,
+                shell=shell,
+                threshold=threshold,
                 between=None if between is None else parse_numbers("range", between, (2,)),
-                label=tuple(label) if label else None, otsu=otsu, grey=grey,
+                label=tuple(label) if label else None,
+                otsu=otsu,
+                grey=grey,
                 smoothing=Smoothing(steps=steps, interface=interface, **held),
                 refine=refine,
                 level=parse_level(level),
-                despeckle=despeckle, allow_broken=allow_broken, tolerance=tolerance, max_triangles=max_triangles,
-                threads=threads, max_memory=None if max_memory is None else parse_bytes(max_memory), progress=progress,
-            )  # fmt: skip
+                despeckle=despeckle,
+                allow_broken=allow_broken,
+                tolerance=tolerance,
+                max_triangles=max_triangles,
+                threads=threads,
+                max_memory=None if max_memory is None else parse_bytes(max_memory),
+                progress=progress,
+            )
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}

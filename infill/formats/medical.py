@@ -26,9 +26,18 @@ HEAD = 1024  # bytes in which the storage class stands
 STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian as all of that header is
 USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # of the headers that SimpleITK tells
 NRRD_TYPES = {
-    "b1": "uint8", "i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32", "u4": "uint32",
-    "i8": "int64", "u8": "uint64", "f4": "float", "f8": "double",
-}  # fmt: skip
+    "b1": "uint8",
+    "i1": "int8",
+    "u1": "uint8",
+    "i2": "int16",
+    "u2": "uint16",
+    "i4": "int32",
+    "u4": "uint32",
+    "i8": "int64",
+    "u8": "uint64",
+    "f4": "float",
+    "f8": "double",
+}
 NRRD_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
 
 

@@ -113,10 +113,15 @@ def smooth_source(
 
     kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
     given = {
-        "resolution": resolution is not None, "voxel": voxel is not None, "shell": shell is not None,
-        "threshold": threshold is not None, "range": between is not None, "label": label is not None,
-        "otsu": otsu, "grey": grey,
-    }  # fmt: skip
+        "resolution": resolution is not None,
+        "voxel": voxel is not None,
+        "shell": shell is not None,
+        "threshold": threshold is not None,
+        "range": between is not None,
+        "label": label is not None,
+        "otsu": otsu,
+        "grey": grey,
+    }
     wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
     if wrong:
         fits = [each for each in KINDS if wrong[0] in FITTING[each]]
