@@ -127,7 +127,7 @@ class CommandLine(SphinxDirective):
 
         from infill.cli.app import build
 
-        command = typer.main.get_command(build(plugins=False))
+        command = typer.main.get_command(build())
         context = command.make_context("infill", [], resilient_parsing=True)
         text = get_docs_for_click(obj=command, ctx=context, name="infill")
         # The page has its own title, and a list of the commands beside it.

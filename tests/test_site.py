@@ -53,7 +53,7 @@ def test_nothing_else_is(site: Path) -> None:
 
 def test_every_command_is_described(site: Path) -> None:
     page = (site / "commands.html").read_text(encoding="utf-8")
-    for command in build(plugins=False).registered_commands:
+    for command in build().registered_commands:
         assert f"infill {command.name}" in page
     assert "--stamp" in page
 
