@@ -65,7 +65,7 @@ def test_help_has_an_example_and_exits_0(command: str) -> None:
 def test_help_names_every_command() -> None:
     text = plain(run("--help").stdout)
     assert all(command in text for command in COMMANDS)
-    assert {command.name for command in build(plugins=False).registered_commands} == set(COMMANDS)
+    assert {command.name for command in build().registered_commands} == set(COMMANDS)
     assert "Example: infill make" in text
 
 
