@@ -52,7 +52,7 @@ SLOW = (
     "tests/test_repository.py::test_the_schemas_hold",
     "tests/test_scans.py::test_a_file_with_a_flipped_byte_is_read_or_told",
     "tests/test_smooth_library.py::test_a_mesh_comes_back_in_its_place",
-    "tests/test_smooth_library.py::test_bodies_close_to_one_another_do_not_grow",
+    "tests/test_smooth_library.py::test_components_close_to_one_another_do_not_grow",
     "tests/test_smooth_library.py::test_every_solid_gives_a_closed_mesh_and_an_honest_report",
     "tests/test_smooth_library.py::test_every_type_of_data_gives_the_mesh_of_its_solid",
     "tests/test_smooth_library.py::test_level_volume_keeps_a_ball_and_level_0_shrinks_it",
