@@ -60,7 +60,17 @@ NOT_EXPORTED = ("MakeStages", "Named", "Options", "SmoothStages", "Stages")
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
 OTHERS = ("collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
 OTHERS += ("shapely", "trimesh", "typing")
-SHORT = ("Any", "ArrayLike", "Callable", "DTypeLike", "EntryPoint", "Literal", "MultiLineString", "MultiPolygon", "NDArray")
+SHORT = (
+    "Any",
+    "ArrayLike",
+    "Callable",
+    "DTypeLike",
+    "EntryPoint",
+    "Literal",
+    "MultiLineString",
+    "MultiPolygon",
+    "NDArray",
+)
 SHORT += ("Path", "Polygon")
 nitpicky = True
 nitpick_ignore_regex = [

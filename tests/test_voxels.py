@@ -419,6 +419,6 @@ def test_a_mesh_with_holes_is_capped_once(monkeypatch: pytest.MonkeyPatch) -> No
     assert from_mesh.capped is counted
     whole = surface(BALL)
     report = smooth_mesh(Surface(vertices=whole.vertices, faces=whole.faces[3:]), resolution=30).report
-    assert report["repairs"]["holes"] >= 1
-    assert report["distance"]["data"]["max"] < 1.5 * max(report["spacing"])
+    assert report["input"]["repairs"]["holes"] >= 1
+    assert report["distance"]["data"]["max"] < 1.5 * max(report["grid"]["spacing"])
     assert len(calls) == 1
