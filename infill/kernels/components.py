@@ -1,4 +1,22 @@
-"""What `infill.surfaces.components` does to rows of bits and to triangles, compiled."""
+"""What `infill.surfaces.components` does to rows of bits and to triangles, compiled.
+
+A row of a brick is sixteen bits, set where a cell is of the kind that is labelled. What is labelled are not cells but
+runs of set bits, found by a few operations on the whole row:
+
+    bits         0 1 1 1 0 0 1 0 1 1 0 0 0 0 1 1      k ->
+    beginnings   0 1 0 0 0 0 1 0 1 0 0 0 0 0 1 0      bits & ~(bits shifted by one)
+    run          . 0 0 0 . . 1 . 2 2 . . . . 3 3      beginnings up to here, counted, less one
+
+So the number of the run at cell k of a row is `bricks` (runs in the bricks before) + `starts` (in the rows before) +
+that count less one: nothing is stored for a cell. A brick of one value throughout is a node by itself (`alone`).
+
+Runs are joined by union-find. `parent` leads from every node to an earlier one of its set, the first of which leads
+to itself; `root` follows it, halving the path as it goes, and `join` puts the later root under the earlier, so that
+the first member names the set. Two rows side by side are joined where both have bits set (`own & theirs`), once for
+each stretch in which they do; along k runs go on in the next brick if the last bit here and the first there are set.
+With `diagonal`, for void, rows one step aside along two axes count too, and bits one place aside: cells that touch by
+an edge. Solid is joined by faces only, so where two of its cells touch by an edge, void runs between them.
+"""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.

@@ -2,8 +2,19 @@
 
 Loops run over whole bricks, so that they become vector code.
 
-The averages of a gate live on coarse cells of `size` cells along each axis, (n, 3, 8/size, 8/size, 16/size): the
-mean weight w, and those of w r and w r². Where no brick is kept they are 0.
+`step` is a step with momentum: it needs the field of the step before too, kept in `before`, of which each cell is
+read and replaced while the brick is at hand.
+
+A gate weighs averages over a Gaussian of `size` cells. They are taken on coarse cells of `size` cells along each axis,
+(n, 3, 8/size, 8/size, 16/size): the means of w, of w r and of w r², 0 where no brick is kept.
+
+    fine       . . . . . . . .      collect   1  means over `size` cells: a box, variance size²/12
+    coarse     |---o---|---o---|    blur      2  TAPS over five coarse cells: variance 3 size²/4
+    fine       . . x . . . . .      blend     3  interpolated between coarse centres: a tent, variance size²/6
+                                              together size², as the Gaussian's
+
+For the blur a brick needs two coarse cells around it, for the interpolation one: `fetch` copies them from the 26
+bricks around it. `blend` interpolates along i for a plane, then along j for a row, then along k for its cells.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201

@@ -1,9 +1,33 @@
 """What `infill.phasefield.sparse` does to bricks, compiled.
 
-Loops run over whole bricks, so that they become vector code.
+A brick is (8, 8, 16) cells, flat: cell (i, j, k) is number (i 8 + j) 16 + k.
 
-A brick is (8, 8, 16) cells, flat. Beside the cells a copy of the six faces is kept, before and after the step, so
-that a brick can be stepped in place while its neighbours still read what it was.
+                 j                 a row: 16 cells along k, one vector of AVX-512
+                /                  a plane: 8 rows of one i, 128 cells
+        +------------+             a brick: 8 planes, 1024 cells, 4 KiB of float32
+       /            /|
+      /            / |
+     +------------+  |             +-- faces, copied: low and high along i (2 x 128), j (2 x 128), k (2 x 64)
+     |            |  +
+   i |   8 x 8    | /              slots, the lattice of bricks: the number of a brick that is kept, or
+     |            |/               VOID_BRICK, SOLID_BRICK (one value throughout) or OUTSIDE (no cell of the grid)
+     +------------+
+          k: 16
+
+A step goes through the bricks in any order and on any thread. Each is stepped in place, so its neighbours may not
+read its cells, which are old or new by chance; they read the copy of its faces from before the step (`faces`), and
+the faces after it go to a second copy (`next_faces`). The two change places when all bricks are done.
+
+One brick in a step:
+
+    surround    six arrays of the same length, in which cell t finds its neighbours at t: the brick between the planes
+                of its neighbours along i (`tall`), and four copies shifted by a row or a cell (`left`, `right`,
+                `before`, `after`) with the neighbours' faces let in at their ends
+    advanced    one loop over 1024 cells without a branch: vector code
+    emit        the six faces copied, and for each whether it is +1 or -1 throughout (`flat`)
+
+A brick of one value (`uniform`) between neighbours of that value is a fixed point and is left out. A flat face
+whose value differs from that of a brick which is not kept is what makes that brick be kept (`wanted`).
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
@@ -27,7 +51,7 @@ FACES = THIRD + 2 * FACE_K
 
 # What stands on the lattice for a brick that is not kept.
 VOID_BRICK, SOLID_BRICK, OUTSIDE = -1, -2, -3
-CHUNK = 32  # bricks that a thread takes at a time: neighbours, mostly
+CHUNK = 32  # bricks that a thread takes at a time: neighbours, mostly; with their data 160 to 256 KiB
 MIXED, OUTER = 0, -3  # states of a brick: of both phases, and without a cell of the grid
 
 

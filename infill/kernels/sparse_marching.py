@@ -1,4 +1,24 @@
-"""What `infill.surfaces.sparse_marching` does to bricks, compiled."""
+"""What `infill.surfaces.sparse_marching` does to bricks, compiled.
+
+A row of sixteen cells along k is one number of sixteen bits, set where a cell is above the level. A row of cubes lies
+between four rows of cells, of 17 cells each: one is taken from the brick behind. Bricks own the cubes whose lowest
+corner they hold, and the edges that begin in their cells.
+
+    c ─── d      a, b, c, d: rows (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1), seen from their ends
+    │     │      cube k: their bits k and k + 1; its corner (x, y, z) has number x + 2 y + 4 z
+    a ─── b      crossed edges: a ^ b along i, a ^ c along j, a ^ (a shifted by one) along k
+                 crossed cubes: those whose eight bits are not all equal (`crossed`)
+
+All sixteen are decided by a few operations; loops then visit only bits that are set, from the lowest up (`lowest`).
+
+Vertices are numbered without a table of edges: a brick's begin at `offsets`, those of a row and an axis at `starts`
+beyond that, and within the row an edge has as many before it as bits are set below its own in `masks`. So any cube
+finds the vertices on its twelve edges, its neighbours' included, and threads need not meet.
+
+Two passes: `count` says how much every brick will write, sums of that say where, and `write` writes. A cube's eight
+signs choose its triangles from a table of 256 (`infill.surfaces.sparse_marching.cube_table`); where signs do not tell
+(`UNDECIDED`: a face with a saddle, or opposite corners), the values of its corners are handed back instead.
+"""
 # mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.
@@ -15,8 +35,8 @@ from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1
 TRUE = ir.Constant(ir.IntType(1), 1)
-UNDECIDED = -128  # in a table of triangles: the signs do not tell
-FULL = (1 << B2) - 1
+UNDECIDED = -128  # in a table of triangles: the signs do not tell; the least int8, which no count comes near
+FULL = (1 << B2) - 1  # all bits of a row
 
 
 @njit(nogil=True, cache=True)

@@ -1,4 +1,15 @@
-"""Between a whole field and its bricks, compiled: see `infill.phasefield.sparse`."""
+"""Between a whole field and its bricks, compiled: see `infill.phasefield.sparse`.
+
+Brick (p, q, r) of the lattice holds cells 8 p - 1 … 8 p + 6, 8 q - 1 …, 16 r - 1 … of the grid: the lattice begins
+one cell before the grid, so that there is void (or what repeats the edge) for the surface to close in.
+
+    grid                0 1 2 3 4 5 6 7 8 9 …
+    lattice     [ -1 0 1 2 3 4 5 6 ][ 7 8 9 …        bricks of 8 along x
+
+`fill_states` and `fill_grey_states` say of every brick what it is without copying it: least and largest value of each
+row of bricks are collected for all k at once, which is vector code, and then cut into sixteens. Only mixed bricks,
+and those beside one of the other phase, are gathered; `spread` is the way back, a row of bricks at a time.
+"""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # No tool sees compiled lines run.
@@ -125,7 +136,12 @@ def spread(slots, bricks, whole, thread, threads):  # pragma: no cover
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def straighten(bricks, most, scale, out, thread, threads):  # pragma: no cover
-    """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: vector code, which a log is not."""
+    """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: vector code, which a log is not.
+
+    artanh v = ln 2 / 2 log2 x, x = (1 + v) / (1 - v). With x = 2^n m and m in [1/sqrt 2, sqrt 2), log2 x is n plus
+    log2 m = 2 / ln 2 (y + y³ / 3 + y⁵ / 5 + y⁷ / 7 + …), y = (m - 1) / (m + 1), |y| < 0.172: what is left out is less
+    than 5e-8. n is read off the bits of x, of which those of 1/sqrt 2, 0x3F3504F3, are taken off first.
+    """
     ratio, power = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.int32)
     bits = ratio.view(np.int32)
     half = np.float32(0.34657359) / scale  # ln 2 / 2

@@ -42,9 +42,12 @@ from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
 from infill.phasefield.profile import REFINED
 from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
 
-QUARTERS = (1, 2, 3, 5, 7, 13)  # the steps of which something is kept, in quarters of `Smoothing.steps`
-FILTERS = ((0, 1), (2, 3, 4), (4, 5))  # which of those go into the mild, the middle and the strong filter
-MOMENTUM = 0.5  # after half of `Smoothing.steps`
+# The steps of which something is kept, in quarters of `Smoothing.steps`, and which of those go into the mild, the
+# middle and the strong filter: two snapshots cancel x, three cancel x² too. Filters share snapshots, and all of them
+# one run.
+QUARTERS = (1, 2, 3, 5, 7, 13)
+FILTERS = ((0, 1), (2, 3, 4), (4, 5))
+MOMENTUM = 0.5  # after half of `Smoothing.steps`: a step then counts 1 / (1 - 1/2), twice, for long waves
 FEWEST = 4  # steps: with fewer, two of the six would be the same
 TINY = 1e-6  # of a weight: where there is no surface near, the means are 0
 
@@ -66,6 +69,15 @@ class Gate:
     unsigned: float
 
 
+# Both limits lie above what a staircase makes of them and below what a lost shape does. Measured at 20 steps, in cells,
+# 95 % of the surface below, the mean difference and the root of the mean square:
+#
+#                               outer, of 4 cells       inner, of 2 cells
+#   planes, in five directions  0.05, 0.16              0.06, 0.40        what is left of the staircase: stay
+#   wall 5 cells thick          0.07, 0.12              0.05, 0.37        whole in the strong filter: stay
+#   ball of radius 10           1.2,  1.6               0.19, 0.34        too strong, the middle one is right
+#   edge of 90°                 0.47, 1.25              0.12, 0.52        the middle one, and a little of the mild
+#   wall 3 cells thick          3.7,  3.8               2.2,  2.4         gone in both: the mild one
 OUTER = Gate(size=4, signed=0.05, unsigned=0.2)  # from the strong to the middle filter
 INNER = Gate(size=2, signed=0.3, unsigned=0.7)  # from there to the mild one
 

@@ -26,7 +26,10 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
 
-ROOM, MORE = 3.0, 1.5  # bricks to make room for over those there are, at first and when it is used up
+# Bricks to make room for over those there are: at first as for one more layer on both sides of the surface, beyond
+# which it takes 8 steps to get; then by half again, so that all copies together are at most three times the last one.
+# Room that is not used costs no memory until it is written to.
+ROOM, MORE = 3.0, 1.5
 
 
 @dataclass(frozen=True, kw_only=True)

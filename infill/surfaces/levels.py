@@ -24,13 +24,23 @@ from infill.surface import Surface
 from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
 from infill.surfaces.sparse_marching import Level, extract_level, measured
 
-LIMIT = 0.98  # levels lie between minus and plus this
-TOLERANCE = 5e-5  # of the volume
-COMPONENT_TOLERANCE = 2e-4  # of the volume of one component among several
-ROUNDS = 8
+# Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to be found, and a
+# surface this near to it still has cells on both its sides that are not.
+LIMIT = 0.98
+# Of the volume. A ball of 80 cells with so much too much has a radius 0.0013 cells too large, where smoothing itself
+# leaves 0.02.
+TOLERANCE = 5e-5
+# Of the volume of one component among several, which share the rounds: 0.005 cells on such a ball.
+COMPONENT_TOLERANCE = 2e-4
+# A step moves a surface by at most 0.3 artanh 0.9999 / artanh 0.9 = 1.01 interfaces, two cells: the slope of the volume
+# is that of the surface where it is now, and holds no further. Four steps lead from 0 to the limit, and Newton's method
+# then needs two or three; eight rounds are one more than that.
 BIGGEST_STEP = 0.3
-REACH = 4  # cells from a component in which its level holds
-SMALLEST = 8  # cells: a smaller component has no level of its own
+ROUNDS = 8
+# Cells from a component in which its level holds: as far as a refined distance reaches, which is cut off
+# artanh 0.995 / artanh 0.9 = 2.03 interfaces of two cells away.
+REACH = 4
+SMALLEST = 8  # cells, 2 x 2 x 2: a smaller component has no level of its own
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,11 +22,18 @@ if TYPE_CHECKING:
 FEWEST = 4  # points that can enclose a volume
 FLAT = 1e-6  # of the largest extent: points that leave their plane by less lie in it
 AT_ONCE = 2**18  # spans of cells laid out at a time
-NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000  # the spacing is this quantile of the distances to this neighbour
-WIDENING = (0.5, 0.7, 1.0, 1.4, 2.0, 2.8)  # half widths of the shell that are tried, in spacings
-RIDGE = 0.2  # cells: about eight times what balls apart leave between them
+# Points spread evenly over a surface have six around them; the spacing is the distance to the sixth that 95 % of them
+# do not exceed, so that a shell laid by it is whole but for a few gaps. Taken from 20 000 points it is that of
+# 95 % give or take 0.15 %.
+NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000
+# Half widths of the shell that are tried, in spacings: half of one is the least at which balls around neighbours touch;
+# each next one has twice the cross section, and after 2.8 it fills grooves that are five spacings wide.
+WIDENING = (0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
+RIDGE = 0.2  # cells: eight times what balls leave between them, s² / 8 R with s² = RIDGE R, so a fortieth of a cell
 REACH = 0.5  # cells: over gaps that the balls leave between them, for they are one cell or more apart
-BACKED, ENOUGH = 0.3, 0.9  # share of points with an inside behind them: fewer, and the shell leaks
+# Points with an inside behind them over points with an outside before them. In a shell that is whole it is nearly one,
+# and a wider shell can add nothing; where it leaks the inside is a few pockets, and under 0.3 most of it is outside.
+BACKED, ENOUGH = 0.3, 0.9
 SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 7, 400  # per cell and per point, measured peaks
 
 Floats = NDArray[np.float64]

@@ -87,7 +87,7 @@ def stamp(
 def _widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
     """Return `marked` grown by `reach` cells both ways along one axis.
 
-    What scipy.ndimage.maximum_filter1d returns, of bits four times as fast for the blocks of 3 and 5 cells.
+    What scipy.ndimage.maximum_filter1d returns, four times as fast for the blocks of 3 and 5 cells.
     """
     along = np.moveaxis(marked, axis, 0)
     grown = along.copy()
