@@ -102,6 +102,7 @@ def called(frame, event, argument):
 
 from infill.cli import main
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell takes from what it runs in the background
 sys.addaudithook(opened)
 sys.setprofile(called)
 main()
