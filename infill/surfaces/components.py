@@ -121,9 +121,16 @@ def _meet_or_spread(
 ) -> NDArray[np.uint16]:
     out = np.empty_like(bits)
     in_threads(
-        kernels.meet_or_spread, field.slots, field.where, bits, kind, meet, way, out,
+        kernels.meet_or_spread,
+        field.slots,
+        field.where,
+        bits,
+        kind,
+        meet,
+        way,
+        out,
         threads=thread_count(threads),
-    )  # fmt: skip
+    )
     return out
 
 

@@ -125,9 +125,13 @@ def at_level(
     """Return the surface at one level: the paper's is 0."""
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
-        against=field, height=level, surface=found.surface, rate=found.rate, common=level,
+        against=field,
+        height=level,
+        surface=found.surface,
+        rate=found.rate,
+        common=level,
         levels=np.full(data.count, level),
-    )  # fmt: skip
+    )
 
 
 def at_volume(
@@ -183,9 +187,13 @@ def at_volume(
         )
     if data.count == 1:
         return Levelled(
-            against=field, height=height, surface=found.surface, rate=found.rate, common=height,
+            against=field,
+            height=height,
+            surface=found.surface,
+            rate=found.rate,
+            common=height,
             levels=np.array([height]),
-        )  # fmt: skip
+        )
     return _each_component(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
 
 
@@ -239,8 +247,7 @@ def _each_component(
         stepped = levels + np.where(slope < 0, change, 0)
         stepped = np.where((slope < 0) & (stepped > low) & (stepped < high), stepped, (low + high) / 2)
         levels = np.where(off, np.clip(stepped, -1 + 1e-6, LIMIT), levels)[group]
-    if best is None:  # pragma: no cover - there is always a first round
-        raise GeometryError("no surface was found; use finer voxels")
+    assert best is not None  # there is always a first round
     return best
 
 
@@ -250,10 +257,21 @@ def _lowered(
     """Return the field less the level of the nearest component."""
     out = np.empty_like(field.values)
     in_threads(
-        components_kernels.lower_to_levels, field.values.reshape(-1, CELLS), field.where, field.slots, data.bits,
-        data.bricks, data.starts, data.alone, data.names, levels.astype(np.float32), np.float32(common), REACH,
-        out.reshape(-1, CELLS), threads=threads,
-    )  # fmt: skip
+        components_kernels.lower_to_levels,
+        field.values.reshape(-1, CELLS),
+        field.where,
+        field.slots,
+        data.bits,
+        data.bricks,
+        data.starts,
+        data.alone,
+        data.names,
+        levels.astype(np.float32),
+        np.float32(common),
+        REACH,
+        out.reshape(-1, CELLS),
+        threads=threads,
+    )
     return replace(field, values=out)
 
 
