@@ -298,6 +298,8 @@ def test_dry_run_writes_nothing(tmp_path: Path) -> None:
     facts = json.loads(run("make", "zigzag", "--size", "50x40", "-o", path, "--dry-run", "--json").stdout)
     assert list(tmp_path.iterdir()) == []
     assert run("make", "zigzag", "--size", "50x40", "-o", path).exit_code == 0
+    report = json.loads(run("make", "zigzag", "--size", "50x40", "-o", path, "--force", "--json").stdout)
+    assert (facts["request"], facts["grid"]) == (report["request"], report["grid"])
     assert facts["stl_bytes"] == pytest.approx(path.stat().st_size, rel=0.25)  # as near as the plan is
 
 

@@ -201,7 +201,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
         print_json(facts)
         return
     rows = {
-        "grid": f"{' x '.join(map(str, facts['grid']))} cells of {facts['spacing']:.4g} mm",
+        "grid": f"{' x '.join(map(str, block.grid.shape))} cells of {facts['grid']['spacing'][0]:.4g} mm",
         "memory": f"about {as_bytes(block.memory)}",
         "triangles": f"about {block.triangles:,}",
         "binary STL": f"about {as_bytes(block.stl_bytes)}",

@@ -105,7 +105,6 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     cores = _components(room, np.empty((0, 2), dtype=np.intp))
     wide = np.zeros(found.before, dtype=bool)
     wide[np.unique(before.void[room]) - 1] = True
-    wide[before.void[0, 0] - 1] = True  # the outside, of which only a shell is seen
     cells = np.bincount(before.void.ravel(), minlength=found.before + 1)[1:]
     outside = cells[before.void[0, 0] - 1]
     narrow = ~voids.kept & ~wide

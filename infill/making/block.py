@@ -28,7 +28,7 @@ from infill.result import Clock, Progress, Result
 from infill.surfaces.stacking import extruded
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
-from patterns import Pattern, in_degrees
+from patterns import Pattern
 from patterns.linework import bodies, sample
 
 if TYPE_CHECKING:
@@ -139,8 +139,7 @@ def make(
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
     with clock.stage("surface", 0.5):
-        origin = (*block.grid.origin, 0.0)
-        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=origin)
+        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=block.origin)
         if not surface.closed or surface.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
     cells_per_layer = math.prod(block.grid.shape)
@@ -149,13 +148,8 @@ def make(
     report = report_of(
         product="make",
         surface=surface,
-        request=_request(block),
-        grid={
-            "shape": [*block.grid.shape, block.layers],
-            "spacing": [*block.grid.cell_size.tolist(), block.height / block.layers],
-            "origin": list(origin),
-            "space": surface.space,
-        },
+        request=block.asked(),
+        grid=block.laid_out(),
         solid={
             "data": area / cells_per_layer * layer,
             "change": volume_change,
@@ -210,24 +204,6 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
             f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {THINNEST:.0%} of the "
             f"{width.requested:g} mm asked for"
         )
-
-
-def _request(block: Block) -> dict[str, Any]:
-    """Return what was asked for, as plain numbers."""
-    smoothing = block.smoothing
-    return {
-        "pattern": block.pattern.name,
-        "parameters": in_degrees(block.pattern),
-        "size": list(block.grid.extents),
-        "height": block.height,
-        "line_width": block.line_width,
-        "stamp": block.stamp,
-        "cells_per_line": block.cells,
-        "steps": smoothing.steps,
-        "fidelity": smoothing.fidelity,
-        "interface": smoothing.interface,
-        "alpha": smoothing.alpha,
-    }
 
 
 def _finite(value: float) -> float | None:
