@@ -3,14 +3,37 @@
 # Both make .venv once and are silent about what is already done.
 
 PYTHON ?= python3
+OLDEST_PYTHON ?= python3.11
 DEMO ?= demo
 DESIGNS = concentric-heart zigzag honeycomb
 
 BIN = .venv/bin
+ISSUE_FORMS = $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml))
 SOURCES = $(shell find infill patterns -name '*.py')
 
+## make demo      the three designs of the paper as STL, with a picture of each (the default)
+## make test      the whole suite, with coverage
+## make quick     the suite without what is slow
+## make oldest    the suite on the oldest dependencies that are allowed
+## make lint      ruff, and the schemas of workflows, issue forms and CITATION.cff
+## make types     mypy --strict
+## make docs      the site, in build/docs
+## make check     what CI runs: lint, types, docs, test
+## make wheel     sdist and wheel in dist/, and the wheel tried alone
+## make slicers   PrusaSlicer and CuraEngine, on Debian, for the tests that slice
+## make data      real meshes and scans for the tests, in data/
+## make bench     the promised speeds
+## make paper     the paper's figures and tables, and docs/paper.md
+## make pictures  the pictures of README and docs
+## make clean     removes what these made
+
 .DELETE_ON_ERROR:
-.PHONY: demo test lint types check slicers bench paper pictures clean
+.PHONY: demo test quick oldest lint types docs wheel check slicers data bench paper pictures help clean
+
+# Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
+ifneq ($(wildcard data),)
+export INFILL_DATA ?= $(CURDIR)/data
+endif
 
 demo: $(DESIGNS:%=$(DEMO)/%.stl) $(DESIGNS:%=$(DEMO)/%.png)
 	@echo "The paper's three designs, with a picture of each:"
@@ -22,17 +45,48 @@ $(DEMO)/%.stl $(DEMO)/%.png: .venv/demo $(SOURCES)
 	@$(BIN)/infill make $* -o $(DEMO)/$*.stl --preview $(DEMO)/$*.png --force
 
 test: .venv/test
-	@$(BIN)/python -m pytest -q -n 2 --cov --cov-report=term:skip-covered --cov-fail-under=95
+	@$(BIN)/python -m pytest -q -n 2 --cov --cov-report=term:skip-covered --cov-fail-under=97
+
+# What a change needs while it is being made: no coverage, no slicers, nothing slow (see tests/conftest.py).
+quick: .venv/test
+	@$(BIN)/python -m pytest -q -n auto -m "not slow" -p no:cov
+
+# The suite on the oldest dependencies that pyproject.toml allows.
+oldest: .venv-oldest/test
+	@.venv-oldest/bin/python -m pip check
+	@.venv-oldest/bin/python -m pytest -q -n 2
 
 lint: .venv/lint
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.github-issue-forms $(ISSUE_FORMS)
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.readthedocs .readthedocs.yaml
+	@$(BIN)/check-jsonschema --quiet --builtin-schema vendor.citation-file-format CITATION.cff
 
 types: .venv/lint .venv/test
 	@$(BIN)/mypy
 
+# The site, in build/docs: pages, commands and the reference. A warning is an error.
+docs: .venv/docs
+	@$(BIN)/python -m sphinx -q -E -W --keep-going -b html docs build/docs
+	@echo "$(CURDIR)/build/docs/index.html"
+
+# What a release consists of, in dist, and whether the wheel works where there is nothing else.
+wheel: .venv/release
+	@rm -rf dist
+	@$(BIN)/python -m build --outdir dist .
+	@$(BIN)/twine check --strict dist/*
+	@$(BIN)/python tools/try_wheel.py dist/*.whl
+
 # What CI runs.
-check: lint types test
+check: lint types docs test
+
+# Real meshes and scans that tests and figures take, in data/ or $INFILL_DATA, each by its hash.
+data: .venv/test
+	@$(BIN)/python tools/fetch_data.py
 
 bench: .venv/test
 	@$(BIN)/python -m benchmarks.make
@@ -50,8 +104,11 @@ paper: .venv/test
 pictures: .venv/test
 	@$(BIN)/python docs/pictures.py
 
+help:
+	@sed -n 's/^## //p' Makefile
+
 clean:
-	@rm -rf .venv $(DEMO) .slicers .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	@rm -rf .venv .venv-oldest build dist $(DEMO) .slicers .coverage .pytest_cache .mypy_cache .ruff_cache .hypothesis
 
 include tools/slicers.mk
 
@@ -68,6 +125,20 @@ include tools/slicers.mk
 .venv/test: .venv/pip pyproject.toml
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
 	@touch $@ .venv/demo
+
+.venv/docs: .venv/pip pyproject.toml
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	@touch $@ .venv/demo
+
+.venv/release: .venv/pip pyproject.toml
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[release]'
+	@touch $@ .venv/demo
+
+.venv-oldest/test: constraints/oldest.txt pyproject.toml
+	@$(OLDEST_PYTHON) -m venv --clear .venv-oldest
+	@.venv-oldest/bin/python -m pip install --quiet --disable-pip-version-check \
+		--constraint constraints/oldest.txt --editable '.[test]'
+	@touch $@
 
 .venv/lint: .venv/pip pyproject.toml
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[lint]'

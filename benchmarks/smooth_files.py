@@ -30,8 +30,8 @@ KEPT = 100  # voxels: no larger component may be lost
 
 def readings(result: Result) -> tuple[float, float, float]:
     """Return three readings of the paper's MSE of volume."""
-    f = np.where(result.fields["data"].values > 0, 1.0, -1.0)
-    phi = smooth(f, Smoothing(steps=result.report["steps"]), method="numpy")
+    f = np.where(result.stages.data.values > 0, 1.0, -1.0)
+    phi = smooth(f, Smoothing(steps=result.report["request"]["steps"]), method="numpy")
     squared = (phi - f) ** 2
     return float(squared.mean()), float(squared[f > 0].mean()), 100 * float(np.abs(np.sign(phi) - f).mean())
 
@@ -67,8 +67,8 @@ def tell(name: str, work) -> None:
         total, kept = kept_components(result)
         problems = "; ".join(report["problems"]) or "none"
         print(
-            f"{name + (', refined' if refine else ''):<26} {' x '.join(map(str, report['grid'])):<16} "
-            f"{kept} of {total}, {report['data']['components']} in all, {report['volume_change']:+.4%}, "
+            f"{name + (', refined' if refine else ''):<26} {' x '.join(map(str, report['grid']['shape'])):<16} "
+            f"{kept} of {total}, {report['topology']['data']['components']} in all, {report['volume_change']:+.4%}, "
             f"{'closed' if surface.closed and surface.volume > 0 else 'NOT CLOSED'}, {taken:.1f} s, {problems}"
         )
 
@@ -78,7 +78,7 @@ def kept_components(result: Result) -> tuple[int, int]:
     from scipy import ndimage
     from scipy.spatial import cKDTree
 
-    data = result.fields["data"]
+    data = result.stages.data
     labels, _ = ndimage.label(data.values > 0)
     cells = np.bincount(labels.ravel())[1:]
     large = np.flatnonzero(cells > KEPT) + 1

@@ -1,4 +1,4 @@
-"""The figures of issue "smooth", speed: ``python -m benchmarks.smooth_speed [--sizes 400,800] [--large]``.
+"""The speed of smoothing: ``python -m benchmarks.smooth_speed [--sizes 400,800] [--large]``.
 
 A binary sphere of 0.8 of the half side, 10 steps, volume in, mesh out, in one process and in turn with its peers.
 VTK is left out where it is not installed.
@@ -57,9 +57,13 @@ def plain_numpy(f: NDArray[np.bool_]) -> int:
     for _ in range(SMOOTHING.steps):
         p = np.pad(phi, 1, mode="edge")
         around = (
-            p[2:, 1:-1, 1:-1] + p[:-2, 1:-1, 1:-1] + p[1:-1, 2:, 1:-1]
-            + p[1:-1, :-2, 1:-1] + p[1:-1, 1:-1, 2:] + p[1:-1, 1:-1, :-2]
-        )  # fmt: skip
+            p[2:, 1:-1, 1:-1]
+            + p[:-2, 1:-1, 1:-1]
+            + p[1:-1, 2:, 1:-1]
+            + p[1:-1, :-2, 1:-1]
+            + p[1:-1, 1:-1, 2:]
+            + p[1:-1, 1:-1, :-2]
+        )
         phi = phi + alpha * (around - 6 * phi)
         phi = phi / np.sqrt(decay + phi**2 * (1 - decay))
         phi = (phi + pull * data) / (1 + pull)
@@ -148,12 +152,20 @@ def compare(n: int, runs: int) -> float:
         vtk.vtkSMPTools.SetBackend(backend)
         own, nets, edges = in_turn([ours, surface_nets, flying_edges], f, runs)
         gain, least = ratio(nets, own), (2.0 if n >= 800 else 1.5) if backend == "Sequential" else 1.0
-        row(f"VTK surface nets, {backend}", f"{statistics.median(nets):.3f} s, {gain:.2f} x ours", f"{least:g} x",
-            holds=gain >= least)  # fmt: skip
+        row(
+            f"VTK surface nets, {backend}",
+            f"{statistics.median(nets):.3f} s, {gain:.2f} x ours",
+            f"{least:g} x",
+            holds=gain >= least,
+        )
         gain = ratio(edges, own)
         judged = n >= 800 and backend == "Sequential"
-        row(f"VTK flying edges on raw data, {backend}", f"{statistics.median(edges):.3f} s, {gain:.2f} x ours",
-            "1 x" if judged else "", holds=gain > 1 if judged else None)  # fmt: skip
+        row(
+            f"VTK flying edges on raw data, {backend}",
+            f"{statistics.median(edges):.3f} s, {gain:.2f} x ours",
+            "1 x" if judged else "",
+            holds=gain > 1 if judged else None,
+        )
     return mine
 
 
@@ -168,8 +180,12 @@ def large(n: int) -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     taken, peak, faces = (float(word) for word in done.stdout.split())
-    row(f"{n}³ int8: {faces:,.0f} triangles in {taken:.1f} s", f"{peak / 2**30:.2f} GiB in all", "12 GiB",
-        holds=peak <= 12 * 2**30)  # fmt: skip
+    row(
+        f"{n}³ int8: {faces:,.0f} triangles in {taken:.1f} s",
+        f"{peak / 2**30:.2f} GiB in all",
+        "12 GiB",
+        holds=peak <= 12 * 2**30,
+    )
 
 
 def main() -> None:

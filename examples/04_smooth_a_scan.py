@@ -26,7 +26,7 @@ def main(folder: Path) -> float:
     scan = bone()  # or: infill.read_volume("scan.nrrd"), or a folder of DICOM
     result = smooth_volume(scan, threshold=300, smoothing=Smoothing(steps=30))
     result.save(folder / "bone.stl")
-    print({name: result.report[name] for name in ("volume_change", "result", "thinnest_wall", "distance")})
+    print({name: result.report[name] for name in ("volume_change", "topology", "walls", "distance")})
     return result.report["volume"]
 
 

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from infill.formats.point_files import read_points
     from infill.formats.volume_files import read_volume
     from infill.grid import Grid
-    from infill.inspection.printability import check
-    from infill.inspection.width import wall_width
+    from infill.inspection.printability import Inspection, check
+    from infill.inspection.width import WallWidth, wall_width
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
@@ -45,7 +45,7 @@ _HOMES = {
     "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
-    "inspection.printability": ("check",),
+    "inspection.printability": ("Inspection", "check"),
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
@@ -57,7 +57,7 @@ _HOMES = {
     "surface": ("Surface",),
     "surfaces.marching": ("isosurface",),
     "volume": ("Volume",),
-    "inspection.width": ("wall_width",),
+    "inspection.width": ("WallWidth", "wall_width"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
@@ -66,6 +66,7 @@ __all__ = [
     "GeometryError",
     "Grid",
     "InfillError",
+    "Inspection",
     "MemoryLimitError",
     "OutputError",
     "ParameterError",
@@ -73,6 +74,7 @@ __all__ = [
     "Smoothing",
     "Surface",
     "Volume",
+    "WallWidth",
     "check",
     "extrude",
     "isosurface",

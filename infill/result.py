@@ -1,15 +1,15 @@
-"""What every product answers with: a mesh, the fields it came from, and a report."""
+"""What every product answers with: named surfaces, a report, and the stages they came from."""
 
 from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from infill.formats.mesh_files import save
 from infill.surface import Surface
@@ -18,33 +18,39 @@ if TYPE_CHECKING:
     import trimesh
 
 Progress = Callable[[str, float], None]
+Stages = TypeVar("Stages", covariant=True)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Result:
-    """A mesh, the fields it came from, and a report.
+class Result(Generic[Stages]):
+    """Surfaces, a report, and the stages they came from.
 
     Parameters
     ----------
-    surface : Surface
-        The mesh as plain arrays, mm.
+    surfaces : mapping of str to Surface
+        The meshes as plain arrays, mm, the main one first. `make` calls its own "block", `smooth` "solid".
     report : dict
-        Plain numbers and strings: what ``--json`` prints.
-    fields : dict
-        By stage: "points" (N, 2) and "lines" in mm, "stamp" and "smoothed" (nx, ny), "grid".
+        Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
+    stages : frozen dataclass
+        What the surfaces came from: `infill.making.stages.MakeStages` or `infill.smoothing.stages.SmoothStages`.
     """
 
-    surface: Surface
+    surfaces: Mapping[str, Surface]
     report: dict[str, Any]
-    fields: dict[str, Any] = field(default_factory=dict, repr=False)
+    stages: Stages = field(repr=False)
+
+    @property
+    def surface(self) -> Surface:
+        """The only or main surface, mm."""
+        return next(iter(self.surfaces.values()))
 
     @cached_property
     def mesh(self) -> trimesh.Trimesh:
-        """The mesh as a trimesh.Trimesh, mm."""
+        """The only or main surface as a trimesh.Trimesh, mm."""
         return self.surface.to_trimesh()
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the mesh, the format by suffix, and return the path."""
+        """Write the only or main surface, the format by suffix, and return the path."""
         return save(self.surface, path)
 
 
@@ -58,8 +64,12 @@ class Clock:
     @contextmanager
     def stage(self, name: str, share: float) -> Iterator[None]:
         """Time what is done inside; `share` is how much of the whole is done when it begins."""
-        if self._progress is not None:
-            self._progress(name, share)
+        self.tell(name, share)
         begin = time.perf_counter()
         yield
         self.seconds[name] = time.perf_counter() - begin
+
+    def tell(self, name: str, share: float) -> None:
+        """Tell whoever watches how much of the whole is done."""
+        if self._progress is not None:
+            self._progress(name, share)

@@ -114,6 +114,17 @@ class Surface:
         """Lower and upper corner, (2, 3), mm."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=np.float64)
 
+    def moved(self, vertices: NDArray[np.floating], *, space: str = "", mirrored: bool = False) -> Surface:
+        """Return the same faces with other vertices (V, 3), turned over if those are mirrored.
+
+        What is known of how the faces hang together stays known.
+        """
+        faces = self.faces[:, ::-1] if mirrored else self.faces
+        other = Surface(vertices=vertices, faces=faces, space=space)
+        if "closed" in self.__dict__:
+            other.__dict__["closed"] = self.closed
+        return other
+
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return the same mesh as a trimesh.Trimesh; vertices are neither merged nor reordered."""
         import trimesh

@@ -1,34 +1,73 @@
-"""Infill patterns: lines in a plane at height z, in millimetres.
+"""Infill patterns: lines in a plane at height z, or level sets in space, in millimetres.
 
-Needs numpy and shapely, and loads them only when lines are asked for. Knows no grid.
+Needs numpy and shapely, and loads them only when lines are asked for; a name is loaded when it is first
+asked for, so that the help of a command does not wait for a catalogue. Knows no grid.
 
 >>> from patterns import PATTERNS
 >>> sorted(PATTERNS.built_in)
 ['concentric-heart', 'honeycomb', 'zigzag']
 """
 
-from patterns.errors import PatternError
-from patterns.heart import ConcentricHeart
-from patterns.honeycomb import Honeycomb
-from patterns.protocol import Parameter, Pattern, check_parameters, in_degrees, lacking, parameter, parameters
-from patterns.registry import PatternWarning, Registry
-from patterns.zigzag import Zigzag
+from __future__ import annotations
 
-PATTERNS = Registry((ConcentricHeart, Zigzag, Honeycomb))
+import importlib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from patterns.catalogue import PATTERNS
+    from patterns.declared import Parameter, check_parameters, parameter, parameters
+    from patterns.errors import PatternError
+    from patterns.given import in_degrees
+    from patterns.heart import ConcentricHeart
+    from patterns.honeycomb import Honeycomb
+    from patterns.protocol import LevelSet, Pattern, gives, lacking
+    from patterns.registry import PatternWarning, Registry
+    from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+    from patterns.zigzag import Zigzag
+
+_HOMES = {
+    "catalogue": ("PATTERNS",),
+    "declared": ("Parameter", "check_parameters", "parameter", "parameters"),
+    "errors": ("PatternError",),
+    "given": ("in_degrees",),
+    "heart": ("ConcentricHeart",),
+    "honeycomb": ("Honeycomb",),
+    "protocol": ("LevelSet", "Pattern", "gives", "lacking"),
+    "registry": ("PatternWarning", "Registry"),
+    "shared": ("angle_parameter", "cell_parameter", "frame_parameter", "phase_parameter"),
+    "zigzag": ("Zigzag",),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "PATTERNS",
     "ConcentricHeart",
     "Honeycomb",
+    "LevelSet",
     "Parameter",
     "Pattern",
     "PatternError",
     "PatternWarning",
     "Registry",
     "Zigzag",
+    "angle_parameter",
+    "cell_parameter",
     "check_parameters",
+    "frame_parameter",
+    "gives",
     "in_degrees",
     "lacking",
     "parameter",
     "parameters",
+    "phase_parameter",
 ]
+
+
+def __getattr__(name: str) -> object:
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'patterns' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"patterns.{_HOME_OF[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

@@ -6,8 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
+from patterns.declared import parameter
 from patterns.errors import PatternError
-from patterns.protocol import Pattern, parameter
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
 
 if TYPE_CHECKING:
     import numpy as np
@@ -53,13 +55,13 @@ class ConcentricHeart(Pattern):
     name: ClassVar[str] = "concentric-heart"
     summary: ClassVar[str] = "nested hearts; lines that follow an outline and never cross"
 
-    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
+    cell: float = cell_parameter()
     hearts: int | None = parameter(
         None, "number of hearts, instead of cell", unit="", low=1, high=1000, whole=True, replaces="cell"
     )
-    angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
-    phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)
-    frame: bool = parameter(False, "a wall around the block", unit="")
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=False)
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
         """Return one closed line per heart, the largest first, and the frame if there is one."""

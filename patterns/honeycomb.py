@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from patterns.protocol import Pattern, parameter
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
 
 if TYPE_CHECKING:
     from shapely import MultiLineString, MultiPolygon, Polygon
@@ -27,10 +28,10 @@ class Honeycomb(Pattern):
     name: ClassVar[str] = "honeycomb"
     summary: ClassVar[str] = "stiff in every direction for little material"
 
-    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
-    angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
-    phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)
-    frame: bool = parameter(True, "a wall around the block", unit="")
+    cell: float = cell_parameter()
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=True)
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
         """Return the walls as segments from node to node, and the frame."""

@@ -1,4 +1,4 @@
-"""Geometry that patterns share: clip, frame, turn, sample."""
+"""Geometry that patterns share: turn, clip, frame, sample."""
 
 from __future__ import annotations
 
@@ -24,6 +24,21 @@ def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
 
+def local(
+    x: NDArray[np.float64], y: NDArray[np.float64], *, angle: float, phase: tuple[float, float]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return where points lie in a pattern that is turned by `angle` radians and then shifted by `phase`, mm.
+
+    A level set of these places is the pattern turned and shifted.
+
+    >>> x, y = local(np.array(1.0), np.array(2.0), angle=math.pi / 2, phase=(1.0, 0.0))
+    >>> round(float(x), 12), round(float(y), 12)
+    (2.0, 0.0)
+    """
+    place = turn(np.stack(np.broadcast_arrays(x - phase[0], y - phase[1]), axis=-1), -angle)
+    return place[..., 0], place[..., 1]
+
+
 def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
     """Return the parts of `lines` inside `region`; touching points are dropped."""
     shapely.prepare(region)
@@ -34,6 +49,15 @@ def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygo
     cut = shapely.get_parts(cut)  # a GeometryCollection nests once
     kept = np.concatenate([candidates[inside], cut[(shapely.get_type_id(cut) == 1) & (shapely.length(cut) > 0)]])
     return MultiLineString(list(kept))
+
+
+def joined(lines: MultiLineString) -> MultiLineString:
+    """Return `lines`, those that share an end in pairs as one: clipping cuts a ring where it begins as well.
+
+    >>> len(joined(MultiLineString([[(0, 0), (1, 0)], [(1, 0), (2, 0)], [(5, 5), (6, 6)]])).geoms)
+    2
+    """
+    return MultiLineString(list(shapely.get_parts(shapely.line_merge(lines))))
 
 
 def framed(lines: MultiLineString, region: Polygon | MultiPolygon) -> MultiLineString:

@@ -1,17 +1,10 @@
-"""What a pattern is: lines in a plane at height z, and points along them.
-
-A pattern is a frozen, keyword-only dataclass whose fields are its parameters. Fields made with
-`parameter` become options of the command line, with their range and unit in ``--help``.
-"""
+"""What a pattern is: lines in a plane at height z, a level set in space, or both."""
 
 from __future__ import annotations
 
-import dataclasses
-import math
-from dataclasses import dataclass
-from numbers import Real
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol, get_args
+from typing import TYPE_CHECKING, ClassVar, Protocol, runtime_checkable
 
+from patterns.declared import check_parameters
 from patterns.errors import PatternError
 
 if TYPE_CHECKING:
@@ -19,135 +12,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-Unit = Literal["mm", "rad", ""]
-
-
-UNITS = get_args(Unit)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Parameter:
-    """Range, unit and meaning of one field of a pattern.
-
-    Attributes
-    ----------
-    help : str
-        One phrase for ``--help``.
-    unit : {"mm", "rad", ""}
-        Lengths are millimetres; angles are radians here and degrees at the command line.
-    low, high : float
-        Both ends belong to the range.
-    whole : bool
-        True for whole numbers.
-    replaces : str
-        The parameter that counts for nothing once this one is given.
-    """
-
-    help: str
-    unit: Unit = "mm"
-    low: float = -math.inf
-    high: float = math.inf
-    whole: bool = False
-    replaces: str = ""
-
-
-def parameter(
-    default: bool | float | tuple[float, ...] | None,
-    help: str,  # noqa: A002 - the word the command line uses
-    *,
-    unit: Unit = "mm",
-    low: float = -math.inf,
-    high: float = math.inf,
-    whole: bool = False,
-    replaces: str = "",
-) -> Any:  # noqa: ANN401 - stands for a field of any type, as dataclasses.field does
-    """Return a dataclass field that carries its `Parameter`.
-
-    Raises
-    ------
-    PatternError
-        For a unit or a default that the command line could not offer.
-    """
-    numbers = default if isinstance(default, tuple) else (default,)
-    if (
-        unit not in UNITS
-        or (unit == "rad" and isinstance(default, tuple))
-        or not all(each is None or isinstance(each, (bool, Real)) for each in numbers)
-    ):
-        raise PatternError(
-            f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
-            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))} (a tuple in rad cannot be)"
-        )
-    described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces)
-    return dataclasses.field(default=default, metadata={"parameter": described})
-
-
-def parameters(pattern: type[Pattern] | Pattern) -> dict[str, tuple[dataclasses.Field[Any], Parameter]]:
-    """Return the described fields of a pattern by name, in the order of the class."""
-    if not dataclasses.is_dataclass(pattern):
-        return {}
-    return {
-        field.name: (field, field.metadata["parameter"])
-        for field in dataclasses.fields(pattern)
-        if "parameter" in field.metadata
-    }
-
-
-def check_parameters(pattern: Pattern) -> None:
-    """Turn the described fields of a pattern into plain numbers, or raise PatternError.
-
-    A number must be finite and in its range, a flag True or False, a tuple as long as its default.
-    """
-    for name, (field, described) in parameters(pattern).items():
-        value = getattr(pattern, name)
-        if value is None and field.default is None:
-            continue
-        if isinstance(field.default, bool):
-            if not isinstance(value, bool):
-                raise PatternError(f"{name} of {pattern.name} is {value!r}; it must be True or False")
-            continue
-        wanted = len(field.default) if isinstance(field.default, tuple) else 1
-        several = list(value) if isinstance(field.default, tuple) and hasattr(value, "__len__") else [value]
-        if len(several) != wanted:
-            raise PatternError(f"{name} of {pattern.name} is {value!r}; it must be {wanted} numbers")
-        numbers = tuple(_checked(pattern, name, described, number) for number in several)
-        object.__setattr__(pattern, name, numbers if isinstance(field.default, tuple) else numbers[0])
-
-
-def _checked(pattern: Pattern, name: str, described: Parameter, number: object) -> float:
-    """Return a number as a plain int or float, or raise PatternError if it is out of its range."""
-    if isinstance(number, bool) or not isinstance(number, Real):
-        raise PatternError(f"{name} of {pattern.name} is {number!r}; it must be a number")
-    value = float(number)
-    if not described.low <= value <= described.high or (described.whole and value != round(value)):
-        in_degrees = math.degrees if described.unit == "rad" else float
-        unit = {"rad": " degrees", "mm": " mm", "": ""}[described.unit]
-        low, high = in_degrees(described.low), in_degrees(described.high)
-        kind = "whole number" if described.whole else "number"
-        raise PatternError(
-            f"{name} of {pattern.name} is {in_degrees(value):.10g}{unit}; "
-            f"it must be a {kind} from {low:g} to {high:g}{unit}"
-        )
-    return int(value) if described.whole else value
-
-
-NEEDED = ("name", "summary", "prismatic", "lines", "points", "line_spacing")
-
-
-def lacking(pattern: object) -> list[str]:
-    """Return what a pattern, or a class of patterns, would need and does not have.
-
-    >>> lacking("honeycomb")[:2]
-    ['name', 'summary']
-    """
-    return [word for word in NEEDED if not hasattr(pattern, word)]
+NEEDED = ("name", "summary", "prismatic", "points", "line_spacing")
+LINES, LEVEL_SET = "lines", "level set"
 
 
 class Pattern(Protocol):
-    """Lines in a plane at height z, in millimetres.
+    """Lines in a plane at height z, or the zero set of a function of x, y and z; millimetres.
 
-    Subclass it (a frozen, keyword-only dataclass is best), give `name`, `summary`, `lines` and
-    `line_spacing`; `points` and the range check of the parameters come for free.
+    Subclass it (a frozen, keyword-only dataclass is best), give `name`, `summary`, `line_spacing`, and
+    `lines` or `level_set` or both. `points`, the lines of a level set and the range check of the
+    parameters come for free.
 
     Attributes
     ----------
@@ -157,6 +31,12 @@ class Pattern(Protocol):
         What the pattern is for, in one phrase.
     prismatic : bool
         True if the lines do not depend on z.
+
+    Notes
+    -----
+    Lines are for what is drawn: strokes, tiles, curves; ends and corners stay as they are given. A level
+    set (see `LevelSet`) is for what is a formula: waves, gyroids; its lines have no ends inside the
+    region and never cross. A pattern that gives both says the same with both.
     """
 
     name: ClassVar[str]
@@ -166,14 +46,30 @@ class Pattern(Protocol):
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
         """Return the centre lines of the walls at height `z`, clipped to `region`.
 
+        A pattern that gives a level set need not write this: the lines are where the level set is zero,
+        found on a grid of a 32nd of `line_spacing`, with every corner put onto the zero set itself. The
+        outline of the region is added if the pattern has a parameter `frame` that is True.
+
         Parameters
         ----------
         region : Polygon or MultiPolygon
             Where lines may lie, mm. Walls reach half a line width beyond it.
         z : float
             Height, mm; a prismatic pattern does not look at it.
+
+        Returns
+        -------
+        MultiLineString
+            mm. Each line becomes a wall of `line width` about it; lines that end or meet, end or meet so in
+            the print.
         """
-        ...
+        from patterns.contours import zero_lines
+        from patterns.linework import clip, framed, joined
+
+        if not isinstance(self, LevelSet):
+            raise PatternError(f"{self.name} gives neither lines nor a level set; give its class one of them")
+        lines = joined(clip(zero_lines(self.level_set, region.bounds, z, self.line_spacing(region)), region))
+        return framed(lines, region) if getattr(self, "frame", False) else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
         """Return the distance, mm, at which neighbouring lines are designed to lie in `region`."""
@@ -205,19 +101,56 @@ class Pattern(Protocol):
         check_parameters(self)
 
 
-def in_degrees(pattern: Pattern) -> dict[str, Any]:
-    """Return the parameters of a pattern that count, by name, angles in degrees."""
-    found = parameters(pattern)
-    values = {name: getattr(pattern, name) for name in found}
-    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
-    turn = {name for name, (_, described) in found.items() if described.unit == "rad" and values[name] is not None}
-    return {
-        name: round(math.degrees(value), 9) if name in turn else _plain(value)
-        for name, value in values.items()
-        if name not in replaced
-    }
+@runtime_checkable
+class LevelSet(Protocol):
+    """What a pattern offers that is a formula; a pattern has it beside `Pattern`, or in place of lines."""
+
+    def level_set(self, x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the value of a continuous function at points in space.
+
+        Parameters
+        ----------
+        x, y, z : float64, of one shape
+            mm.
+
+        Returns
+        -------
+        float64, of that shape
+            Above 0 in one colour of the pattern (the solid, where it is one), below 0 in the other. Where it
+            is 0 lie the walls or the paths. Only the sign and where it changes count, no unit: a distance
+            in mm is as good as a sum of sines.
+        """
+        ...
 
 
-def _plain(value: object) -> object:
-    """Return a list for a tuple: what JSON and TOML give back."""
-    return list(value) if isinstance(value, tuple) else value
+def lines_of(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
+    """Return the lines of a pattern, or raise PatternError that names it: the code of a plug-in may do anything."""
+    try:
+        return pattern.lines(region, z)
+    except Exception as error:
+        if isinstance(error, PatternError):
+            raise
+        said = " ".join(str(error).split())
+        raise PatternError(f"the pattern {pattern.name} failed: {type(error).__name__}: {said}") from error
+
+
+def gives(pattern: object) -> tuple[str, ...]:
+    """Return what a pattern, or a class of patterns, gives of itself: "lines", "level set", or both.
+
+    >>> from patterns import Honeycomb
+    >>> gives(Honeycomb)
+    ('lines',)
+    """
+    kind = pattern if isinstance(pattern, type) else type(pattern)
+    drawn = hasattr(pattern, "lines") and getattr(kind, "lines", None) is not Pattern.lines
+    return (LINES,) * drawn + (LEVEL_SET,) * callable(getattr(pattern, "level_set", None))
+
+
+def lacking(pattern: object) -> list[str]:
+    """Return what a pattern, or a class of patterns, would need and does not have.
+
+    >>> lacking("honeycomb")[:2]
+    ['name', 'summary']
+    """
+    missing = [word for word in NEEDED if not hasattr(pattern, word)]
+    return missing if gives(pattern) else [*missing, "lines or level_set"]

@@ -11,19 +11,15 @@ from __future__ import annotations
 import difflib
 import warnings
 from collections.abc import Callable, Iterator, Mapping
-from importlib.metadata import EntryPoint, entry_points
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from patterns.errors import PatternError
-from patterns.protocol import Pattern, lacking, parameters
+from patterns.protocol import Pattern, lacking
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 GROUP = "infill.patterns"
-# Options of `infill make` that belong to no pattern: a parameter of that name could not be given.
-RESERVED = frozenset({
-    "pattern", "output", "preview", "ascii_stl", "ascii", "force", "config", "save_config", "size", "height",
-    "line_width", "stamp", "cells", "steps", "fidelity", "interface", "alpha", "allow_broken", "max_memory",
-    "dry_run", "as_json", "json", "quiet", "verbose", "help", "parameters",
-})  # fmt: skip
 
 
 class PatternWarning(UserWarning):
@@ -32,13 +28,15 @@ class PatternWarning(UserWarning):
 
 def installed_plugins() -> list[EntryPoint]:
     """Return the entry points of the group, by name."""
+    from importlib.metadata import entry_points
+
     return sorted(entry_points(group=GROUP), key=lambda entry: entry.name)
 
 
 class Registry(Mapping[str, type[Pattern]]):
     """Patterns by name; plug-ins are looked for once, when the registry is first read.
 
-    A plug-in that cannot be imported or made without arguments, is no pattern, or takes a name that is
+    A plug-in that cannot be imported or made without arguments, is not a pattern, or takes a name that is
     in use, is one `PatternWarning` that names it.
     """
 
@@ -98,12 +96,9 @@ def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern
 
 
 def _check_class(pattern: Any, name: str) -> None:  # noqa: ANN401 - whatever a plug-in offers
-    """Raise PatternError if `pattern` is no pattern class that can go by `name`."""
+    """Raise PatternError if `pattern` is not a pattern class that can go by `name`."""
     missing = lacking(pattern)
     if not isinstance(pattern, type) or missing:
         raise PatternError(f"it is not a pattern class ({', '.join(missing) or 'no class'} missing)")
     if pattern.name != name:  # type: ignore[attr-defined]
         raise PatternError(f"its class is named {pattern.name!r}; name both alike")  # type: ignore[attr-defined]
-    clashes = sorted(RESERVED & set(parameters(pattern)))
-    if clashes:
-        raise PatternError(f"its parameter {clashes[0]!r} is an option of every pattern; rename it")

@@ -6,7 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
-from patterns.protocol import Pattern, parameter
+from patterns.declared import parameter
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
 
 if TYPE_CHECKING:
     from shapely import MultiLineString, MultiPolygon, Polygon
@@ -27,7 +29,7 @@ class Zigzag(Pattern):
     name: ClassVar[str] = "zigzag"
     summary: ClassVar[str] = "two crossing waves, drawn in long, nearly straight strokes"
 
-    cell: float = parameter(6.0, "distance between neighbouring lines", low=0.001, high=1e4)
+    cell: float = cell_parameter()
     waves: float | None = parameter(
         None,
         "waves along the diagonal, instead of cell (the paper draws 7.5)",
@@ -36,9 +38,9 @@ class Zigzag(Pattern):
         high=1e4,
         replaces="cell",
     )
-    angle: float = parameter(0.0, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
-    phase: tuple[float, float] = parameter((0.0, 0.0), "shifts the pattern in x and y", low=-1e4, high=1e4)
-    frame: bool = parameter(True, "a wall around the block", unit="")
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=True)
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
         """Return the two waves, clipped, and the frame."""

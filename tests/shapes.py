@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import manifold3d
 import numpy as np
 from shapely import Point, Polygon, box
 
-from patterns import PATTERNS, ConcentricHeart, Honeycomb, Pattern, Zigzag
+from patterns import (
+    PATTERNS,
+    ConcentricHeart,
+    Honeycomb,
+    Pattern,
+    Zigzag,
+    angle_parameter,
+    cell_parameter,
+    frame_parameter,
+    parameter,
+    phase_parameter,
+)
+from patterns.linework import local
 
 DESIGNS: list[Pattern] = [
     Honeycomb(),
@@ -23,6 +36,55 @@ DESIGNS: list[Pattern] = [
     ConcentricHeart(cell=5, frame=True),
     ConcentricHeart(cell=7, phase=(3.0, -2.0)),
 ]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ripples(Pattern):
+    """A level set and nothing else, the same at every height: parallel sine waves, `cell` apart along y."""
+
+    name: ClassVar[str] = "ripples"
+    summary: ClassVar[str] = "parallel waves"
+
+    cell: float = cell_parameter(5.0)
+    swing: float = parameter(1.5, "how far a wave swings", low=0, high=10)
+    period: float = parameter(20.0, "length of a wave", low=1, high=100)
+    mirrored: bool = parameter(False, "waves the other way", unit="")
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=True)
+
+    def level_set(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+        x, y = local(x, y, angle=self.angle, phase=self.phase)
+        swing = -self.swing if self.mirrored else self.swing
+        return np.sin(math.pi * (y - swing * np.sin(2 * math.pi * x / self.period)) / self.cell)
+
+    def line_spacing(self, region: Any) -> float:
+        return self.cell / math.hypot(1, 2 * math.pi * self.swing / self.period)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchwarzP(Pattern):
+    """A level set that changes with height."""
+
+    name: ClassVar[str] = "schwarz-p"
+    summary: ClassVar[str] = "a surface without edges"
+    prismatic: ClassVar[bool] = False
+
+    cell: float = cell_parameter(12.0)
+
+    def level_set(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+        k = 2 * math.pi / self.cell
+        return np.cos(k * x) + np.cos(k * y) + np.cos(k * z)
+
+    def line_spacing(self, region: Any) -> float:
+        return self.cell / 2
+
+
+LEVEL_SETS: list[Pattern] = [
+    Ripples(),
+    Ripples(frame=False, mirrored=True),
+    Ripples(cell=7, angle=0.4, phase=(1.0, -2.0)),
+]
 BUILT_IN = list(PATTERNS.built_in)
 REGIONS: list[Polygon] = [
     box(-30, -30, 30, 30),
@@ -31,7 +93,7 @@ REGIONS: list[Polygon] = [
     Polygon([(0, 0), (40, 5), (30, 35), (15, 12), (2, 30)]),
 ]
 
-# Ten sizes and cells beside the defaults, as in the first issue: uneven, small, large, elongated.
+# Ten sizes and cells beside the defaults: uneven, small, large, elongated.
 SIZES: list[tuple[tuple[float, float], float]] = [
     ((40, 40), 4),
     ((60, 40), 5),

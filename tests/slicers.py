@@ -104,9 +104,18 @@ def prusa_slice(path: Path) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "print.ini").write_text("".join(f"{name} = {value}\n" for name, value in PRUSA_SETTINGS.items()))
         output = _run(
-            folder, path,
-            "prusa-slicer", "--datadir", "data", "--load", "print.ini", "--export-gcode", "-o", "out.gcode", "mesh.stl",
-        )  # fmt: skip
+            folder,
+            path,
+            "prusa-slicer",
+            "--datadir",
+            "data",
+            "--load",
+            "print.ini",
+            "--export-gcode",
+            "-o",
+            "out.gcode",
+            "mesh.stl",
+        )
         gcode = Path(folder, "out.gcode").read_text()
     filament = float(_only(r"^; filament used \[mm\] = ([\d.]+)", gcode))
     return {
@@ -123,11 +132,22 @@ def cura_slice(path: Path) -> dict[str, Any]:
     settings = [word for name, value in CURA_SETTINGS.items() for word in ("-s", f"{name}={value}")]
     with tempfile.TemporaryDirectory() as folder:
         output = _run(
-            folder, path,
-            "CuraEngine", "slice", "-v", "-j", str(definitions / "fdmprinter.def.json"),
-            *settings, "-e0", *settings, "-o", "out.gcode", "-l", "mesh.stl",
+            folder,
+            path,
+            "CuraEngine",
+            "slice",
+            "-v",
+            "-j",
+            str(definitions / "fdmprinter.def.json"),
+            *settings,
+            "-e0",
+            *settings,
+            "-o",
+            "out.gcode",
+            "-l",
+            "mesh.stl",
             CURA_ENGINE_SEARCH_PATH=f"{definitions}:{definitions.parent / 'extruders'}",
-        )  # fmt: skip
+        )
     return {
         "layers": int(_only(r"^Layer count: (\d+)", output)),
         "extruded_mm3": float(_only(r"^Filament \(mm\^3\): ([\d.]+)", output)),

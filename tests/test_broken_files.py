@@ -138,7 +138,10 @@ def test_a_glb_whose_text_is_none_is_one_line(tmp_path: Path) -> None:
 def test_what_data_make_our_lines_raise_is_a_broken_file(error: type[Exception], tmp_path: Path) -> None:
     space: dict[str, Any] = {"__name__": "infill.formats.made_up", "error": error}
     exec("def parse():\n    raise error('no number')", space)
-    with pytest.raises(FormatError, match=r"x.stl is broken or no .stl file \(no number\); save it again"), told_broken(Path("x.stl")):  # fmt: skip
+    with (
+        pytest.raises(FormatError, match=r"x.stl is broken or no .stl file \(no number\); save it again"),
+        told_broken(Path("x.stl")),
+    ):
         space["parse"]()
 
 

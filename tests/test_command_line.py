@@ -2,53 +2,39 @@
 
 from __future__ import annotations
 
-import inspect
 import json
 import os
 import re
 import subprocess
 import sys
-from dataclasses import dataclass
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import entry_points
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
+import numpy as np
 import pytest
-import shapely
+from PIL import Image
+from shapely import box
 from shapes import BUILT_IN
 from typer.testing import CliRunner
 
 import infill
 from infill import ParameterError, read_mesh
-from infill.cli import making
 from infill.cli.app import build
 from infill.cli.console import as_bytes
+from infill.cli.listing import BRAILLE_BLANK
 from infill.cli.words import parse_bytes
 from infill.making.settings import MakeSettings, parse_size, resolve
-from patterns import Pattern, Registry, parameter
-from patterns.registry import RESERVED
+from patterns import PATTERNS, parameters
+from patterns.shared import SHARED
 
-COMMANDS = ["make", "list", "check"]
+COMMANDS = ["make", "smooth", "list", "check"]
 SMALL = ["--size", "20", "--height", "2"]
 RUN = [sys.executable, "-m", "infill.cli"]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Rings(Pattern):
-    name: ClassVar[str] = "rings"
-    summary: ClassVar[str] = "rings about the middle"
-    rings: int = parameter(1, "how many", unit="", low=1, high=9, whole=True)
-
-    def lines(self, region: Any, z: float = 0.0) -> shapely.MultiLineString:
-        middle = shapely.centroid(region)
-        return shapely.MultiLineString([middle.buffer(3.0 * (i + 1)).exterior for i in range(self.rings)])
-
-    def line_spacing(self, region: Any) -> float:
-        return 3.0
-
-
 def run(*words: str | Path) -> Any:
-    return CliRunner().invoke(build(plugins=False), [str(word) for word in words])
+    return CliRunner().invoke(build(), [str(word) for word in words])
 
 
 def plain(text: str) -> str:
@@ -79,10 +65,13 @@ def test_help_has_an_example_and_exits_0(command: str) -> None:
 def test_help_names_every_command() -> None:
     text = plain(run("--help").stdout)
     assert all(command in text for command in COMMANDS)
+    assert {command.name for command in build().registered_commands} == set(COMMANDS)
     assert "Example: infill make" in text
 
 
-@pytest.mark.parametrize("words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]])  # fmt: skip
+@pytest.mark.parametrize(
+    "words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]]
+)
 def test_usage_errors_exit_2(words: list[str]) -> None:
     assert run(*words).exit_code == 2
 
@@ -114,20 +103,90 @@ def test_the_readme_names_every_command() -> None:
 # --- list ------------------------------------------------------------------------------------------------
 
 
-def test_list_shows_each_pattern_with_its_options() -> None:
-    text = run("list").stdout
-    for name in BUILT_IN:
-        assert name in text
-    assert "--waves" in text
+def test_list_is_one_line_a_pattern() -> None:
+    lines = run("list").stdout.splitlines()
+    for name, line in zip(BUILT_IN, lines, strict=False):
+        assert line.split() == [name, *PATTERNS[name].summary.split()]
+    assert lines[len(BUILT_IN) :] == ["'infill list PATTERN' shows one, with its parameters and a picture."]
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_list_shows_one_pattern(name: str) -> None:
+    text = run("list", name).stdout
+    assert text.startswith(f"{name}: {PATTERNS[name].summary}\n  lines, the same at every height\n")
+    for option, (_, described) in parameters(PATTERNS[name]).items():
+        (line,) = [line for line in text.splitlines() if line.split("  ")[1:2] == [_typed(option)]]
+        assert line.endswith(described.help)
+        assert described.range in text
+    assert "6 mm; a number from 0.001 to 10000 mm" in text
+    assert "0 degrees; a number from -180 to 180 degrees" in text
+    assert all(len(line) <= 80 for line in text.splitlines())
+
+
+def _typed(option: str) -> str:
+    return f"--{option}" if option in SHARED else f"--set {option}"
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_list_draws_the_pattern(name: str) -> None:
+    """Dots of braille, as dark at the left as the lines are; blanks and # where stdout has no braille."""
+    drawn = run("list", name).stdout.split("\n\n")[-1].splitlines()
+    assert {len(line) for line in drawn} == {40}
+    assert len(drawn) == 20
+    dots = "".join(drawn)
+    assert all(0x2800 <= ord(character) < 0x2900 for character in dots)
+    assert sum(character != BRAILLE_BLANK for character in dots) / len(dots) > 0.1
+    done = subprocess.run(
+        [*RUN, "list", name], capture_output=True, check=True, env={**os.environ, "PYTHONIOENCODING": "ascii"}
+    )
+    plain_drawing = done.stdout.decode("ascii").split("\n\n")[-1].replace("\r", "").removesuffix("\n").split("\n")
+    assert len(plain_drawing) == 30
+    assert set("".join(plain_drawing)) == {"#", " "}
+
+
+def test_the_drawing_is_the_right_way_up() -> None:
+    """The tip of a heart is at the lower left, its lobes are not."""
+    drawn = run("list", "concentric-heart").stdout.split("\n\n")[-1].splitlines()
+    assert drawn[-1][0] != BRAILLE_BLANK
+    assert drawn[0][0] == drawn[0][-1] == drawn[-1][-1] == BRAILLE_BLANK
+
+
+def test_list_writes_a_picture(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    result = run("list", "concentric-heart", "--preview", path)
+    assert result.stderr == f"wrote {path}\n"
+    with Image.open(path) as picture:
+        assert picture.size == (600, 600)
+        dark = np.asarray(picture.convert("L")) < 128
+    lines = PATTERNS["concentric-heart"]().lines(box(-29.775, -29.775, 29.775, 29.775))
+    assert dark.mean() == pytest.approx(lines.length * 0.45 / 3600, rel=0.05)  # joints and ends
+    assert dark[-20:, :20].any()  # the tip, below
+    assert not dark[:20, :20].any()
+    one_line_error(run("list", "concentric-heart", "--preview", path), "exists; .* --force")
+    assert run("list", "zigzag", "--preview", path, "--force").exit_code == 0
+    one_line_error(run("list", "zigzag", "--preview", tmp_path / "a.jpg"), r"ends in \.png")
+    assert run("list", "--preview", tmp_path / "b.png").exit_code == 2
+
+
+def test_list_names_the_nearest_pattern() -> None:
+    one_line_error(run("list", "honycomb"), "there is no pattern 'honycomb'; did you mean 'honeycomb'")
 
 
 def test_list_as_json() -> None:
     found = json.loads(run("list", "--json").stdout)["patterns"]
     assert set(found) == set(BUILT_IN)
     assert found["honeycomb"]["options"]["angle"] == {
-        "help": "turns the pattern counter-clockwise", "unit": "degrees", "default": 0.0, "low": -180.0, "high": 180.0
-    }  # fmt: skip
+        "help": "turns the pattern counter-clockwise",
+        "unit": "degrees",
+        "default": 0.0,
+        "low": -180.0,
+        "high": 180.0,
+    }
     assert found["zigzag"]["options"]["waves"]["default"] is None
+    assert found["zigzag"]["options"]["phase"]["default"] == [0.0, 0.0]
+    assert found["zigzag"]["prismatic"] is True
+    assert found["zigzag"]["gives"] == ["lines"]
+    assert json.loads(run("list", "zigzag", "--json").stdout) == {"patterns": {"zigzag": found["zigzag"]}}
 
 
 # --- check -----------------------------------------------------------------------------------------------
@@ -163,9 +222,12 @@ def test_check_tells_what_it_cannot_read(tmp_path: Path) -> None:
 # --- make ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", BUILT_IN)
-@pytest.mark.parametrize("suffix", [".stl", ".3mf", ".obj", ".ply", ".glb"])
+@pytest.mark.parametrize(
+    ("name", "suffix"),
+    [*((name, ".stl") for name in BUILT_IN), *((BUILT_IN[0], other) for other in (".3mf", ".obj", ".ply", ".glb"))],
+)
 def test_make_writes_a_closed_mesh(name: str, suffix: str, tmp_path: Path) -> None:
+    """Every pattern, and every format."""
     path = tmp_path / f"block{suffix}"
     result = run("make", name, *SMALL, "-o", path)
     assert result.exit_code == 0, result.output
@@ -179,7 +241,7 @@ def test_make_reports_as_json(tmp_path: Path) -> None:
     result = run("make", "honeycomb", *SMALL, "--angle", "30", "-o", path, "--json")
     report = json.loads(result.stdout)
     assert report["files"] == [str(path)]
-    assert report["parameters"]["angle"] == 30
+    assert report["request"]["parameters"]["angle"] == 30
     assert report["closed"] is True
     assert read_mesh(path).volume == pytest.approx(report["volume"], rel=1e-5)
 
@@ -232,38 +294,13 @@ def test_dry_run_writes_nothing(tmp_path: Path) -> None:
     assert result.exit_code == 0
     assert "1667 x 1400 cells of 0.15 mm" in result.stdout
     assert list(tmp_path.iterdir()) == []
-    facts = json.loads(run(*words, "--json").stdout)
-    assert facts["stl_bytes"] == 50 * facts["triangles"]
-
-
-def test_every_parameter_of_a_pattern_is_an_option() -> None:
-    text = plain(run("make", "--help").stdout)
-    for word in ("--cell", "--waves", "--hearts", "--angle", "--phase", "--frame", "--no-frame"):
-        assert word in text
-    assert "(0.001 to 10000 mm; default: 6)" in text
-    assert "(-180 to 180 degrees; default: 0)" in text
-
-
-def test_a_plugin_brings_its_own_options(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    entry = EntryPoint(name="rings", value=f"{__name__}:Rings", group="infill.patterns")
-    registry = Registry(tuple(infill.making.settings.PATTERNS.built_in.values()), plugins=lambda: [entry])
-    for module in (
-        "infill.cli.app",
-        "infill.cli.making",
-        "infill.cli.listing",
-        "infill.making.settings",
-        "infill.making.request",
-    ):
-        monkeypatch.setattr(f"{module}.PATTERNS", registry)
-    runner = CliRunner()
-    assert "--rings" in plain(runner.invoke(build(), ["make", "--help"]).stdout)
-    done = runner.invoke(build(), ["make", "rings", *SMALL, "--rings", "2", "-o", str(tmp_path / "a.stl")])
-    assert done.exit_code == 0, done.output
-    assert read_mesh(tmp_path / "a.stl").to_trimesh().body_count == 2
-
-
-def test_no_pattern_takes_a_name_that_every_pattern_has() -> None:
-    assert set(inspect.signature(making.make).parameters) - {"own_options"} <= RESERVED
+    path = tmp_path / "a.stl"
+    facts = json.loads(run("make", "zigzag", "--size", "50x40", "-o", path, "--dry-run", "--json").stdout)
+    assert list(tmp_path.iterdir()) == []
+    assert run("make", "zigzag", "--size", "50x40", "-o", path).exit_code == 0
+    report = json.loads(run("make", "zigzag", "--size", "50x40", "-o", path, "--force", "--json").stdout)
+    assert (facts["request"], facts["grid"]) == (report["request"], report["grid"])
+    assert facts["stl_bytes"] == pytest.approx(path.stat().st_size, rel=0.25)  # as near as the plan is
 
 
 # --- settings --------------------------------------------------------------------------------------------
@@ -315,17 +352,25 @@ def test_flags_win_over_the_file(tmp_path: Path) -> None:
     [
         ("size = 20", "no pattern is given"),
         ('pattern = "honeycomb"\nhieght = 3', "no option 'hieght'; did you mean 'height'"),
-        ('pattern = "honeycomb"\nqqq = 3', "no option 'qqq'; it has cell"),
+        ('pattern = "honeycomb"\nqqq = 3', "no option 'qqq'; it has cell, angle"),
+        ("pattern = 3", "pattern is 3; it must be a word"),
+        ('pattern = "honeycomb"\nset = 3', "set is 3; it must be a table"),
+        ('pattern = "honeycomb"\n[set]\nsell = 3', "honeycomb has no parameter 'sell'; did you mean 'cell'"),
+        (
+            'pattern = "honeycomb"\ncell = 5\n[set]\ncell = 6',
+            "cell = 5 in the config file and cell = 6 in .set. of the config file differ",
+        ),
+        ('pattern = "zigzag"\ncell = 5\n[set]\nwaves = 6', "waves replaces cell: leave one out"),
         ('pattern = "honeycomb"\nwaves = 3', "honeycomb has no option 'waves'"),
         ('pattern = "honeycomb"\nheight = "tall"', "height is 'tall'; it must be a number"),
-        ('pattern = "honeycomb"\nframe = 1', "frame is 1; it must be true or false"),
-        ('pattern = "honeycomb"\nphase = [1]', "phase is .1.; it must be 2 numbers"),
+        ('pattern = "honeycomb"\nframe = 1', "frame of honeycomb is 1; it must be true or false"),
+        ('pattern = "honeycomb"\nphase = [1]', "phase of honeycomb is 1 mm; it must be 2 numbers from -10000"),
         ('pattern = "honeycomb"\nstamp = 3', "stamp is 3; it must be a word"),
         ('pattern = "honeycomb"\nsize = [1, 2, 3]', "give millimetres as 60x40"),
-        ('pattern = "honeycomb', "is no TOML"),
-        ('pattern = "honeycomb"\ncell = true', "cell is True; it must be a number"),
+        ('pattern = "honeycomb', "is not TOML"),
+        ('pattern = "honeycomb"\ncell = true', "cell of honeycomb is True; it must be a number from 0.001"),
     ],
-)  # fmt: skip
+)
 def test_a_bad_config_is_one_clear_line(text: str, says: str, tmp_path: Path) -> None:
     config = tmp_path / "a.toml"
     config.write_text(text)
@@ -370,8 +415,11 @@ def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
     assert "cell" not in config.read_text()
     assert resolve({}, config).parameters["hearts"] == 5
     assert resolve({"cell": 8.0}, config).parameters == {
-        "cell": 8.0, "angle": 10.0, "phase": (0.0, 0.0), "frame": False
-    }  # fmt: skip
+        "cell": 8.0,
+        "angle": 10.0,
+        "phase": (0.0, 0.0),
+        "frame": False,
+    }
     config.write_text('pattern = "concentric-heart"\ncell = 8\n')
     assert resolve({"hearts": 2}, config).parameters == {"hearts": 2}
     with pytest.raises(ParameterError, match="hearts replaces cell: leave one out"):
@@ -383,11 +431,17 @@ def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
 BAD = [
     (["honycomb"], "there is no pattern 'honycomb'; did you mean 'honeycomb'"),
     (["qqqq"], "there is no pattern 'qqqq'; there are concentric-heart, zigzag, honeycomb"),
-    *[(["honeycomb", option, value], "finite number above 0")
-      for option in ("--size", "--height", "--line-width") for value in ("0", "-3", "nan", "inf")],
+    *[
+        (["honeycomb", option, value], "finite number above 0")
+        for option in ("--size", "--height", "--line-width")
+        for value in ("0", "-3", "nan", "inf")
+    ],
     (["honeycomb", "--size", "60x0"], "size y is 0 mm; it must be a finite number above 0"),
     (["honeycomb", "--size", "big"], "size is 'big'; give millimetres as 60x40"),
-    *[(["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.001 to 10000 mm") for value in ("0", "-3", "nan", "inf")],
+    *[
+        (["honeycomb", "--cell", value], "cell of honeycomb is .* from 0.001 to 10000 mm")
+        for value in ("0", "-3", "nan", "inf")
+    ],
     (["honeycomb", "--cells", "4"], "no middle cell; use an odd number"),
     (["honeycomb", "--cells", "0"], "whole number of at least 1"),
     (["honeycomb", "--cell", "1.3"], "1.3 mm apart, under 3 line widths .1.35 mm."),
@@ -403,7 +457,7 @@ BAD = [
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
     (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps or more fidelity"),
     (["honeycomb", "--size", "1"], "no room for walls"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[" ".join(words) for words, _ in BAD])
@@ -488,9 +542,12 @@ def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:
     (folder / "METADATA").write_text("Metadata-Version: 2.1\nName: broken\nVersion: 1.0\n")
     (folder / "entry_points.txt").write_text("[infill.patterns]\nbroken = no_such_module:Pattern\n")
     done = subprocess.run(
-        [*RUN, "list"], capture_output=True, encoding="utf-8", check=False,
+        [*RUN, "list"],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
         env={**os.environ, "PYTHONPATH": str(folder.parent)},
-    )  # fmt: skip
+    )
     assert done.returncode == 0
     assert done.stderr.count("\n") == 1
     assert done.stderr.startswith("warning: plug-in pattern 'broken' (no_such_module:Pattern)")

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import os
-import select
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -28,9 +28,13 @@ def limited(words: list[str], size: int) -> subprocess.CompletedProcess[str]:
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
     return subprocess.run(
-        [*RUN, *words], capture_output=True, encoding="utf-8", preexec_fn=limit, check=False,
+        [*RUN, *words],
+        capture_output=True,
+        encoding="utf-8",
+        preexec_fn=limit,
+        check=False,
         env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
-    )  # fmt: skip
+    )
 
 
 @pytest.mark.parametrize("suffix", ["stl", "3mf", "obj", "ply", "glb"])
@@ -71,31 +75,96 @@ def test_a_disk_that_is_full_at_the_last_byte_leaves_no_other_file(tmp_path: Pat
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("delay", [0.05, 0.2, 0.4, 0.8, 1.4])
-def test_ctrl_c_at_any_moment_leaves_no_file(delay: float, tmp_path: Path) -> None:
-    words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "-o", str(tmp_path / "a.stl")]
-    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
-    time.sleep(delay)
-    assert process.poll() is None, "ended before it was interrupted"
-    process.send_signal(signal.SIGINT)
-    _, stderr = process.communicate(timeout=30)
-    assert process.returncode != 0
-    if delay >= 0.8:  # before, Python itself may still be starting
-        assert "Traceback" not in stderr
+# A command that sends itself a signal: at a number of calls of and by our functions, or of calls of any kind since a
+# file of its own began to be written. So every moment can be had, on any machine, however fast it is.
+WATCHED = """
+import os, signal, sys
+
+number, calls, folder = int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]
+sys.argv[1:4] = []
+count, writing = 0, not folder
+
+
+def opened(event, arguments):
+    global writing
+    writing = writing or (event == "open" and arguments[1] == "x" and str(arguments[0]).startswith(folder))
+
+
+def called(frame, event, argument):
+    global count
+    if writing and event in ("call", "c_call") and (folder or frame.f_globals.get("__name__", "").startswith("infill.")):
+        count += 1
+        if count == calls:
+            sys.setprofile(None)
+            assert not folder or os.listdir(folder)
+            os.kill(os.getpid(), number)
+
+
+from infill.cli import main
+
+signal.signal(signal.SIGINT, signal.default_int_handler)  # which a shell takes from what it runs in the background
+sys.addaudithook(opened)
+sys.setprofile(called)
+main()
+sys.setprofile(None)
+print(count)
+"""
+
+
+def watched(
+    words: list[str], *, calls: int = 0, writing: Path | None = None, number: int = signal.SIGINT
+) -> subprocess.CompletedProcess[str]:
+    """Run a command that gets a signal at so many calls, of those since a file in the folder `writing` was opened."""
+    return subprocess.run(
+        [sys.executable, "-c", WATCHED, str(int(number)), str(calls), f"{writing or ''}", *words],
+        capture_output=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+
+def calls_of(words: list[str]) -> int:
+    """Return how many calls a command makes that is not interrupted."""
+    done = watched(words)
+    assert done.returncode == 0, done.stderr
+    return int(done.stdout.split()[-1])
+
+
+def interrupted(words: list[str], *, calls: int, code: int = 130, **options: Any) -> None:
+    """Run a command that gets a signal: it ends by it, in silence."""
+    done = watched(words, calls=calls, **options)
+    assert done.returncode == code, done.stderr
+    assert "Traceback" not in done.stderr
+    assert done.stdout == ""
+
+
+SMALL = ["make", "honeycomb", "--size", "20", "--height", "2", "-q"]
+MOMENTS = [0.02, 0.3, 0.6, 0.8, 0.99]  # of all calls
+
+
+@pytest.fixture(scope="module")
+def calls_of_make(tmp_path_factory: pytest.TempPathFactory) -> int:
+    return calls_of([*SMALL, "-o", str(tmp_path_factory.mktemp("calls") / "a.stl")])
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
+def test_ctrl_c_at_any_moment_leaves_no_file(moment: float, calls_of_make: int, tmp_path: Path) -> None:
+    assert calls_of_make > 100
+    interrupted([*SMALL, "-o", str(tmp_path / "a.stl")], calls=int(moment * calls_of_make))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_command_that_is_left_alone_leaves_its_file(tmp_path: Path) -> None:
+    """So that the tests above and below would see one."""
+    done = watched([*SMALL, "-o", str(tmp_path / "a.stl")], calls=10**9, writing=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["a.stl"]
 
 
 @pytest.mark.parametrize(("number", "code"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 143)])
 def test_a_signal_while_it_writes_leaves_no_file(number: str, code: int, tmp_path: Path) -> None:
-    words = ["make", "honeycomb", "--size", "200", "-o", str(tmp_path / "a.obj")]
-    process = subprocess.Popen([*RUN, *words], stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True)
-    while not list(tmp_path.iterdir()) and process.poll() is None:  # until it writes
-        time.sleep(0.01)
-    assert process.poll() is None
-    process.send_signal(getattr(signal, number))
-    _, stderr = process.communicate(timeout=30)
-    assert process.returncode == code
-    assert "Traceback" not in stderr
+    words = [*SMALL, "-o", str(tmp_path / "a.obj")]
+    interrupted(words, calls=20, writing=tmp_path, number=getattr(signal, number), code=code)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -113,22 +182,19 @@ def test_a_full_stdout_is_told() -> None:
 def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
     """On a terminal there is a bar on stderr; stdout stays clean."""
     leader, follower = pty.openpty()
-    process = subprocess.Popen(
-        [*RUN, "make", "honeycomb", "--size", "60", "--json", "-o", str(tmp_path / "a.stl")],
-        stdout=subprocess.PIPE, stderr=follower, env={**os.environ, "TERM": "xterm"},
-    )  # fmt: skip
+    with open(tmp_path / "report.json", "wb") as stdout:
+        process = subprocess.Popen(
+            [*RUN, "make", "honeycomb", "--size", "60", "--json", "-o", str(tmp_path / "a.stl")],
+            stdout=stdout,
+            stderr=follower,
+            env={**os.environ, "TERM": "xterm"},
+        )
     os.close(follower)
-    stdout, _ = process.communicate(timeout=60)
     shown = b""
-    while select.select([leader], [], [], 0.5)[0]:
-        try:
-            part = os.read(leader, 65536)
-        except OSError:
-            break
-        if not part:
-            break
-        shown += part
+    with contextlib.suppress(OSError):  # which is how the end of a terminal is told on Linux
+        while part := os.read(leader, 65536):
+            shown += part
     os.close(leader)
-    assert process.returncode == 0
+    assert process.wait() == 0
     assert b"smooth" in shown
-    assert math.isfinite(json.loads(stdout)["volume"])
+    assert math.isfinite(json.loads((tmp_path / "report.json").read_text())["volume"])

@@ -122,22 +122,22 @@ def test_check_needs_no_compiler() -> None:
 def test_a_stamp_is_what_a_filter_of_maxima_makes(seed: int, reach: int) -> None:
     from scipy.ndimage import maximum_filter1d
 
-    from infill.voxels.stamping import _widened
+    from infill.voxels.stamping import widened
 
     rng = np.random.default_rng(seed)
     marked = rng.random(rng.integers(1, 9, size=3)) < 0.2
     for axis in range(3):
         expected = maximum_filter1d(marked, 2 * reach + 1, axis=axis, mode="constant")
-        assert np.array_equal(_widened(marked, axis, reach), expected)
+        assert np.array_equal(widened(marked, axis, reach), expected)
 
 
 def test_distances_from_triangles_are_those_of_trimesh(rng: np.random.Generator) -> None:
-    from infill.surfaces.distance import _squared
+    from infill.surfaces.distance import squared
 
     corners, points = rng.normal(size=(4000, 3, 3)), 2 * rng.normal(size=(4000, 3))
     corners[:100, 2] = corners[:100, 1]  # and some without area
     nearest = trimesh.triangles.closest_point(corners[100:], points[100:])
-    found = np.sqrt(_squared(points, corners))
+    found = np.sqrt(squared(points, corners))
     assert found[100:] == pytest.approx(np.linalg.norm(points[100:] - nearest, axis=1), abs=1e-12)
     along = np.linspace(0, 1, 20001)[:, None]
     for n in range(20):

@@ -158,9 +158,12 @@ def test_the_example_before_the_slicer_slices(tmp_path: Path) -> None:
 
 def test_without_models_a_script_says_so(tmp_path: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "examples.paper.fig06_silhouettes", tmp_path, "--small"], cwd=ROOT,
-        env={**os.environ, "INFILL_DATA": str(tmp_path / "none")}, capture_output=True, encoding="utf-8",
-    )  # fmt: skip
+        [sys.executable, "-m", "examples.paper.fig06_silhouettes", tmp_path, "--small"],
+        cwd=ROOT,
+        env={**os.environ, "INFILL_DATA": str(tmp_path / "none")},
+        capture_output=True,
+        encoding="utf-8",
+    )
     assert done.returncode == LEFT_OUT
     assert done.stderr.startswith("error: no models at ")
     assert done.stderr.count("\n") == 1

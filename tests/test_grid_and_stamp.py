@@ -108,9 +108,11 @@ def test_stamping_follows_mirrors(rng: np.random.Generator) -> None:
     assert np.array_equal(stamp(points[:, ::-1], grid), stamp(points, grid).T)
 
 
+@pytest.mark.parametrize("spacing", [0.2, (0.2, 0.3)])
 @pytest.mark.parametrize("angle", [0, 0.1, math.pi / 4, 1.3])
-def test_the_exact_stamp_is_the_clipped_distance(angle: float) -> None:
-    grid = Grid(shape=(60, 50), spacing=0.2, origin=(-6, -5))
+def test_the_exact_stamp_is_the_clipped_distance(angle: float, spacing: float | tuple[float, float]) -> None:
+    """It falls from solid to void over the smaller side of a cell, 0.2 mm."""
+    grid = Grid(shape=(60, 50), spacing=spacing, origin=(-6, -5))
     lines = Honeycomb(cell=4, angle=angle).lines(shapely.box(-5, -4, 5, 4))
     x, y = np.meshgrid(grid.centres(0), grid.centres(1), indexing="ij")
     distance = shapely.distance(shapely.points(x, y), lines)

@@ -186,14 +186,25 @@ def test_files_that_cannot_be_read(name: str, data: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "printable"),
     [
-        ("nasty/20mmbox_CR_line_ends.stl", True), ("nasty/zero_area_triangle.stl", True), ("nasty/unit_cube_1mm.stl", True),
-        ("nasty/nonmanifold.stl", False), ("nasty/cubes_touching_edge.stl", False), ("nasty/triangle_soup.stl", False),
-        ("nasty/huge_150m_inverted.stl", False), ("nasty/multibody_ascii.stl", False), ("nasty/frog_legs_open.obj", False),
-        ("nasty/prusa_extruder-cover_nonmanifold.stl", False), ("printable/bracket_medium.stl", True),
-        ("printable/letter_A.obj", True), ("printable/spur_gear.stl", True), ("printable/voron_door_hinge_x6.stl", True),
-        ("models/bunny_7k.off", True), ("models/bunny_holes_69k.obj", False), ("models/pig_open.stl", False),
+        ("nasty/20mmbox_CR_line_ends.stl", True),
+        ("nasty/zero_area_triangle.stl", True),
+        ("nasty/unit_cube_1mm.stl", True),
+        ("nasty/nonmanifold.stl", False),
+        ("nasty/cubes_touching_edge.stl", False),
+        ("nasty/triangle_soup.stl", False),
+        ("nasty/huge_150m_inverted.stl", False),
+        ("nasty/multibody_ascii.stl", False),
+        ("nasty/frog_legs_open.obj", False),
+        ("nasty/prusa_extruder-cover_nonmanifold.stl", False),
+        ("printable/bracket_medium.stl", True),
+        ("printable/letter_A.obj", True),
+        ("printable/spur_gear.stl", True),
+        ("printable/voron_door_hinge_x6.stl", True),
+        ("models/bunny_7k.off", True),
+        ("models/bunny_holes_69k.obj", False),
+        ("models/pig_open.stl", False),
     ],
-)  # fmt: skip
+)
 def test_real_files(name: str, printable: bool, data: Path) -> None:
     assert check(data / name).printable is printable
 

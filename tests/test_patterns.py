@@ -13,7 +13,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from shapely import box
-from shapes import DESIGNS, REGIONS
+from shapes import DESIGNS, LEVEL_SETS, REGIONS, Ripples
 
 from patterns import (
     PATTERNS,
@@ -24,16 +24,18 @@ from patterns import (
     PatternWarning,
     Registry,
     Zigzag,
+    gives,
     lacking,
     parameters,
 )
 from patterns import parameter as described
 from patterns.heart import outline
 from patterns.linework import bodies, sample
+from patterns.shared import SHARED
 
 ROUNDING = 1e-9  # mm: clipping computes the cut points
 
-every_design = pytest.mark.parametrize("pattern", DESIGNS, ids=repr)
+every_design = pytest.mark.parametrize("pattern", [*DESIGNS, *LEVEL_SETS], ids=repr)
 every_region = pytest.mark.parametrize("region", REGIONS, ids=["square", "rectangle", "disc", "notched"])
 
 
@@ -71,11 +73,16 @@ def test_height_does_not_matter_to_prismatic_patterns(pattern: Pattern) -> None:
 
 @every_design
 def test_patterns_keep_the_protocol(pattern: Pattern) -> None:
-    assert lacking(pattern) == []
-    assert PATTERNS[pattern.name] is type(pattern)
+    assert lacking(pattern) == lacking(type(pattern)) == []
+    assert gives(pattern) == gives(type(pattern))
+    assert set(gives(pattern)) & {"lines", "level set"}
     assert pattern.summary
     assert pattern.line_spacing(REGIONS[0]) > 0
     assert parameters(pattern)
+
+
+def test_every_design_is_in_the_catalogue() -> None:
+    assert {type(pattern) for pattern in DESIGNS} == set(PATTERNS.built_in.values())
 
 
 @every_design
@@ -215,10 +222,23 @@ class Lines(Pattern):
         return 4.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class Clash(Lines):
-    name = "clash"
-    size: float = described(3.0, "a name that is taken")
+class Nothing(Pattern):
+    """Neither lines nor a level set."""
+
+    name = "nothing"
+    summary = "nothing"
+
+    def line_spacing(self, region: shapely.Polygon) -> float:
+        return 4.0
+
+
+class Both(Lines):
+    """Lines and a level set."""
+
+    name = "both"
+
+    def level_set(self, x: np.ndarray, y: np.ndarray, z: np.ndarray) -> np.ndarray:
+        return np.sin(np.pi * x / 4)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -246,10 +266,10 @@ def test_a_plugin_is_a_pattern_like_any_other() -> None:
     ("name", "value", "says"),
     [
         ("gone", "no_such_module:Thing", "ModuleNotFoundError"),
-        ("odd", "math:pi", "no pattern class|not a pattern class"),
+        ("odd", "math:pi", "it is not a pattern class"),
         ("honeycomb", f"{__name__}:Lines", "the name is taken"),
         ("other", f"{__name__}:Lines", "its class is named 'lines'; name both alike"),
-        ("clash", f"{__name__}:Clash", "its parameter 'size' is an option of every pattern"),
+        ("nothing", f"{__name__}:Nothing", "it is not a pattern class (lines or level_set missing)"),
         ("needs", f"{__name__}:Needs", "TypeError"),
     ],
 )
@@ -263,7 +283,39 @@ def test_a_broken_plugin_is_one_warning_that_names_it(name: str, value: str, say
     assert len(caught) == 1
     assert issubclass(caught[0].category, PatternWarning)
     assert name in str(caught[0].message)
-    assert says.split("|")[-1] in str(caught[0].message)
+    assert says in str(caught[0].message)
+
+
+def test_a_level_set_is_a_plugin_like_any_other() -> None:
+    pattern = registry_with(entry("ripples", "shapes:Ripples")).find("ripples")()
+    assert gives(pattern) == ("level set",)
+    assert pattern.points(REGIONS[0], 1.0).shape[1] == 2
+
+
+def test_a_pattern_gives_lines_or_a_level_set_or_both() -> None:
+    assert [gives(kind) for kind in (Lines, Ripples, Both, Nothing)] == [
+        ("lines",),
+        ("level set",),
+        ("lines", "level set"),
+        (),
+    ]
+    assert Both().lines(REGIONS[0]).equals(Lines().lines(REGIONS[0]))  # its own
+    with pytest.raises(PatternError, match="nothing gives neither lines nor a level set"):
+        Nothing().lines(REGIONS[0])
+
+
+def test_a_pattern_need_not_inherit() -> None:
+    """One that only looks like a pattern is as good, as it always was."""
+
+    class Duck:
+        name, summary, prismatic = "duck", "walks like one", True
+
+        def lines(self, region: object, z: float = 0.0) -> None: ...
+        def points(self, region: object, spacing: float, z: float = 0.0) -> None: ...
+        def line_spacing(self, region: object) -> None: ...
+
+    assert lacking(Duck) == lacking(Duck()) == []
+    assert gives(Duck()) == ("lines",)
 
 
 def test_a_plugin_that_quits_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -285,6 +337,47 @@ def test_parameters_carry_their_range() -> None:
     field = described(3, "a number", low=1, high=5)
     assert field.metadata["parameter"].high == 5
     assert parameters(Lines) == {}
+
+
+def test_shared_parameters_are_the_same_everywhere() -> None:
+    """But for their defaults, and in their order."""
+    found = [parameters(kind) for kind in (*PATTERNS.built_in.values(), Ripples)]
+    for name in SHARED:
+        assert len({each[name][1] for each in found}) == 1
+    assert list(parameters(Zigzag)) == ["cell", "waves", "angle", "phase", "frame"]
+    assert not ConcentricHeart().frame
+    assert Zigzag().frame
+
+
+@dataclass(frozen=True, kw_only=True)
+class Open(Lines):
+    name = "open"
+    least: float = described(3.0, "has one end", low=1)
+    most: float = described(3.0, "has one end", high=4, unit="")
+    any_: float = described(3.0, "has none")
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"least": 0.5}, "least of open is 0.5 mm; it must be a number of at least 1 mm"),
+        ({"least": math.inf}, "least of open is inf mm; it must be a number of at least 1 mm"),
+        ({"most": 5}, "most of open is 5; it must be a number of at most 4"),
+        ({"any_": math.nan}, "any_ of open is nan mm; it must be a number"),
+        ({"any_": "3"}, "any_ of open is '3'; it must be a number"),
+    ],
+)
+def test_a_range_with_open_ends_is_told(given: dict[str, object], says: str) -> None:
+    with pytest.raises(PatternError) as caught:
+        Open(**given)
+    assert str(caught.value) == says
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    made = Honeycomb(cell=np.float64(5), phase=np.array([1, 2]))
+    assert made == Honeycomb(cell=5, phase=(1.0, 2.0))
+    with pytest.raises(PatternError, match="it must be 2 numbers from -10000 to 10000 mm"):
+        Honeycomb(phase=np.array(3.0))
 
 
 @pytest.mark.parametrize("angle", [4.0, -4.0, math.nan])

@@ -122,18 +122,38 @@ def test_ply_of_trimesh(encoding: Any, tmp_path: Path) -> None:
         ("a.ply", "ply\n", "header that is broken"),
         ("a.ply", "ply\nformat ascii 1.0\nend_header\n", "no vertices"),
         ("a.ply", "ply\nformat odd 1.0\nend_header\n", "is broken"),
-        ("a.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n2\n", "without x, y and z"),
-        ("a.ply", "ply\nformat ascii 1.0\nelement vertex -2\nproperty float x\nproperty float y\nproperty float z\nend_header\n", "-2 rows"),
-        ("a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n", "holds no points"),
-        ("a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\nproperty float x\nproperty float y\nproperty float z\nend_header\n12", "is cut off"),
-        ("a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 1\nproperty float x\nend_header\n", "face lists in front"),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nend_header\n1\n2\n",
+            "without x, y and z",
+        ),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex -2\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+            "-2 rows",
+        ),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
+            "holds no points",
+        ),
+        (
+            "a.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 99999999999999\nproperty float x\nproperty float y\nproperty float z\nend_header\n12",
+            "is cut off",
+        ),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int i\nelement vertex 1\nproperty float x\nend_header\n",
+            "face lists in front",
+        ),
         ("a.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n", "is broken"),
         ("a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n", "is broken"),
         ("a.npy", "text", "is broken"),
         ("a.stl", "x", r"cannot tell .* use one of \.xyz"),
         ("a", "x", "cannot tell"),
     ],
-)  # fmt: skip
+)
 def test_a_broken_file_is_one_clear_line(name: str, content: str, says: str, tmp_path: Path) -> None:
     path = tmp_path / name
     path.write_text(content)

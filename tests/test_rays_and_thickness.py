@@ -66,7 +66,7 @@ def test_a_large_ball_has_no_walls(radius: float) -> None:
 
 def test_a_ball_of_320_mm_has_no_walls() -> None:
     report = smooth_mesh(trimesh.creation.icosphere(4, radius=160), voxel=4.0).report
-    assert report["thinnest_wall"] == {"data": None, "result": None}
+    assert report["walls"]["thinnest"] == {"data": None, "result": None}
 
 
 @pytest.mark.parametrize("cells", [4, 8, 12, 14, 18, 24])

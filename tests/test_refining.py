@@ -193,11 +193,11 @@ def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
     plain = smooth_volume(solid, smoothing=thirty, allow_broken=True).report
     result = smooth_volume(solid, smoothing=thirty, refine=True)
     assert plain["problems"]
-    assert not plain["refined"]
+    assert not plain["request"]["refine"]
     assert not result.report["problems"]
-    assert result.report["refined"]
-    assert result.report["fidelity"] == 0
-    assert result.report["result"] == result.report["data"]
+    assert result.report["request"]["refine"]
+    assert result.report["request"]["fidelity"] == 0
+    assert result.report["topology"]["result"] == result.report["topology"]["data"]
     assert abs(result.report["volume_change"]) < 1e-4
     assert result.mesh.is_volume
 
@@ -205,12 +205,12 @@ def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
 def test_levels_and_fields_of_a_result_are_those_of_phi() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12.2**2
     at_half = smooth_volume(ball, refine=True, level=0.5)
-    assert at_half.report["level"]["common"] == 0.5
+    assert at_half.report["solid"]["level"]["common"] == 0.5
     values = field_volume(at_half).values
     assert np.abs(values).max() <= 1
     assert (values > 0).sum() == pytest.approx(at_half.mesh.volume, rel=0.03)  # cells counted against a surface
     by_volume = smooth_volume(ball, refine=True)
-    level = by_volume.report["level"]["common"]
+    level = by_volume.report["solid"]["level"]["common"]
     again = smooth_volume(ball, refine=True, level=level)
     assert again.mesh.volume == pytest.approx(by_volume.mesh.volume, rel=1e-4)
 
@@ -226,5 +226,5 @@ def test_despeckle_goes_with_refining() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12**2
     ball[2:4, 2:4, 2:4] = True
     report = smooth_volume(ball, refine=True, despeckle=10).report
-    assert report["despeckled"] == 1
-    assert report["result"]["components"] == 1
+    assert report["input"]["despeckled"] == 1
+    assert report["topology"]["result"]["components"] == 1

@@ -136,7 +136,7 @@ def test_npz_with_several_arrays_wants_a_name(tmp_path: Path) -> None:
         ({"a": np.full((2, 2, 2), "x")}, "type <U1"),
         ({"a": np.zeros((2, 2, 2), "M8[s]")}, "type datetime64"),
     ],
-)  # fmt: skip
+)
 def test_npz_of_something_else_is_one_clear_line(arrays: dict[str, Any], says: str, tmp_path: Path) -> None:
     path = tmp_path / "a.npz"
     np.savez(path, **arrays)
@@ -203,7 +203,9 @@ def test_a_field_read_back_is_the_same(suffix: str, space: str, dtype: Any, tmp_
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("suffix", list(FIELD_WRITERS))
 def test_simpleitk_finds_each_cell_where_we_say(suffix: str, order: Any, sitk: Any, tmp_path: Path) -> None:
-    field = Volume(values=np.asarray(marked(), order=order), spacing=SPACING, origin=(10, -20, 30), direction=turn(), space="LPS")  # fmt: skip
+    field = Volume(
+        values=np.asarray(marked(), order=order), spacing=SPACING, origin=(10, -20, 30), direction=turn(), space="LPS"
+    )
     path = write_field(field, tmp_path / f"a{suffix}")
     if suffix == ".npz":
         image = sitk.GetImageFromArray(np.load(path)["values"].T)
@@ -222,7 +224,7 @@ def test_fields_are_written_whole_or_not(tmp_path: Path, monkeypatch: pytest.Mon
         write_field(field, tmp_path / "a.stl")
     with pytest.raises(FormatError, match="has no suffix"):
         write_field(field, tmp_path / "a")
-    with pytest.raises(OutputError):
+    with pytest.raises(OutputError, match="cannot write .*No such file"):
         write_field(field, tmp_path / "missing" / "a.npz")
 
     def fails(volume: Volume, file: Any) -> None:
@@ -255,9 +257,12 @@ def test_pages_of_tiff_are_z(options: dict[str, Any], dtype: Any, tmp_path: Path
 )
 def test_cell_size_of_imagej(unit: str, size: float, tmp_path: Path) -> None:
     tifffile.imwrite(
-        tmp_path / "a.tif", numbers().T, imagej=True, resolution=(1 / 0.5, 1 / 0.25),
+        tmp_path / "a.tif",
+        numbers().T,
+        imagej=True,
+        resolution=(1 / 0.5, 1 / 0.25),
         metadata={"spacing": 2.0, "unit": unit, "axes": "ZYX"},
-    )  # fmt: skip
+    )
     assert read_volume(tmp_path / "a.tif").spacing == pytest.approx((0.5 * size, 0.25 * size, 2 * size))
 
 
@@ -338,7 +343,7 @@ def test_slices_that_do_not_belong_together(tmp_path: Path) -> None:
         one_line(caught)
     broken = folder("broken", ("1.png", grey)) / "2.png"
     broken.write_bytes((broken.parent / "1.png").read_bytes()[:-30])
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match=r"cannot .*2\.png"):
         read_volume(broken.parent)
 
 
@@ -483,12 +488,17 @@ def write_series(
         page = image[:, :, k]
         place = np.array(image.TransformIndexToPhysicalPoint((0, 0, k))) + shear * k * axes[:, 1]
         tags = {
-            "0008|0060": "CT", "0008|0016": "1.2.840.10008.5.1.4.1.1.2", "0008|0018": f"{uid}.{k}",
-            "0020|000d": "1.2.826.0.1", "0020|000e": uid, "0020|0013": str(k),
+            "0008|0060": "CT",
+            "0008|0016": "1.2.840.10008.5.1.4.1.1.2",
+            "0008|0018": f"{uid}.{k}",
+            "0020|000d": "1.2.826.0.1",
+            "0020|000e": uid,
+            "0020|0013": str(k),
             "0020|0037": "\\".join(f"{x:.10f}" for x in axes[:, :2].T.ravel()),
             "0020|0032": "\\".join(f"{x:.8f}" for x in place),
-            "0028|1052": "-1024", "0028|1053": "1",
-        }  # fmt: skip
+            "0028|1052": "-1024",
+            "0028|1053": "1",
+        }
         for tag, text in tags.items():
             page.SetMetaData(tag, text)
         writer.SetFileName(str(folder / f"{uid[-1]}_{99 - k}.dcm"))
@@ -535,7 +545,30 @@ def test_broken_and_single_dicom_files(sitk: Any, tmp_path: Path) -> None:
     with pytest.raises(FormatError, match="single slice"):
         read_volume(tmp_path / "1_99.dcm")
     (tmp_path / "1_95.dcm").write_bytes((tmp_path / "1_95.dcm").read_bytes()[:-20])
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match="1_95.dcm is broken or cut off"):
+        read_volume(tmp_path)
+    (tmp_path / "1_95.dcm").unlink()
+    with pytest.raises(FormatError, match="missing, doubled"):
+        read_volume(tmp_path)
+
+
+def test_what_is_no_slice_may_lie_beside_slices(sitk: Any, tmp_path: Path) -> None:
+    """A structured report is DICOM too, and no reader of pictures takes it."""
+    write_series(sitk, tmp_path, "1.2.826.0.1.1", image_of(sitk, numbers()))
+    whole = read_volume(tmp_path).values.shape
+    kind = b"1.2.840.10008.5.1.4.1.1.88.11"
+    tag = b"\x02\x00\x02\x00UI" + len(kind).to_bytes(2, "little") + kind
+    (tmp_path / "report.dcm").write_bytes(b"\0" * 128 + b"DICM" + tag + b"nothing else")
+    (tmp_path / "notes.txt").write_text("read me")
+    assert read_volume(tmp_path).values.shape == whole
+
+
+@pytest.mark.parametrize("end", ["1_99.dcm", "1_93.dcm"])
+def test_a_dicom_slice_at_the_end_that_is_cut_off_is_told(end: str, sitk: Any, tmp_path: Path) -> None:
+    """It leaves no gap behind, and a volume of one slice less."""
+    write_series(sitk, tmp_path, "1.2.826.0.1.1", image_of(sitk, numbers()))
+    (tmp_path / end).write_bytes((tmp_path / end).read_bytes()[:-20])
+    with pytest.raises(FormatError, match="cut off|broken|missing"):
         read_volume(tmp_path)
 
 
@@ -610,9 +643,15 @@ def test_reading_arrays_loads_nothing_medical() -> None:
     import subprocess
 
     done = subprocess.run(
-        [sys.executable, "-c", "import infill.formats.volume_files, infill.formats.arrays, json, sys; print(json.dumps(list(sys.modules)))"],
-        capture_output=True, encoding="utf-8", check=True,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-c",
+            "import infill.formats.volume_files, infill.formats.arrays, json, sys; print(json.dumps(list(sys.modules)))",
+        ],
+        capture_output=True,
+        encoding="utf-8",
+        check=True,
+    )
     assert not {"SimpleITK", "tifffile", "PIL", "skimage"} & set(json.loads(done.stdout))
 
 

@@ -61,7 +61,7 @@ def test_a_slicer_prints_every_layer_without_a_warning(
     result, path = design
     sliced = slice_mesh(path)
     assert sliced["messages"] == []
-    assert sliced["layers"] == round(result.report["height"] / slicers.LAYER_HEIGHT) == 20
+    assert sliced["layers"] == round(result.report["request"]["height"] / slicers.LAYER_HEIGHT) == 20
     change = sliced["extruded_mm3"] / result.report["volume"] - 1
     figure = f"{sliced['extruded_mm3']:.0f} mm³ extruded, {change:+.1%} of the mesh's volume"
     print(figure)  # pytest -rP shows it
@@ -123,5 +123,5 @@ def test_a_slicer_reads_a_smoothed_scan_without_repair(refine: bool, tmp_path: P
     info = slicers.prusa_info(path)
     assert info["manifold"]
     assert info["repairs"] == {}
-    assert info["parts"] == result.report["result"]["components"]
+    assert info["parts"] == result.report["topology"]["result"]["components"]
     assert info["volume"] == pytest.approx(result.report["volume"], rel=READ)

@@ -70,11 +70,14 @@ def test_the_level_moves_the_surface() -> None:
 @pytest.mark.parametrize(
     ("volume", "options", "says"),
     [
-        (np.ones((3, 3)), {}, "three axes"), (np.ones((0, 3, 3)), {}, "three axes"), (np.ones((2, 2, 2)), {"level": 1}, "level"),
-        (np.full((2, 2, 2), np.nan), {}, "NaN"), (np.ones((2, 2, 2)), {"origin": (0, 0)}, "origin"),
+        (np.ones((3, 3)), {}, "three axes"),
+        (np.ones((0, 3, 3)), {}, "three axes"),
+        (np.ones((2, 2, 2)), {"level": 1}, "level"),
+        (np.full((2, 2, 2), np.nan), {}, "NaN"),
+        (np.ones((2, 2, 2)), {"origin": (0, 0)}, "origin"),
         (np.ones((2, 2, 2)), {"spacing": -1}, "spacing"),
     ],
-)  # fmt: skip
+)
 def test_bad_volumes_are_refused(volume: np.ndarray, options: dict, says: str) -> None:
     with pytest.raises(ParameterError, match=says):
         isosurface(volume, **options)

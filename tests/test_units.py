@@ -47,7 +47,9 @@ def test_check_and_smooth_say_the_same(
         questioned = "--units m if they are metres" in str(told)
         assert size < 2
     assert questioned == (unit != "mm")
-    assert np.ptp(getattr(read_source(path, units="mm"), "vertices", read_source(path, units="mm")), axis=0).max() == pytest.approx(size)  # fmt: skip
+    assert np.ptp(
+        getattr(read_source(path, units="mm"), "vertices", read_source(path, units="mm")), axis=0
+    ).max() == pytest.approx(size)
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -57,16 +57,22 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         with suppress(ModuleNotFoundError):
             others["windowed sinc (VTK)"] = windowed_sinc(f, 50, 0.02)
         shrunk = {peer: surface.volume / cells - 1 for peer, surface in others.items()}
-        rows.append(Row(
-            what=f"{name}: volume, change, after 10 / {SHOWN} steps",
-            ours=f"{change['0'][10]:+.3%} / {change['0'][SHOWN]:+.3%}; at the level of the volume "
-            f"{change['volume'][SHOWN]:+.4%}",
-            peer=", ".join(f"{peer} {value:+.3%}" for peer, value in shrunk.items()), paper=PICTURE_ONLY,
-        ))  # fmt: skip
-        rows.append(Row(
-            what=f"{name}: mean (φ − f)² after 10 / {SHOWN} steps",
-            ours=f"{spread[10]:.4f} / {spread[SHOWN]:.4f}", peer=f"Choi {mse(waves, f):.4f}",
-        ))  # fmt: skip
+        rows.append(
+            Row(
+                what=f"{name}: volume, change, after 10 / {SHOWN} steps",
+                ours=f"{change['0'][10]:+.3%} / {change['0'][SHOWN]:+.3%}; at the level of the volume "
+                f"{change['volume'][SHOWN]:+.4%}",
+                peer=", ".join(f"{peer} {value:+.3%}" for peer, value in shrunk.items()),
+                paper=PICTURE_ONLY,
+            )
+        )
+        rows.append(
+            Row(
+                what=f"{name}: mean (φ − f)² after 10 / {SHOWN} steps",
+                ours=f"{spread[10]:.4f} / {spread[SHOWN]:.4f}",
+                peer=f"Choi {mse(waves, f):.4f}",
+            )
+        )
         for count in (10, SHOWN):
             numbers[f"{name} volume at {count}"] = change["0"][count]
             numbers[f"{name} volume kept at {count}"] = change["volume"][count]
@@ -78,11 +84,13 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 for which, surface in found.items()
             }
             numbers |= {f"{name} rms, {which}": value for which, value in near.items()}
-            rows.append(Row(
-                what=f"{name}, {SHOWN} steps: distance from the true surface, rms, cells",
-                ours=f"{near['level 0']:.3f}; at the level of the volume {near['level volume']:.3f}",
-                peer=", ".join(f"{peer} {near[peer]:.3f}" for peer in others),
-            ))  # fmt: skip
+            rows.append(
+                Row(
+                    what=f"{name}, {SHOWN} steps: distance from the true surface, rms, cells",
+                    ours=f"{near['level 0']:.3f}; at the level of the volume {near['level volume']:.3f}",
+                    peer=", ".join(f"{peer} {near[peer]:.3f}" for peer in others),
+                )
+            )
     plots.save(figure, folder / "fig07_08.png")
     lost = min(numbers[f"{name} volume at {SHOWN}"] for name in solids)
     most = max(abs(numbers[f"{name} volume kept at {SHOWN}"]) for name in solids)

@@ -46,11 +46,14 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         line[2].plot(0.8 * np.cos(angle), 0.8 * np.sin(angle), "--", color=plots.TRUTH, lw=1, label="sphere")
         line[2].set(xlim=(0.4, 0.9), ylim=(0.2, 0.7))
         told = {name: f"{q.rms:.3f} / {q.normal:.2f}° / {q.parts} / {q.euler}" for name, q in found.items()}
-        rows.append(Row(
-            what=f"{chance:.0%}: distance, rms, cells / normals / pieces / Euler number",
-            ours=f"{told['ours']} (data {told['data']})",
-            peer=", ".join(f"{name} {told[name]}" for name in peers), paper=PICTURE_ONLY,
-        ))  # fmt: skip
+        rows.append(
+            Row(
+                what=f"{chance:.0%}: distance, rms, cells / normals / pieces / Euler number",
+                ours=f"{told['ours']} (data {told['data']})",
+                peer=", ".join(f"{name} {told[name]}" for name in peers),
+                paper=PICTURE_ONLY,
+            )
+        )
         rows.append(Row(what=f"{chance:.0%}: mean (φ − f)²", ours=f"{mse(phi, f):.4f}"))
         numbers |= {f"{chance:.0%} {name} rms": float(q.rms) for name, q in found.items()}
         numbers |= {f"{chance:.0%} {name} normals": float(q.normal) for name, q in found.items()}

@@ -40,12 +40,16 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             for which, surface in {"data": raw, **found}.items()
         }
         told = {which: f"{q.rms:.3f} / {q.normal:.1f}° / {q.volume:+.2f} % / {q.euler}" for which, q in quality.items()}
-        rows.append(Row(
-            paper=PICTURE_ONLY,
-            what=f"{name}: distance, rms, cells / normals / volume / Euler number",
-            ours=f"{told['level 0']} (data {told['data']}, refined {told['refined']})",
-            peer=f"surface nets {told['VTK surface nets']}" if "VTK surface nets" in told else "VTK is not installed",
-        ))  # fmt: skip
+        rows.append(
+            Row(
+                paper=PICTURE_ONLY,
+                what=f"{name}: distance, rms, cells / normals / volume / Euler number",
+                ours=f"{told['level 0']} (data {told['data']}, refined {told['refined']})",
+                peer=f"surface nets {told['VTK surface nets']}"
+                if "VTK surface nets" in told
+                else "VTK is not installed",
+            )
+        )
         numbers |= {f"{name} {which} rms": float(q.rms) for which, q in quality.items()}
         numbers |= {f"{name} {which} Euler": q.euler for which, q in quality.items()}
     plots.legend(figure, axes[0, 2])

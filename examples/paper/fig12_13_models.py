@@ -43,7 +43,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             )
             for level, refine in ((0, False), ("volume", False), ("volume", True))
         )
-        raw, solid = staircase(plain), f > 0
+        raw, solid = staircase(plain.stages), f > 0
         change, held = (result.report["volume_change"] for result in (plain, kept))
         found = [result.report["problems"] for result in (plain, refined)]
         readings = {
@@ -54,9 +54,11 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             "a vertex": mse(phi, f) * f.size / len(raw.vertices),
         }
         plots.show_solids(
-            line[:3], (raw, plain.surface, refined.surface), (f"{name}: data", f"{STEPS} steps, φ = 0", "refined"),
+            line[:3],
+            (raw, plain.surface, refined.surface),
+            (f"{name}: data", f"{STEPS} steps, φ = 0", "refined"),
             view=(math.radians(VIEWS[name]), plots.VIEW[1]),
-        )  # fmt: skip
+        )
         axis = SLICES[name]
         flat = [np.take(field, field.shape[axis] // 2, axis=axis) for field in (phi, f)]
         plots.show_smoothed(line[3], *flat, "slice through the middle", h=h, names=("y" if axis == 0 else "x", "z"))
@@ -64,7 +66,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         choi = surface_of(np.clip(waves, -1, 1)).volume / solid.sum() - 1
         rows += [
             Row(
-                what=f"{name}: {' / '.join(READINGS.values())}", paper=f"{PRINTED[name]:.2f} (Eq. 16, not defined)",
+                what=f"{name}: {' / '.join(READINGS.values())}",
+                paper=f"{PRINTED[name]:.2f} (Eq. 16, not defined)",
                 ours=" / ".join(f"{readings[which]:.2f}" for which in READINGS),
             ),
             Row(
@@ -74,13 +77,14 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             ),
             Row(
                 what=f"{name}: volume, change",
-                ours=f"{change:+.2%}; at the level of the volume {held:+.4%}", peer=f"Choi {choi:+.2%}",
+                ours=f"{change:+.2%}; at the level of the volume {held:+.4%}",
+                peer=f"Choi {choi:+.2%}",
             ),
             Row(
                 what=f"{name}: what broke or vanished",
                 ours=f"{'; '.join(found[0]) or 'nothing'}; refined: {'; '.join(found[1]) or 'nothing'}",
             ),
-        ]  # fmt: skip
+        ]
         numbers |= {f"{name} {which}": value for which, value in readings.items()}
         numbers |= {f"{name} volume": change, f"{name} volume kept": held}
         numbers |= {f"{name} problems": len(found[0]), f"{name} problems, refined": len(found[1])}

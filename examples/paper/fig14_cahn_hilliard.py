@@ -62,13 +62,15 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         spread = {which: mse(one.phi, f) for which, one in found.items()}
         rows += [
             Row(
-                what=f"{name}: MSE, mean (φ − f)²", ours=f"{spread['ours']:.4f}",
+                what=f"{name}: MSE, mean (φ − f)²",
+                ours=f"{spread['ours']:.4f}",
                 paper=f"{PAPER_MSE[name]} (Table 1)" if name in PAPER_MSE else NOT_GIVEN,
                 peer=f"Choi {spread['Choi']:.4f}",
             ),
             Row(
                 what=f"{name}: volume against the voxels without noise",
-                ours=f"{change['ours']:+.2%} (data {change['data']:+.2%})", peer=f"Choi {change['Choi']:+.2%}",
+                ours=f"{change['ours']:+.2%} (data {change['data']:+.2%})",
+                peer=f"Choi {change['Choi']:+.2%}",
             ),
             Row(
                 what=f"{name}: components / Euler number of the surface",
@@ -80,7 +82,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 ours=f"{found['ours'].seconds:.3f}",
                 peer=f"Choi {found['Choi'].seconds:.2f}, {found['Choi'].seconds / found['ours'].seconds:.0f} × ours",
             ),
-        ]  # fmt: skip
+        ]
         for which, one in found.items():
             numbers |= {
                 f"{name}, {which}: mse": spread[which],

@@ -21,20 +21,21 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     rows, numbers = [], {}
     for name, line in zip(DESIGNS, axes, strict=True):
         result, exact = make(name, size=size, height=4), make(name, size=size, height=4, stamp="exact")
-        report, fields, grid = result.report, result.fields, result.fields["grid"]
-        h = report["spacing"]
-        line[0].plot(*fields["points"].T, ",", color="k")
-        plots.named(line[0], f"{name}: {len(fields['points']):,} points", "mm")
+        report, stages, grid = result.report, result.stages, result.stages.grid
+        fields = {"stamp": stages.stamp, "smoothed": stages.smoothed}
+        h = float(grid.cell_size[0])
+        line[0].plot(*stages.points.T, ",", color="k")
+        plots.named(line[0], f"{name}: {len(stages.points):,} points", "mm")
         for ax, which, title in ((line[1], "stamp", "stamped in blocks of 3 × 3"), (line[2], "smoothed", "10 steps")):
             plots.show_field(ax, fields[which], h=h, origin=grid.origin, title=title, unit="mm")
         plots.show_contour(line[2], fields["smoothed"], h=h, origin=grid.origin, label="φ = 0", width=0.8)
         line[0].set(xlim=line[1].get_xlim(), ylim=line[1].get_ylim())
-        plots.show_solids(line[3:], [result.surface], [f"{report['layers']} layers, capped"], unit="mm")
+        plots.show_solids(line[3:], [result.surface], [f"{report['grid']['shape'][2]} layers, capped"], unit="mm")
         bend = {
             which: turning(fields[which]) * 2 * math.pi / (length(fields[which]) * h) for which in ("stamp", "smoothed")
         }
-        bend["exact"] = turning(exact.fields["smoothed"]) * 2 * math.pi / (length(exact.fields["smoothed"]) * h)
-        width, other = report["wall_width"], exact.report["wall_width"]
+        bend["exact"] = turning(exact.stages.smoothed) * 2 * math.pi / (length(exact.stages.smoothed) * h)
+        width, other, counts = report["wall_width"], exact.report["wall_width"], report["topology"]
         rows += [
             Row(
                 what=f"{name}: width of the walls over the line width, mean (5 to 95 %)",
@@ -46,14 +47,15 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 ours=f"{bend['smoothed']:.2f} (stamp {bend['stamp']:.2f}); exact stamp {bend['exact']:.2f}",
             ),
             Row(
-                paper=PICTURE_ONLY, what=f"{name}: closed, components, holes",
+                paper=PICTURE_ONLY,
+                what=f"{name}: closed, components, holes",
                 ours=f"{'closed' if report['closed'] else 'OPEN'}, "
-                f"{report['result']['components']}, {report['result']['holes']} (stamp {report['stamp']['holes']})",
+                f"{counts['result']['components']}, {counts['result']['tunnels']} (stamp {counts['data']['tunnels']})",
             ),
-        ]  # fmt: skip
+        ]
         numbers |= {f"{name} {which} turning": value for which, value in bend.items()}
         numbers |= {f"{name} width": relative(width)["mean"], f"{name} exact width": relative(other)["mean"]}
-        numbers |= {f"{name} holes": report["result"]["holes"], f"{name} closed": float(report["closed"])}
+        numbers |= {f"{name} holes": counts["result"]["tunnels"], f"{name} closed": float(report["closed"])}
     plots.legend(figure, axes[0, 2])
     plots.save(figure, folder / "fig17_18.png")
     widest = max(numbers[f"{name} width"] for name in DESIGNS)
@@ -63,7 +65,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         name="fig17_18",
         title="Figs. 17 and 18: the three patterns",
         setting=(
-            f"Bricks of {size} × {size} × 4 mm, cells of 0.15 mm, lines of 0.45 mm, 3 × 3 stamps, 10 steps, λh² = 0.01."
+            f"Blocks of {size} × {size} × 4 mm, cells of 0.15 mm, lines of 0.45 mm, 3 × 3 stamps, 10 steps, λh² = 0.01."
         ),
         rows=tuple(rows),
         sentence=(

@@ -33,10 +33,10 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         shell = {"voxel": voxel, "shell": WIDTH * voxel, "allow_broken": True}
         result = smooth_points(points, smoothing=Smoothing(steps=STEPS), **shell)
         refined = smooth_points(points, refine=True, **shell)
-        report, raw = result.report, staircase(result)
+        report, raw, counts = result.report, staircase(result.stages), result.report["topology"]
         surfaces = {"data": raw, "ours": result.surface, "refined": refined.surface}
         off = {which: distances(some(surface.vertices), bone) / voxel for which, surface in surfaces.items()}
-        data = result.fields["data"]
+        data = result.stages.data
         with suppress(ModuleNotFoundError):
             surface_nets(np.ones((2, 2, 2)))  # loads
             begin = time.perf_counter()
@@ -47,7 +47,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         unit = "mm" if name != "skull" else ""  # of which the unit is not known
         titles = (f"{name}: narrow volume", f"{STEPS} steps")
         plots.show_solids(line[:2], [raw, result.surface], titles, unit=unit)
-        phi = result.fields["levelled"].against.to_dense() - np.float32(result.fields["levelled"].height)
+        phi = result.stages.levelled.against.to_dense() - np.float32(result.stages.levelled.height)
         axis = int(np.argmin(data.values.shape[:2]))
         flat = [np.take(field, field.shape[axis] // 2, axis=axis) for field in (phi, np.where(data.values, 1.0, -1.0))]
         corner = [data.origin[i] for i in range(3) if i != axis]
@@ -73,8 +73,8 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             Row(
                 what=f"{name}: components, cavities, tunnels; volume, change",
                 paper=PICTURE_ONLY,
-                ours="{components}, {cavities}, {tunnels} ".format(**report["result"])
-                + "(data {components}, {cavities}, {tunnels}); ".format(**report["data"])
+                ours="{components}, {cavities}, {tunnels} ".format(**counts["result"])
+                + "(data {components}, {cavities}, {tunnels}); ".format(**counts["data"])
                 + f"{report['volume_change']:+.4%}",
             ),
             Row(
@@ -83,7 +83,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
                 peer=f"surface nets (VTK) {len(nets.faces):,}, {netted:.1f}" if "nets" in spread else NOT_GIVEN,
             ),
         ]
-        closed_up[name] = sum(report["data"][each] - report["result"][each] for each in ("cavities", "tunnels"))
+        closed_up[name] = sum(counts["data"][each] - counts["result"][each] for each in ("cavities", "tunnels"))
         numbers[f"{name} median"] = float(np.median(np.abs(off["ours"] - WIDTH / 2)))
         numbers |= {f"{name} rms, refined": spread["refined"]}
         numbers |= {f"{name} rms": spread["ours"], f"{name} volume change": report["volume_change"]}

@@ -36,9 +36,9 @@ def turning(phi: Field) -> float:
 
 def area(phi: Field) -> float:
     """Return what the zero contours enclose."""
-    polygons = shapely.get_parts(shapely.build_area(shapely.union_all(
-        [shapely.LinearRing(line) for line in contours(phi) if len(line) > 3]
-    )))  # fmt: skip
+    polygons = shapely.get_parts(
+        shapely.build_area(shapely.union_all([shapely.LinearRing(line) for line in contours(phi) if len(line) > 3]))
+    )
     return float(shapely.area(polygons).sum())
 
 

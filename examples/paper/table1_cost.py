@@ -82,10 +82,13 @@ def main(folder: Path, *, small: bool = False) -> Entry:
     rows = [row for name, cost in costs.items() for row in rows_of(name, cost)]
     for name, power in powers.items():
         told = f"{power:.2f}; {largest[name] / sizes[-1] ** 3 * 1e9:.3g} ns"
-        rows.append(Row(
-            what=f"{name}: exponent of N, n = {fitted[0]} … {fitted[-1]}; time a cell and step at n = {sizes[-1]}",
-            ours=NOT_GIVEN if name in THEIRS else told, peer=told if name in THEIRS else NOT_GIVEN,
-        ))  # fmt: skip
+        rows.append(
+            Row(
+                what=f"{name}: exponent of N, n = {fitted[0]} … {fitted[-1]}; time a cell and step at n = {sizes[-1]}",
+                ours=NOT_GIVEN if name in THEIRS else told,
+                peer=told if name in THEIRS else NOT_GIVEN,
+            )
+        )
     return Entry(
         name="table1",
         title="Table 1: cost and MSE of both methods, and how the cost grows with the grid",
@@ -154,9 +157,11 @@ def rows_of(name: str, cost: Cost) -> Iterator[Row]:
     """Give the rows of one solid."""
     known, taken = PRINTED[name], cost.seconds
     told = f"≈ {round(known.whole_mse / known.mse * 1e8, -4):,.0f}, from the MSE" if known.whole_mse else NOT_GIVEN
-    yield Row(what=f"{name}: vertices of the noisy surface (squares a vertex)", ours=(
-        f"{cost.vertices:,} ({cost.mse * cost.cells / cost.vertices:.2f})"
-    ), paper=f"{told} ({known.mse * 0.08:.2f} on 200³)")  # fmt: skip
+    yield Row(
+        what=f"{name}: vertices of the noisy surface (squares a vertex)",
+        ours=(f"{cost.vertices:,} ({cost.mse * cost.cells / cost.vertices:.2f})"),
+        paper=f"{told} ({known.mse * 0.08:.2f} on 200³)",
+    )
     yield Row(
         what=f"{name}: MSE; a vertex, 1e-8",
         ours=f"{cost.mse:.4f}; {cost.mse / cost.vertices * 1e8:.2f}",

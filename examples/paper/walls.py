@@ -147,10 +147,16 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             ax.set_title(f"fidelity {title}", fontsize=10)
             ax.set_ylabel(name, fontsize=9)
     figure.legend(
-        handles=[Patch(facecolor=colour, edgecolor="k", lw=0.5, label=name) for colour, name in
-                 zip((*COLOURS[::-1], GONE), (*NAMES[::-1], "gone"), strict=True)],
-        loc="outside lower center", ncols=6, fontsize=9, title="left of the thickness", title_fontsize=9,
-    )  # fmt: skip
+        handles=[
+            Patch(facecolor=colour, edgecolor="k", lw=0.5, label=name)
+            for colour, name in zip((*COLOURS[::-1], GONE), (*NAMES[::-1], "gone"), strict=True)
+        ],
+        loc="outside lower center",
+        ncols=6,
+        fontsize=9,
+        title="left of the thickness",
+        title_fontsize=9,
+    )
     plots.save(figure, folder / "walls.png")
 
     cells = (1, 2, 3, 4, 5, 6)

@@ -13,7 +13,6 @@ import sys
 from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
-PLUGIN_COMMANDS = {"make", "list"}
 
 
 def main() -> None:
@@ -56,9 +55,8 @@ def _run() -> None:
     from infill.cli.console import warn
 
     warnings.showwarning = warn
-    # Plug-ins may import anything: only the commands that need them wait for them.
     try:
-        build(plugins=bool(PLUGIN_COMMANDS & set(sys.argv[1:])))()
+        build()()
     except SystemExit as end:
         if end.code:
             raise

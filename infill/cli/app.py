@@ -1,6 +1,6 @@
 """The app: its commands live in modules of their own.
 
-`make` takes its options from the registry of patterns, so a new pattern needs no line here.
+Parameters of patterns go by ``--set name=value``, so a new pattern needs no line here and no place in a help.
 """
 
 from __future__ import annotations
@@ -11,14 +11,13 @@ import typer
 
 from infill.cli.checking import check
 from infill.cli.listing import list_patterns
-from infill.cli.making import make_command
+from infill.cli.making import make
 from infill.cli.smoothing import smooth
 from infill.version import __version__
-from patterns import PATTERNS
 
 
-def build(*, plugins: bool = True) -> typer.Typer:
-    """Return the app; without plug-ins, `make` knows the options of the built-in patterns only."""
+def build() -> typer.Typer:
+    """Return the app."""
     app = typer.Typer(
         name="infill",
         no_args_is_help=True,
@@ -36,12 +35,12 @@ def build(*, plugins: bool = True) -> typer.Typer:
     ) -> None: ...
 
     app.command("make", no_args_is_help=True, epilog="Example: infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf")(
-        make_command(list(PATTERNS.values()) if plugins else list(PATTERNS.built_in.values()))
+        make
     )
     app.command("smooth", no_args_is_help=True, epilog="Example: infill smooth scan.nrrd --threshold 226 -o bone.stl")(
         smooth
     )
-    app.command("list", epilog="Example: infill list --json")(list_patterns)
+    app.command("list", epilog="Example: infill list honeycomb --preview honeycomb.png")(list_patterns)
     app.command("check", no_args_is_help=True, epilog="Example: infill check part.stl --json")(check)
     return app
 

@@ -13,7 +13,7 @@ from typing import Any, TextIO, TypeVar
 import typer
 
 from infill.errors import InfillError
-from patterns import PatternError
+from patterns.errors import PatternError
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 UNITS = ("B", "kB", "MB", "GB")
@@ -95,6 +95,15 @@ def table(rows: Mapping[str, str], title: str = "") -> str:
     width = max(len(name) for name in rows)
     lines = [f"  {name:<{width}}  {text}" for name, text in rows.items()]
     return "\n".join([title, *lines] if title else lines)
+
+
+def can_show(text: str) -> bool:
+    """Say whether stdout has the characters of a text."""
+    try:
+        text.encode(sys.stdout.encoding or "ascii")
+    except (UnicodeEncodeError, LookupError):
+        return False
+    return True
 
 
 def print_json(value: Mapping[str, Any]) -> None:

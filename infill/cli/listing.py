@@ -1,39 +1,93 @@
-"""``infill list``: the patterns, what each is for, and its options."""
+"""``infill list``: the patterns and what each is for; one of them with its parameters and a picture."""
 
 from __future__ import annotations
 
-import math
-from typing import Annotated, Any
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from infill.cli.console import print_json, reports_errors, table
-from patterns import PATTERNS, Pattern, parameters
+from infill.cli.completing import pattern_names
+from infill.cli.console import can_show, print_json, reports_errors, say, table
+
+if TYPE_CHECKING:
+    from patterns import Pattern
+
+BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
 
 @reports_errors
 def list_patterns(
+    pattern: Annotated[
+        str | None,
+        typer.Argument(help="Show this one, with its parameters and a picture.", autocompletion=pattern_names),
+    ] = None,
+    preview: Annotated[
+        Path | None, typer.Option(help="Picture to write of the pattern in its default block: FILE.png.")
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
-    """List the patterns, what each is for, and its options."""
-    described = {name: _described(kind) for name, kind in PATTERNS.items()}
+    """List the patterns and what each is for, or show one of them."""
+    from patterns import PATTERNS
+
+    if pattern is None and preview is not None:
+        raise typer.BadParameter("a preview shows one pattern; name it")
+    kinds = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
+    if preview is not None:
+        _write_preview(kinds[str(pattern)], preview, overwrite=force)
     if as_json:
-        print_json({"patterns": described})
-        return
-    rows = {}
-    for name, facts in described.items():
-        options = ", ".join(f"--{option.replace('_', '-')}" for option in facts["options"])
-        rows[name] = f"{facts['summary']}\n{'':{max(map(len, described)) + 4}}{options}"
-    typer.echo(table(rows))
+        print_json({"patterns": {name: _described(kind) for name, kind in kinds.items()}})
+    elif pattern is None:
+        typer.echo(table({name: kind.summary for name, kind in kinds.items()}))
+        typer.echo("'infill list PATTERN' shows one, with its parameters and a picture.")
+    else:
+        typer.echo(_shown(kinds[pattern]))
+
+
+def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
+    from infill.formats.whole_files import check_targets, deliver
+    from infill.pictures.drawing import write_drawing
+    from infill.pictures.preview import check_preview
+
+    check_targets([check_preview(path)], overwrite=overwrite)
+    deliver({path: partial(write_drawing, kind())})
+    say(f"wrote {path}")
 
 
 def _described(kind: type[Pattern]) -> dict[str, Any]:
-    """Return what a pattern is for and its options, angles in degrees."""
-    options = {}
-    for name, (field, each) in parameters(kind).items():
-        turn = math.degrees if each.unit == "rad" else lambda value: value
-        limits = {end: turn(value) for end, value in (("low", each.low), ("high", each.high)) if math.isfinite(value)}
-        default = turn(field.default) if isinstance(field.default, float) else field.default
-        unit = "degrees" if each.unit == "rad" else each.unit
-        options[name] = {"help": each.help, "unit": unit, "default": default, **limits}
-    return {"summary": kind.summary, "prismatic": kind.prismatic, "options": options}
+    """Return what a pattern is for, what it gives, and its parameters, angles in degrees."""
+    from patterns import gives
+    from patterns.given import descriptions
+
+    return {
+        "summary": kind.summary,
+        "prismatic": kind.prismatic,
+        "gives": list(gives(kind)),
+        "options": descriptions(kind),
+    }
+
+
+def _shown(kind: type[Pattern]) -> str:
+    """Return a pattern for a terminal: what it is, its parameters, a picture."""
+    from infill.pictures.drawing import text_drawing
+    from patterns import gives, parameters
+    from patterns.declared import wanted
+    from patterns.given import default_text
+    from patterns.shared import SHARED
+
+    heights = "the same at every height" if kind.prismatic else "changing with height"
+    title = f"{kind.name}: {kind.summary}\n  {' and '.join(gives(kind))}, {heights}\n"
+    drawing = text_drawing(kind(), braille=can_show(BRAILLE_BLANK))
+    found = parameters(kind)
+    if not found:
+        return f"{title}\n{drawing}"
+    flags = {name: name.replace("_", "-") for name in found}
+    words = {name: f"--{flag}" if name in SHARED else f"--set {flag}" for name, flag in flags.items()}
+    indent = " " * (max(map(len, words.values())) + 4)
+    rows = {
+        words[name]: f"{described.help}\n{indent}{default_text(found[name])}; {wanted(field.default, described)}"
+        for name, (field, described) in found.items()
+    }
+    return "\n".join([table(rows, title=title), "", drawing])

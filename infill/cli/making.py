@@ -2,47 +2,25 @@
 
 from __future__ import annotations
 
-import inspect
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, BinaryIO
 
 import typer
 
+from infill.cli.completing import pattern_assignments, pattern_names
 from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
-from patterns import PATTERNS, Parameter, Pattern, parameters
 
-BLOCK, FILES, RUN = "Block", "Files", "Run"
-
-
-def make_command(patterns: Sequence[type[Pattern]]) -> Callable[..., None]:
-    """Return the command, its options those of `make` and of all `patterns`."""
-    own = _pattern_options(patterns)
-
-    def command(**options: Any) -> None:  # noqa: ANN401 - the signature below
-        own_options = {name: options.pop(name) for name in own}
-        make(own_options=own_options, **options)
-
-    signature = inspect.signature(make, eval_str=True)
-    common = [each for name, each in signature.parameters.items() if name != "own_options"]
-    merged = [*common, *own.values()]
-    command.__doc__ = make.__doc__
-    command.__signature__ = signature.replace(parameters=merged)  # type: ignore[attr-defined]
-    command.__annotations__ = {each.name: each.annotation for each in merged}
-    return reports_errors(command)
+BLOCK, FILES, PATTERN, RUN = "Block", "Files", "Pattern", "Run"
 
 
-def _names(incomplete: str) -> list[str]:
-    return [name for name in PATTERNS if name.startswith(incomplete)]
-
-
+@reports_errors
 def make(
     *,
     pattern: Annotated[
         str | None,
-        typer.Argument(help="Name of the pattern: 'infill list' shows all.", autocompletion=_names),
+        typer.Argument(help="Name of the pattern: 'infill list' shows all.", autocompletion=pattern_names),
     ] = None,
     output: Annotated[
         list[Path] | None,
@@ -67,6 +45,35 @@ def make(
         Path | None,
         typer.Option(help="TOML file to write all options to, as resolved.", rich_help_panel=FILES),
     ] = None,
+    cell: Annotated[
+        float | None,
+        typer.Option(help="Distance between neighbouring lines, mm.", rich_help_panel=PATTERN),
+    ] = None,
+    angle: Annotated[
+        float | None,
+        typer.Option(help="Turns the pattern counter-clockwise, degrees.", rich_help_panel=PATTERN),
+    ] = None,
+    phase: Annotated[
+        tuple[float, float] | None,
+        typer.Option(metavar="X Y", help="Shifts the pattern in x and y, mm.", rich_help_panel=PATTERN),
+    ] = None,
+    frame: Annotated[
+        bool | None,
+        typer.Option("--frame/--no-frame", help="A wall around the block.", rich_help_panel=PATTERN),
+    ] = None,
+    assigned: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE",
+            help="Any parameter of the pattern; may be given again. 'infill list PATTERN' shows them all, with their "
+            "ranges and defaults.",
+            autocompletion=pattern_assignments,
+            rich_help_panel=PATTERN,
+        ),
+    ] = None,
+    waves: Annotated[float | None, typer.Option(hidden=True)] = None,
+    hearts: Annotated[int | None, typer.Option(hidden=True)] = None,
     size: Annotated[
         str | None,
         typer.Option(help="Block in x and y, mm: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK),
@@ -122,7 +129,6 @@ def make(
     ] = False,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but errors.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
-    own_options: dict[str, Any],
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
     from infill.cli.words import parse_bytes
@@ -130,14 +136,28 @@ def make(
     from infill.formats.whole_files import check_targets, deliver
     from infill.making.settings import resolve
 
-    common = {
-        "pattern": pattern, "size": size, "height": height, "line_width": line_width, "stamp": stamp, "cells": cells,
-        "steps": steps, "fidelity": fidelity, "interface": interface, "alpha": alpha,
-    }  # fmt: skip
+    flags = {
+        "pattern": pattern,
+        "size": size,
+        "height": height,
+        "line_width": line_width,
+        "stamp": stamp,
+        "cells": cells,
+        "steps": steps,
+        "fidelity": fidelity,
+        "interface": interface,
+        "alpha": alpha,
+        "cell": cell,
+        "angle": angle,
+        "phase": phase,
+        "frame": frame,
+        "waves": waves,
+        "hearts": hearts,
+    }
     outputs = output or []
     if not (outputs or preview or save_config or dry_run or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
-    settings = resolve({**common, **own_options}, config)
+    settings = resolve(flags, config, assigned or [])
     limit = None if max_memory is None else parse_bytes(max_memory)
     for path in outputs:
         writer(path, ascii=ascii_stl)
@@ -181,7 +201,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
         print_json(facts)
         return
     rows = {
-        "grid": f"{' x '.join(map(str, facts['grid']))} cells of {facts['spacing']:.4g} mm",
+        "grid": f"{' x '.join(map(str, block.grid.shape))} cells of {facts['grid']['spacing'][0]:.4g} mm",
         "memory": f"about {as_bytes(block.memory)}",
         "triangles": f"about {block.triangles:,}",
         "binary STL": f"about {as_bytes(block.stl_bytes)}",
@@ -191,8 +211,9 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
 
 def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     """Return the short table on stderr."""
+    request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
-    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
+    size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
     measured = (
         "not measured: no wall stands clear of others"
         if width["mean"] is None
@@ -201,10 +222,10 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     )
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
-        f"{report['components']} component(s), Euler number {report['euler_number']}",
+        f"{report['components']} component(s), Euler number {report['mesh']['euler_number']}",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
-        "smoothing": f"{report['steps']} steps, fidelity {report['fidelity']:g}, "
+        "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
         f"volume {report['volume_change']:+.2%} (rims apart)",
     }
     if change["pinholes"]:
@@ -213,56 +234,10 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
-        rows["grid"] = f"{' x '.join(map(str, report['grid']))} cells of {report['spacing']:.4g} mm"
-        for name in ("stamp", "result"):
-            counts = report[name]
-            rows[name] = f"{counts['components']} component(s), {counts['holes']} holes"
+        rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {grid['spacing'][0]:.4g} mm"
+        for name, counts in (("stamp", topology["data"]), ("result", topology["result"])):
+            rows[name] = f"{counts['components']} component(s), {counts['tunnels']} holes"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return table(rows, title=f"{report['pattern']}, {size} mm")
-
-
-def _pattern_options(patterns: Sequence[type[Pattern]]) -> dict[str, inspect.Parameter]:
-    """Return one keyword per parameter of any pattern; patterns that share a name share the option."""
-    found: dict[str, list[tuple[str, Any, Parameter]]] = {}
-    for kind in patterns:
-        for name, (field, described) in parameters(kind).items():
-            found.setdefault(name, []).append((kind.name, field, described))
-    return {name: _option(name, uses, everyone=len(uses) == len(patterns)) for name, uses in found.items()}
-
-
-def _option(name: str, uses: list[tuple[str, Any, Parameter]], *, everyone: bool) -> inspect.Parameter:
-    field = uses[0][1]
-    texts: dict[str, list[str]] = {}
-    for pattern, each_field, each in uses:
-        texts.setdefault(f"{each.help} {_range(each, each_field.default)}", []).append(pattern)
-    shared = everyone and len(texts) == 1
-    text = " ".join(f"{what}." if shared else f"{', '.join(names)}: {what}." for what, names in texts.items())
-    word = name.replace("_", "-")
-    flag = f"--{word}/--no-{word}" if isinstance(field.default, bool) else f"--{word}"
-    kinds: dict[type, Any] = {bool: bool, tuple: tuple}
-    kind = kinds.get(type(field.default), int if uses[0][2].whole else float)
-    if kind is tuple:
-        kind = tuple.__class_getitem__((float,) * len(field.default))
-    option = typer.Option(flag, help=text, rich_help_panel="Pattern", show_default=False)
-    return inspect.Parameter(
-        name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Annotated[kind | None, option]
-    )
-
-
-def _range(described: Parameter, default: object) -> str:
-    """Return range, unit and default for ``--help``."""
-    degrees = described.unit == "rad"
-    low, high = (math.degrees(end) if degrees else end for end in (described.low, described.high))
-    unit = {"rad": "degrees", "mm": "mm", "": ""}[described.unit]
-    parts = []
-    if math.isfinite(low) and math.isfinite(high):
-        parts.append(f"{low:g} to {high:g} {unit}".rstrip())
-    if isinstance(default, bool):
-        parts.append(f"default: {'on' if default else 'off'}")
-    elif isinstance(default, tuple):
-        parts.append(f"default: {' '.join(f'{each:g}' for each in default)}")
-    elif default is not None:
-        parts.append(f"default: {math.degrees(default) if degrees else default:g}")  # type: ignore[arg-type]
-    return f"({'; '.join(parts)})"
+    return table(rows, title=f"{request['pattern']}, {size} mm")

@@ -13,6 +13,7 @@ from infill.cli.console import as_bytes, log_said, print_json, progress_bar, rep
 
 if TYPE_CHECKING:
     from infill.result import Result
+    from infill.smoothing.stages import SmoothStages
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
 
@@ -174,24 +175,38 @@ def smooth(
             progress("read", 0.0)
         with log_said(shown=not quiet):
             given = read_source(
-                source, kind=kind, units=units, array=array, series=series,
+                source,
+                kind=kind,
+                units=units,
+                array=array,
+                series=series,
                 spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
-            )  # fmt: skip
+            )
         from infill.smoothing.placing import field_volume
 
         held = {} if fidelity is None else {"fidelity": fidelity}
         with log_said(shown=not quiet):
             result = smooth_source(
                 given,
-                resolution=resolution, voxel=voxel, shell=shell, threshold=threshold,
+                resolution=resolution,
+                voxel=voxel,
+                shell=shell,
+                threshold=threshold,
                 between=None if between is None else parse_numbers("range", between, (2,)),
-                label=tuple(label) if label else None, otsu=otsu, grey=grey,
+                label=tuple(label) if label else None,
+                otsu=otsu,
+                grey=grey,
                 smoothing=Smoothing(steps=steps, interface=interface, **held),
                 refine=refine,
                 level=parse_level(level),
-                despeckle=despeckle, allow_broken=allow_broken, tolerance=tolerance, max_triangles=max_triangles,
-                threads=threads, max_memory=None if max_memory is None else parse_bytes(max_memory), progress=progress,
-            )  # fmt: skip
+                despeckle=despeckle,
+                allow_broken=allow_broken,
+                tolerance=tolerance,
+                max_triangles=max_triangles,
+                threads=threads,
+                max_memory=None if max_memory is None else parse_bytes(max_memory),
+                progress=progress,
+            )
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -211,20 +226,21 @@ def smooth(
         print_json({**result.report, "files": written})
 
 
-def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> str:
+def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbose: bool) -> str:
     """Return the short table on stderr."""
     report: dict[str, Any] = result.report
-    now, was, level, change = report["result"], report["data"], report["level"], report["changes"]
+    request, grid, level, change = report["request"], report["grid"], report["solid"]["level"], report["changes"]
+    now, was = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     moved = report["distance"]
     own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
-    how = ", refined" if report["refined"] else f", fidelity {report['fidelity']:g}"
+    how = ", refined" if request["refine"] else f", fidelity {request['fidelity']:g}"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
         "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+.4%} of the data, "
         f"at level {level['common']:.3f}{own}",
-        "smoothing": f"{report['steps']} steps{how}, "
-        f"{' x '.join(map(str, report['grid']))} voxels of {' x '.join(f'{h:.4g}' for h in report['spacing'])} mm",
+        "smoothing": f"{request['steps']} steps{how}, "
+        f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
         "distance": f"{moved['result']['rms']:.3g} mm rms, {moved['result']['max']:.3g} mm at most, "
@@ -233,10 +249,9 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
     gone = change["vanished_thin"]
     if gone:
         rows["gone"] = f"{gone} specks or flakes one voxel thick"
-    if report["despeckled"]:
-        rows["despeckled"] = f"{report['despeckled']} components taken out"
-    if "simplified" in report:
-        cost = report["simplified"]
+    if specks := report["input"]["despeckled"]:
+        rows["despeckled"] = f"{specks} components taken out"
+    if cost := report["mesh"].get("simplified"):
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
             f"volume {cost['volume_change']:+.4%}, {cost['shells']} shell(s)"
@@ -244,7 +259,7 @@ def _summary(result: Result, files: list[str], name: str, *, verbose: bool) -> s
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
-        thin = report["thinnest_wall"]
+        thin = report["walls"]["thinnest"]
         rows["thinnest wall"] = " -> ".join("none" if x is None else f"{x:.3g} mm" for x in thin.values())
         rows["Euler number"] = f"{was['euler_number']} -> {now['euler_number']}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())

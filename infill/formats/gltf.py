@@ -53,8 +53,14 @@ def write_glb(surface: Surface, file: BinaryIO) -> None:
         "nodes": [{"mesh": 0, "scale": [MILLIMETRE] * 3}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "accessors": [
-            {"bufferView": 0, "componentType": FLOAT, "count": len(vertices), "type": "VEC3",
-             "min": vertices.min(axis=0).tolist(), "max": vertices.max(axis=0).tolist()},
+            {
+                "bufferView": 0,
+                "componentType": FLOAT,
+                "count": len(vertices),
+                "type": "VEC3",
+                "min": vertices.min(axis=0).tolist(),
+                "max": vertices.max(axis=0).tolist(),
+            },
             {"bufferView": 1, "componentType": UNSIGNED, "count": faces.size, "type": "SCALAR"},
         ],
         "bufferViews": [
@@ -62,7 +68,7 @@ def write_glb(surface: Surface, file: BinaryIO) -> None:
             {"buffer": 0, "byteOffset": parts[0], "byteLength": parts[1], "target": INDICES},
         ],
         "buffers": [{"byteLength": sum(parts)}],
-    }  # fmt: skip
+    }
     text = json.dumps(described, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
     file.write(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + sum(parts)))

@@ -22,11 +22,22 @@ from infill.volume import AXES, Volume
 
 UNEVEN = 0.05  # of a slice: how far DICOM slices may lie from even steps
 POSITION = "0020|0032"
+HEAD = 1024  # bytes in which the storage class stands
+STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian as all of that header is
 USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # of the headers that SimpleITK tells
 NRRD_TYPES = {
-    "b1": "uint8", "i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32", "u4": "uint32",
-    "i8": "int64", "u8": "uint64", "f4": "float", "f8": "double",
-}  # fmt: skip
+    "b1": "uint8",
+    "i1": "int8",
+    "u1": "uint8",
+    "i2": "int16",
+    "u2": "uint16",
+    "i4": "int32",
+    "u4": "uint32",
+    "i8": "int64",
+    "u8": "uint64",
+    "f4": "float",
+    "f8": "double",
+}
 NRRD_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
 
 
@@ -143,6 +154,7 @@ def read_dicom(folder: Path, series: str | None) -> Volume:
         }
     if not found:
         raise FormatError(f"{folder} holds no DICOM series and no .tif or .png slices; give the folder with the slices")
+    _require_whole_slices(folder, {name for names in found.values() for name in names})
     listed = ", ".join(f"{each} ({len(names)} slices)" for each, names in found.items())
     if series is None and len(found) > 1:
         raise FormatError(
@@ -165,6 +177,29 @@ def read_dicom(folder: Path, series: str | None) -> Volume:
         raise FormatError(f"{folder} holds slices that do not say where they lie; save the stack as a volume")
     _require_even(folder, image, places)
     return _placed(sitk, folder, image, "LPS")
+
+
+def _require_whole_slices(folder: Path, listed: set[str]) -> None:
+    """Raise FormatError for slices that the search for series left out without a word, as it does if they are cut off.
+
+    Told from reports, plans and other objects without pixels, which may lie beside them, by their storage class.
+    """
+    kinds = {_storage_class(Path(name)) for name in listed} - {b""}
+    names = {Path(name).name for name in listed}
+    for path in sorted(folder.iterdir()):
+        if path.is_file() and path.name not in names and _storage_class(path) in kinds:
+            raise FormatError(f"{path} is broken or cut off, and its slice would be missing; copy the folder again")
+
+
+def _storage_class(path: Path) -> bytes:
+    """Return the UID that says what a DICOM file holds, CT slices or a report; nothing for other files."""
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    at = head.find(STORAGE_CLASS)
+    if head[128:132] != b"DICM" or at < 0:
+        return b""
+    begin = at + len(STORAGE_CLASS) + 2
+    return head[begin : begin + int.from_bytes(head[begin - 2 : begin], "little")].rstrip(b"\0")
 
 
 def _series_bytes(sitk: ModuleType, names: tuple[str, ...]) -> int:

@@ -21,9 +21,21 @@ from infill.volume import AXES, Volume
 SLICES = {".tif", ".tiff", ".png"}
 GREY_MODES = {"1", "L", "I", "I;16", "I;16L", "I;16B", "F"}
 MILLIMETRES = {
-    "nm": 1e-6, "µm": 1e-3, "μm": 1e-3, "um": 1e-3, "\\u00b5m": 1e-3, "micron": 1e-3, "microns": 1e-3,
-    "micrometer": 1e-3, "mm": 1.0, "millimeter": 1.0, "cm": 10.0, "centimeter": 10.0, "inch": 25.4, "m": 1e3,
-}  # fmt: skip
+    "nm": 1e-6,
+    "µm": 1e-3,
+    "μm": 1e-3,
+    "um": 1e-3,
+    "\\u00b5m": 1e-3,
+    "micron": 1e-3,
+    "microns": 1e-3,
+    "micrometer": 1e-3,
+    "mm": 1.0,
+    "millimeter": 1.0,
+    "cm": 10.0,
+    "centimeter": 10.0,
+    "inch": 25.4,
+    "m": 1e3,
+}
 
 
 @contextlib.contextmanager

@@ -6,6 +6,7 @@ import contextlib
 import errno
 import os
 import secrets
+import shutil
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO
@@ -82,10 +83,9 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
             for target, file in zip(targets, files, strict=True):
                 with told(target):
                     file.close()  # the last bytes go out, or do not
-        for target, partial in zip(targets, partials, strict=True):
-            if partial != target:
-                with told(target):
-                    os.replace(partial, target)
+        _take_places(
+            [(partial, target) for partial, target in zip(partials, targets, strict=True) if partial != target]
+        )
     finally:
         for target, partial in zip(targets, partials, strict=True):
             if partial != target:
@@ -116,6 +116,42 @@ def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
             with told(path):
                 parts[path](file)
     return paths
+
+
+def _take_places(moves: Sequence[tuple[Path, Path]]) -> None:
+    """Put each file in the place of its target; if one cannot take it, all targets are as they were."""
+    old: list[tuple[Path, Path | None]] = []
+    try:
+        for partial, target in moves:
+            with told(target):
+                if len(moves) > 1:
+                    old.append((target, _kept(target)))
+                os.replace(partial, target)
+    except BaseException:
+        for target, kept in reversed(old):
+            with contextlib.suppress(OSError):
+                if kept is None:
+                    target.unlink(missing_ok=True)
+                else:
+                    os.replace(kept, target)
+        raise
+    finally:
+        for _, kept in old:
+            if kept is not None:
+                with contextlib.suppress(OSError):
+                    kept.unlink(missing_ok=True)
+
+
+def _kept(target: Path) -> Path | None:
+    """Return a second name for what is at a target, or None if nothing is."""
+    if not target.exists():
+        return None
+    kept = target.with_name(f".{secrets.token_hex(4)}.kept")
+    try:
+        os.link(target, kept)
+    except OSError:  # a file system without links
+        shutil.copy2(target, kept)
+    return kept
 
 
 def _partial(target: Path) -> Path:

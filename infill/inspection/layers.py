@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.grid import VOID
+from infill.inspection.changes import Changes, Counts
+from infill.inspection.fates import fate, overlaps
 from infill.surfaces.marching import TIE
 
 PINHOLE = 3  # cells: a void with no room for a square of so many is one that every cell of touches a wall
@@ -38,6 +40,11 @@ class Topology:
         """Components minus holes; the surface of the extruded layer has twice that."""
         return self.components - self.holes
 
+    @property
+    def extruded(self) -> Counts:
+        """How the extruded layer hangs together: holes become tunnels."""
+        return Counts.of(components=self.components, cavities=0, tunnels=self.holes)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Regions:
@@ -60,37 +67,6 @@ class Regions:
         return Topology(components=int(self.solid.max()), holes=int(self.void.max()) - 1)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Changes:
-    """What smoothing did to the components of a layer.
-
-    Parameters
-    ----------
-    broken : int
-        Walls that let two voids run together, or fell apart, or got a hole.
-    vanished, appeared : int
-        Components of solid that are gone, or new.
-    fused : int
-        Components of solid that ran together, or walls that met across a void and cut it in two.
-    closed : int
-        Holes that are gone.
-    pinholes : int
-        Holes that are gone, and necks of voids that are cut, with no room for a square of `PINHOLE` cells,
-        or of a line if that has fewer. They are left over where lines meet at an acute angle or run
-        side by side, and nothing could be printed in them.
-    pinhole_share : float
-        Cells of those holes over the cells of all holes.
-    """
-
-    broken: int
-    vanished: int
-    appeared: int
-    fused: int
-    closed: int
-    pinholes: int
-    pinhole_share: float
-
-
 def regions(layer: NDArray[np.floating]) -> Regions:
     """Return a layer (nx, ny) with its components of solid and of void numbered."""
     field = np.pad(layer, 1, constant_values=VOID)
@@ -111,6 +87,10 @@ def topology(layer: NDArray[np.floating]) -> Topology:
 def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Changes:
     """Compare two states of the same layer, component by component.
 
+    A pinhole is a void that is gone, or a neck of one that is cut, with no room for a square of `PINHOLE` cells, or of
+    a line if that has fewer. Pinholes are left over where lines meet at an acute angle or run side by side, and nothing
+    could be printed in them.
+
     Parameters
     ----------
     before, after : Regions
@@ -119,24 +99,27 @@ def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Ch
     """
     from scipy import ndimage
 
-    held, voids = _overlaps(before.solid, after.solid), _overlaps(before.void, after.void)
+    found = overlaps(before.void, after.void)
+    solid, voids = fate(overlaps(before.solid, after.solid)), fate(found)
     room = ndimage.binary_opening(before.void > 0, np.ones((min(PINHOLE, line_cells),) * 2))
     cores = _components(room, np.empty((0, 2), dtype=np.intp))
-    wide = np.zeros(voids.shape[0], dtype=bool)
+    wide = np.zeros(found.before, dtype=bool)
     wide[np.unique(before.void[room]) - 1] = True
-    wide[before.void[0, 0] - 1] = True  # the outside, of which only a shell is seen
-    gone = voids.sum(axis=1) == 0
-    cells = np.bincount(before.void.ravel(), minlength=len(gone) + 1)[1:]
+    cells = np.bincount(before.void.ravel(), minlength=found.before + 1)[1:]
     outside = cells[before.void[0, 0] - 1]
-    cut = _extra(_overlaps(cores, after.void), axis=1)
+    narrow = ~voids.kept & ~wide
+    cut = fate(overlaps(cores, after.void)).breaks
     return Changes(
-        broken=_extra(held, axis=1) + _extra(voids, axis=0) + int((voids.sum(axis=0) == 0).sum()),
-        vanished=int((held.sum(axis=1) == 0).sum()),
-        appeared=int((held.sum(axis=0) == 0).sum()),
-        fused=_extra(held, axis=0) + cut,
-        closed=int((gone & wide).sum()),
-        pinholes=int((gone & ~wide).sum()) + max(0, _extra(voids, axis=1) - cut),
-        pinhole_share=float(cells[gone & ~wide].sum() / max(1, cells.sum() - outside)),
+        vanished=len(solid.vanished),
+        broken=solid.breaks,
+        fused=solid.fusions,
+        appeared=len(solid.appeared),
+        voids_closed=int((~voids.kept & wide).sum()),
+        voids_cut=cut,
+        voids_joined=voids.fusions,
+        walls_pierced=len(voids.appeared),
+        pinholes=int(narrow.sum()) + max(0, voids.breaks - cut),
+        pinhole_share=float(cells[narrow].sum() / max(1, cells.sum() - outside)),
     )
 
 
@@ -202,16 +185,3 @@ def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[n
     # Number 0, the cells outside, is in no pair: it stays alone, and the others are counted from 1.
     _, renumbered = np.unique(merged[1:], return_inverse=True)
     return np.asarray(np.concatenate([[0], renumbered + 1])[numbers])
-
-
-def _overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return the table [component before, component after] of which share a cell; row and column 0 are left out."""
-    rows, columns = int(before.max()) + 1, int(after.max()) + 1
-    table = np.zeros((rows, columns), dtype=bool)
-    table.ravel()[before.astype(np.intp) * columns + after] = True
-    return table[1:, 1:]
-
-
-def _extra(table: NDArray[np.bool_], axis: int) -> int:
-    """Return how many partners there are beyond the first of each row (axis 1) or column (axis 0)."""
-    return int((table.sum(axis=axis) - 1).clip(0).sum())

@@ -31,7 +31,7 @@ from infill.kernels.sparse_marching import FULL, ROWS, lowest, ones, within
 
 
 @njit(cache=True)
-def root(parent, n):  # pragma: no cover
+def root(parent, n):
     """Return the first of the set that `n` is in."""
     while parent[n] != n:
         parent[n] = parent[parent[n]]
@@ -40,7 +40,7 @@ def root(parent, n):  # pragma: no cover
 
 
 @njit(cache=True)
-def join(parent, a, b):  # pragma: no cover
+def join(parent, a, b):
     """Make one set of two; the first of it stays the first."""
     a, b = root(parent, a), root(parent, b)
     if a < b:
@@ -50,20 +50,20 @@ def join(parent, a, b):  # pragma: no cover
 
 
 @njit(cache=True)
-def beginnings(bits):  # pragma: no cover
+def beginnings(bits):
     """Return the bits at which runs begin."""
     return np.uint16(bits & ~(bits << np.uint16(1)))
 
 
 @njit(cache=True)
-def run_length(bits, k):  # pragma: no cover
+def run_length(bits, k):
     """Return how many bits are set from bit `k` on without a gap."""
     gaps = ~(np.int64(bits) >> k)
     return ones(((gaps & -gaps) - 1) & FULL)
 
 
 @njit(nogil=True, cache=True)
-def number_runs(bits, bricks, starts):  # pragma: no cover
+def number_runs(bits, bricks, starts):
     """Set where the runs of every brick and every row of it begin to count; return how many there are."""
     count = np.int64(1)  # run 0 is what lies beyond the grid
     for s in range(len(bits)):
@@ -77,14 +77,14 @@ def number_runs(bits, bricks, starts):  # pragma: no cover
 
 
 @njit(cache=True)
-def run_at(bits, bricks, starts, s, row, k):  # pragma: no cover
+def run_at(bits, bricks, starts, s, row, k):
     """Return the number of the run that cell `k` of a row lies in."""
     upto = np.uint16((2 << k) - 1)
     return bricks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
 
 
 @njit(cache=True)
-def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):  # pragma: no cover
+def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
     """Return the node of a cell of any brick of the lattice, -1 if the cell is not of the kind that is labelled."""
     slot = slots[p, q, r]
     if slot < 0:
@@ -95,7 +95,7 @@ def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):  # pragma: no 
 
 
 @njit(nogil=True, cache=True)
-def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):  # pragma: no cover
+def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
     """Join what touches by a face, or if `diagonal` by an edge, in all bricks that are kept."""
     m0, m1, m2 = slots.shape
     for s in range(len(where)):
@@ -170,7 +170,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):  # p
 
 
 @njit(nogil=True, cache=True)
-def join_alone(alone, parent):  # pragma: no cover
+def join_alone(alone, parent):
     """Join bricks of one value that lie side by side."""
     m0, m1, m2 = alone.shape
     for p in range(m0):
@@ -188,7 +188,7 @@ def join_alone(alone, parent):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def join_beyond(where, bits, bricks, starts, shape, parent):  # pragma: no cover
+def join_beyond(where, bits, bricks, starts, shape, parent):
     """Join every run of void that reaches beyond the grid with what lies there."""
     for s in range(len(where)):
         for row in range(ROWS):
@@ -201,7 +201,7 @@ def join_beyond(where, bits, bricks, starts, shape, parent):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def name_sets(parent, names):  # pragma: no cover
+def name_sets(parent, names):
     """Give the sets the names 0, 1, 2 … in the order of their first members; return how many there are."""
     count = 0
     for n in range(len(parent)):
@@ -215,7 +215,7 @@ def name_sets(parent, names):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def count_cells(where, bits, bricks, starts, shape, names, cells):  # pragma: no cover
+def count_cells(where, bits, bricks, starts, shape, names, cells):
     """Add the cells of every run within the grid to its component."""
     for s in range(len(where)):
         for row in range(ROWS):
@@ -228,7 +228,7 @@ def count_cells(where, bits, bricks, starts, shape, names, cells):  # pragma: no
 
 
 @njit(nogil=True, cache=True)
-def mark_runs(bits, bricks, starts, names, chosen, marked):  # pragma: no cover
+def mark_runs(bits, bricks, starts, names, chosen, marked):
     """Mark the components of cells that are `chosen`."""
     for s in range(len(bits)):
         for row in range(ROWS):
@@ -240,7 +240,7 @@ def mark_runs(bits, bricks, starts, names, chosen, marked):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts, other_names):  # pragma: no cover
+def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts, other_names):
     """Return (component, other component, cells) for every stretch of a row that lies in both."""
     many = 0
     for s in range(len(bits)):
@@ -263,7 +263,7 @@ def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts
 
 
 @njit(nogil=True, cache=True)
-def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach):  # pragma: no cover
+def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach):
     """Return the component of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
     node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, bricks, starts)
     if node >= 0:
@@ -284,7 +284,7 @@ def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
 
 
 @njit(nogil=True, cache=True)
-def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels):  # pragma: no cover
+def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels):
     """Set the component nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
     for n in range(len(places)):
         x, y, z = places[n]
@@ -292,7 +292,7 @@ def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels
 
 
 @njit(nogil=True, cache=True)
-def join_faces(faces, parent, used):  # pragma: no cover
+def join_faces(faces, parent, used):
     """Join the corners of every triangle, and mark them."""
     for f in range(len(faces)):
         used[faces[f, 0]] = used[faces[f, 1]] = used[faces[f, 2]] = True
@@ -303,7 +303,7 @@ def join_faces(faces, parent, used):  # pragma: no cover
 @njit(nogil=True, cache=True)
 def lower_to_levels(
     values, where, slots, bits, bricks, starts, alone, names, levels, common, reach, out, thread, threads
-):  # pragma: no cover
+):
     """Subtract from every cell the level of the nearest component along the axes; `common` where there is none."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
@@ -318,7 +318,7 @@ def lower_to_levels(
 
 
 @njit(cache=True)
-def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
+def any_row(slots, p, q, r, row, bits, kind):
     """Return a row of any brick of the lattice; a brick of one value is full if it is of `kind`."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return np.int64(0)
@@ -329,7 +329,7 @@ def any_row(slots, p, q, r, row, bits, kind):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):  # pragma: no cover
+def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):
     """Set cells all (`meet`) or any of whose 2 x 2 x 2 are set: those from them on (`way` 1), or up to them (-1)."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
@@ -353,7 +353,7 @@ def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):  
 
 
 @njit(nogil=True, cache=True)
-def erase(values, where, bits, bricks, starts, names, marked, void):  # pragma: no cover
+def erase(values, where, bits, bricks, starts, names, marked, void):
     """Make the cells of marked components void."""
     for s in range(len(where)):
         for row in range(ROWS):

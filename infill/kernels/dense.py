@@ -21,7 +21,7 @@ from infill.kernels.compiling import njit
 
 
 @njit(inline="always", cache=True, error_model="numpy")
-def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201  # pragma: no cover
+def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
     """Return the value of one cell after a step, from its own, its six neighbours' and its datum."""
     w0, w1, w2, decay, rest, hold = numbers
     v = c + (w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c)))
@@ -30,7 +30,7 @@ def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  
 
 
 @njit(parallel=True, cache=True, error_model="numpy")
-def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201  # pragma: no cover
+def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
     """Do one step from `u` to `new`, (n0, n1, n2); a neighbour that does not exist has the cell's own value."""
     n0, n1, n2 = u.shape
     masked = inside.size > 0

@@ -52,7 +52,7 @@ def step(
     shape,
     thread,
     threads,
-):  # pragma: no cover
+):
     """Do one step of all bricks in place, as `infill.kernels.sparse.step`, and leave the old values in `before`."""
     w0, w1, w2, decay, rest, _ = numbers
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
@@ -81,7 +81,7 @@ def step(
 
 
 @njit(nogil=True, cache=True)
-def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads):  # pragma: no cover
+def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads):
     """Add weight times phi to `total`; a brick from `known` on was uniform, as its data, in all snapshots so far."""
     for s in range(thread, count, threads):
         own, out = phi[s], total[s]
@@ -94,7 +94,7 @@ def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads
 
 
 @njit(nogil=True, cache=True)
-def collect(low, high, phase, unit, size, sums, thread, threads):  # pragma: no cover
+def collect(low, high, phase, unit, size, sums, thread, threads):
     """Set the means over coarse cells of w = 1 - phase², w r and w r², r = unit (high - low)."""
     n1, n2 = B1 // size, B2 // size
     share = np.float32(1 / size**3)
@@ -117,7 +117,7 @@ def collect(low, high, phase, unit, size, sums, thread, threads):  # pragma: no 
 
 
 @njit(cache=True)
-def fetch(sums, slots, place, rim, out):  # pragma: no cover
+def fetch(sums, slots, place, rim, out):
     """Copy the coarse cells of the brick at `place` and those around it, `rim` deep, into `out`."""
     _, _, n0, n1, n2 = sums.shape
     a0, a1, a2 = place[0] * n0 - rim, place[1] * n1 - rim, place[2] * n2 - rim
@@ -134,7 +134,7 @@ def fetch(sums, slots, place, rim, out):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def blur(sums, slots, where, out, thread, threads):  # pragma: no cover
+def blur(sums, slots, where, out, thread, threads):
     """Average the coarse cells with those around them, by `TAPS` along each axis."""
     _, _, n0, n1, n2 = sums.shape
     far, near, own = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
@@ -161,7 +161,7 @@ def blur(sums, slots, where, out, thread, threads):  # pragma: no cover
 
 
 @njit(inline="always", cache=True)
-def between(cell, size):  # pragma: no cover
+def between(cell, size):
     """Return between which coarse cells, counted from one before the brick, a cell lies, and how far."""
     place = np.float32((cell + 0.5) / size + 0.5)
     first = int(place)
@@ -169,7 +169,7 @@ def between(cell, size):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, threads):  # pragma: no cover
+def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, threads):
     """Move `low` towards `high` as far as the gate lets it: see `infill.phasefield.refining.gate`."""
     _, _, n0, n1, n2 = sums.shape
     size = B0 // n0

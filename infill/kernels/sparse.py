@@ -56,7 +56,7 @@ MIXED, OUTER = 0, -3  # states of a brick: of both phases, and without a cell of
 
 
 @njit(inline="always", cache=True)
-def uniform_value(face, bits, at, size):  # pragma: no cover
+def uniform_value(face, bits, at, size):
     """Return +1 or -1 if all values of a face are that, else 0; `bits` are the values seen as whole numbers."""
     first = bits[at]
     others = np.int32(0)
@@ -68,7 +68,7 @@ def uniform_value(face, bits, at, size):  # pragma: no cover
 
 
 @njit(cache=True)
-def emit(brick, faces, flat):  # pragma: no cover
+def emit(brick, faces, flat):
     """Copy the six faces of a brick, and note which of them are +1 or -1 throughout."""
     bits = faces.view(np.int32)
     for up in range(2):
@@ -88,14 +88,14 @@ def emit(brick, faces, flat):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def emit_all(bricks, faces, flat, count, thread, threads):  # pragma: no cover
+def emit_all(bricks, faces, flat, count, thread, threads):
     """Copy the faces of all bricks."""
     for s in range(thread, count, threads):
         emit(bricks[s], faces[s], flat[s])
 
 
 @njit(cache=True)
-def place_beside(place, side):  # pragma: no cover
+def place_beside(place, side):
     """Return the place beside a brick: low and high along i, j, k."""
     a, b, c = place[0], place[1], place[2]
     way = 1 if side % 2 else -1
@@ -105,7 +105,7 @@ def place_beside(place, side):  # pragma: no cover
 
 
 @njit(cache=True)
-def find_neighbours(slots, where, beside, first, count):  # pragma: no cover
+def find_neighbours(slots, where, beside, first, count):
     """Set what lies beside the bricks from `first` on, and that they lie beside those."""
     for s in range(first, count):
         for side in range(6):
@@ -118,7 +118,7 @@ def find_neighbours(slots, where, beside, first, count):  # pragma: no cover
 
 
 @njit(cache=True)
-def wanted(slots, where, beside, flat, count, found):  # pragma: no cover
+def wanted(slots, where, beside, flat, count, found):
     """Set `found` to the places beside faces whose value differs from theirs, each once; return how many."""
     many = 0
     for s in range(count):
@@ -139,7 +139,7 @@ def wanted(slots, where, beside, flat, count, found):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):  # pragma: no cover
+def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):
     """Give the bricks from `first` on the value they are uniform in; nobody reads faces that are flat."""
     for s in range(first + thread, count, threads):
         value = uniform[s]
@@ -152,7 +152,7 @@ def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):  #
 
 
 @njit(inline="always", cache=True)
-def unmoved(value, beside, flat):  # pragma: no cover
+def unmoved(value, beside, flat):
     """Return whether a brick of one value has only neighbours of that value."""
     for side in range(6):
         other = beside[side]
@@ -181,7 +181,7 @@ def step(
     shape,
     thread,
     threads,
-):  # pragma: no cover
+):
     """Do one step of all bricks in place; read neighbours' faces from `faces`, leave the new ones in `next_faces`."""
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, before, after = (
@@ -218,7 +218,7 @@ def step(
 
 
 @njit(cache=True)
-def surround(own, faces, flat, beside, tall, left, right, before, after):  # pragma: no cover
+def surround(own, faces, flat, beside, tall, left, right, before, after):
     """Set for every cell its six neighbours: the brick between two planes, and four shifted copies."""
     for t in range(CELLS):
         tall[t + PLANE] = own[t]
@@ -264,7 +264,7 @@ def surround(own, faces, flat, beside, tall, left, right, before, after):  # pra
 
 
 @njit(inline="always", cache=True)
-def seen(other, flat, side):  # pragma: no cover
+def seen(other, flat, side):
     """Return the brick beside a face, or what stands for it if its own face there has one value."""
     if other < 0 or flat[other, side ^ 1] == 0:
         return other
@@ -272,7 +272,7 @@ def seen(other, flat, side):  # pragma: no cover
 
 
 @njit(inline="always", cache=True)
-def beyond(other, own):  # pragma: no cover
+def beyond(other, own):
     """Return the value beside a face where no brick is kept: beyond the grid it is the face's own."""
     if other == OUTSIDE:
         return own
@@ -280,7 +280,7 @@ def beyond(other, own):  # pragma: no cover
 
 
 @njit(cache=True, error_model="numpy")
-def step_masked(own, data, tall, left, right, before, after, domain, where, numbers):  # pragma: no cover
+def step_masked(own, data, tall, left, right, before, after, domain, where, numbers):
     """Do one step of the cells in the domain; a neighbour outside of it has the cell's own value."""
     n0, n1, n2 = domain.shape
     for t in range(CELLS):
@@ -304,7 +304,7 @@ def step_masked(own, data, tall, left, right, before, after, domain, where, numb
 
 
 @njit(cache=True)
-def repeat_edges(brick, where, shape):  # pragma: no cover
+def repeat_edges(brick, where, shape):
     """Give the cells beyond the grid the values of those at its edge."""
     i0, i1 = max(0, 1 - where[0] * B0), min(B0, shape[0] + 1 - where[0] * B0)
     j0, j1 = max(0, 1 - where[1] * B1), min(B1, shape[1] + 1 - where[1] * B1)

@@ -40,7 +40,7 @@ FULL = (1 << B2) - 1  # all bits of a row
 
 
 @njit(nogil=True, cache=True)
-def bits_above(values, where, level, shape, bits, thread, threads):  # pragma: no cover
+def bits_above(values, where, level, shape, bits, thread, threads):
     """Set for every row of every kept brick which cells are above the level; beyond the grid none is."""
     for s in range(thread, len(values), threads):
         brick = values[s]
@@ -52,7 +52,7 @@ def bits_above(values, where, level, shape, bits, thread, threads):  # pragma: n
 
 
 @njit(inline="always", cache=True)
-def within(p, q, r, row, shape):  # pragma: no cover
+def within(p, q, r, row, shape):
     """Return which cells of a row of a brick lie on the grid."""
     i, j = p * B0 + row // B1, q * B1 + row % B1
     if i < 1 or j < 1 or i > shape[0] or j > shape[1]:
@@ -67,7 +67,7 @@ def within(p, q, r, row, shape):  # pragma: no cover
 
 
 @njit(inline="always", cache=True)
-def row_of(slots, p, q, r, row, bits, shape):  # pragma: no cover
+def row_of(slots, p, q, r, row, bits, shape):
     """Return which cells of a row of any brick are solid."""
     if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return np.uint32(0)
@@ -78,7 +78,7 @@ def row_of(slots, p, q, r, row, bits, shape):  # pragma: no cover
 
 
 @njit(cache=True)
-def rows_around(slots, p, q, r, bits, shape, rows):  # pragma: no cover
+def rows_around(slots, p, q, r, bits, shape, rows):
     """Set the rows of a brick and the first ones behind it, 17 cells each: (9, 9)."""
     for i in range(B0 + 1):
         a, x = (p, i) if i < B0 else (p + 1, 0)
@@ -90,31 +90,31 @@ def rows_around(slots, p, q, r, bits, shape, rows):  # pragma: no cover
 
 
 @intrinsic
-def counted(context, bits):  # noqa: ARG001 # pragma: no cover
+def counted(context, bits):  # noqa: ARG001
     """Count the bits that are set, by the one instruction there is for it."""
     return types.int64(types.int64), lambda _, builder, __, arguments: builder.ctpop(arguments[0])
 
 
 @intrinsic
-def trailing(context, bits):  # noqa: ARG001 # pragma: no cover
+def trailing(context, bits):  # noqa: ARG001
     """Count the bits below the lowest one that is set."""
     return types.int64(types.int64), lambda _, builder, __, arguments: builder.cttz(arguments[0], TRUE)
 
 
 @njit(inline="always", cache=True)
-def ones(bits):  # pragma: no cover
+def ones(bits):
     """Count the bits of a number that is not negative."""
     return counted(np.int64(bits))
 
 
 @njit(inline="always", cache=True)
-def lowest(bits):  # pragma: no cover
+def lowest(bits):
     """Return the place of the lowest bit that is set."""
     return trailing(np.int64(bits))
 
 
 @njit(inline="always", cache=True)
-def crossed(a, b, c, d):  # pragma: no cover
+def crossed(a, b, c, d):
     """Return which of 16 cubes have corners of both signs, from their four rows of 17 cells."""
     some, every = a | b | c | d, a & b & c & d
     one = np.uint32(1)
@@ -122,7 +122,7 @@ def crossed(a, b, c, d):  # pragma: no cover
 
 
 @njit(inline="always", cache=True)
-def signs_of(a, b, c, d, k):  # pragma: no cover
+def signs_of(a, b, c, d, k):
     """Return the solid corners of cube `k` of a row of cubes, corner i + 2 j + 4 k."""
     shift = np.uint32(k)
     one = np.uint32(1)
@@ -134,7 +134,7 @@ def signs_of(a, b, c, d, k):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):  # pragma: no cover
+def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):
     """Set the crossed edges of every row along i, j, k, where its vertices begin, and what a brick will hold."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
@@ -162,7 +162,7 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
 
 
 @njit(cache=True)
-def values_around(slots, p, q, r, values, shape, numbers, around):  # pragma: no cover
+def values_around(slots, p, q, r, values, shape, numbers, around):
     """Set the values against the level of a brick and of the first cells behind it: (9, 9, 17)."""
     level, clearance, tie = numbers
     for i in range(B0 + 1):
@@ -189,7 +189,7 @@ def values_around(slots, p, q, r, values, shape, numbers, around):  # pragma: no
 
 
 @njit(inline="always", cache=True)
-def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):  # pragma: no cover
+def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):
     """Return the number of the vertex on an edge that begins in a brick or in the first cells behind it."""
     if i == B0:
         p, i = p + 1, 0
@@ -224,7 +224,7 @@ def write(
     places_of,
     thread,
     threads,
-):  # pragma: no cover
+):
     """Write vertices in cells from the first cell's centre, triangles, and what there is to know of undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
@@ -264,9 +264,18 @@ def write(
                                 e = triangles[signs, t, corner]
                                 axis, at = int(edges[e, 0]), int(edges[e, 1])
                                 faces[f, corner] = vertex_number(
-                                    index, p, q, r, i + (at & 1), j + (at >> 1 & 1), k + (at >> 2), axis,
-                                    masks, starts, offsets,
-                                )  # fmt: skip
+                                    index,
+                                    p,
+                                    q,
+                                    r,
+                                    i + (at & 1),
+                                    j + (at >> 1 & 1),
+                                    k + (at >> 2),
+                                    axis,
+                                    masks,
+                                    starts,
+                                    offsets,
+                                )
                             f += 1
                         continue
                     places_of[u, 0], places_of[u, 1], places_of[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
@@ -294,7 +303,7 @@ def write(
 
 
 @njit(nogil=True, cache=True)
-def place(vertices, rate, spacing, origin, thread, threads):  # pragma: no cover
+def place(vertices, rate, spacing, origin, thread, threads):
     """Turn cells from the first cell's centre into mm."""
     size = (len(vertices) + threads - 1) // threads  # each thread its own stretch of memory
     for v in range(thread * size, min(len(vertices), (thread + 1) * size)):
@@ -304,7 +313,7 @@ def place(vertices, rate, spacing, origin, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def volumes(vertices, rate, faces, middle, own, change, thread, threads):  # pragma: no cover
+def volumes(vertices, rate, faces, middle, own, change, thread, threads):
     """Set for every face the volume between it and the middle, and its change when the level rises by one."""
     size = (len(faces) + threads - 1) // threads
     for f in range(thread * size, min(len(faces), (thread + 1) * size)):
@@ -314,7 +323,7 @@ def volumes(vertices, rate, faces, middle, own, change, thread, threads):  # pra
 
 
 @njit(cache=True)
-def sixfold(vertices, rate, face, middle):  # pragma: no cover
+def sixfold(vertices, rate, face, middle):
     """Return six times the volume between a face and the middle, and its change when the level rises by one."""
     i, j, k = face
     ax, ay, az = vertices[i, 0] - middle[0], vertices[i, 1] - middle[1], vertices[i, 2] - middle[2]
@@ -333,7 +342,7 @@ def sixfold(vertices, rate, face, middle):  # pragma: no cover
 @njit(nogil=True, cache=True, error_model="numpy")
 def measure(
     slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, middle, order, thread, threads
-):  # pragma: no cover
+):
     """Return six times the volume of the surface, its slope over the level, and how many cubes were left undecided."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)

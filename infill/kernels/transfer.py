@@ -23,7 +23,7 @@ from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BRICK
 
 
 @njit(nogil=True, cache=True)
-def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
+def fill_states(data, state, zeros, thread, threads):
     """Set the state of every brick of int8 data, solid above 0, and whether a row of bricks holds a zero."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
@@ -59,7 +59,7 @@ def fill_states(data, state, zeros, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def fill_grey_states(data, state, thread, threads):  # pragma: no cover
+def fill_grey_states(data, state, thread, threads):
     """Set the state of every brick of float data: uniform only if all cells are +1 or all are -1."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
@@ -90,7 +90,7 @@ def fill_grey_states(data, state, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True)
-def gather(whole, where, bricks, count, level, thread, threads):  # pragma: no cover
+def gather(whole, where, bricks, count, level, thread, threads):
     """Copy the cells of bricks; cells beyond the grid repeat the edge. With a level, +1 where above it and -1 else."""
     n0, n1, n2 = whole.shape
     for s in range(thread, count, threads):
@@ -110,7 +110,7 @@ def gather(whole, where, bricks, count, level, thread, threads):  # pragma: no c
 
 
 @njit(nogil=True, cache=True)
-def spread(slots, bricks, whole, thread, threads):  # pragma: no cover
+def spread(slots, bricks, whole, thread, threads):
     """Write all bricks, kept or not, into the whole field."""
     m0, m1, m2 = slots.shape
     n0, n1, n2 = whole.shape
@@ -135,7 +135,7 @@ def spread(slots, bricks, whole, thread, threads):  # pragma: no cover
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def straighten(bricks, most, scale, out, thread, threads):  # pragma: no cover
+def straighten(bricks, most, scale, out, thread, threads):
     """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: vector code, which a log is not.
 
     artanh v = ln 2 / 2 log2 x, x = (1 + v) / (1 - v). With x = 2^n m and m in [1/sqrt 2, sqrt 2), log2 x is n plus

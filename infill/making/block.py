@@ -16,23 +16,24 @@ import numpy as np
 import shapely
 
 from infill.errors import GeometryError
-from infill.inspection.layers import Changes, Regions, changes, regions, solid_area
+from infill.inspection.changes import Changes
+from infill.inspection.layers import Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
 from infill.making.request import Block, StampMethod, plan
+from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
+from infill.report import report_of
 from infill.result import Clock, Progress, Result
-from infill.surface import Surface
 from infill.surfaces.stacking import extruded
-from infill.version import __version__
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
-from patterns import Pattern, in_degrees
-from patterns.linework import bodies
+from patterns import Pattern
+from patterns.linework import bodies, sample
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
     from shapely import MultiLineString
-
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile: below, a wall counts as lost
 MOST_PINHOLES = 0.02  # of the void in holes: more is no matter of acute angles
@@ -53,7 +54,7 @@ def make(
     max_memory: int | None = None,
     progress: Progress | None = None,
     **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
-) -> Result:
+) -> Result[MakeStages]:
     """Return a block of infill: a closed mesh and a report.
 
     Parameters
@@ -101,9 +102,8 @@ def make(
     -----
     Source: Wang et al. 2020, section 3.4.
 
-    The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its Euler number is
-    that of the surface; those under "stamp" and "result" are of the layer, half as large. Its volume change
-    is that of the layer by smoothing: the rounding of the rims, at most half a layer, is left out.
+    The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its volume change is
+    that of the layer by smoothing: the rounding of the rims, at most half a layer, is left out.
 
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
@@ -111,11 +111,17 @@ def make(
     clock = Clock(progress)
     with clock.stage("points", 0.0):
         block = plan(
-            pattern, size=size, height=height, line_width=line_width, stamp=stamp, cells=cells, smoothing=smoothing,
+            pattern,
+            size=size,
+            height=height,
+            line_width=line_width,
+            stamp=stamp,
+            cells=cells,
+            smoothing=smoothing,
             parameters=parameters,
-        )  # fmt: skip
+        )
         block.require_memory(max_memory)
-        points = block.pattern.points(block.region, min(block.grid.cell_size) / POINTS_PER_CELL)
+        points = _points(block)
     with clock.stage("stamp", 0.1):
         if block.stamp == "exact":
             data = stamp_lines(block.lines, block.grid, width=block.line_width)
@@ -126,20 +132,46 @@ def make(
     with clock.stage("check", 0.3):
         before, after = regions(data), regions(smoothed)
         found = changes(before, after, line_cells=block.cells)
-        volume_change = solid_area(smoothed) / solid_area(data) - 1
+        area = solid_area(data)
+        volume_change = solid_area(smoothed) / area - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
         problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
     with clock.stage("surface", 0.5):
-        origin = (*block.grid.origin, 0.0)
-        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=origin)
+        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=block.origin)
         if not surface.closed or surface.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
-    report = _report(block, surface, volume_change, before, after, found, width, problems)
-    report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
-    fields = {"points": points, "lines": block.lines, "stamp": data, "smoothed": smoothed, "grid": block.grid}
-    return Result(surface=surface, report=report, fields=fields)
+    cells_per_layer = math.prod(block.grid.shape)
+    layer = math.prod(block.grid.extents) * block.height
+    components = after.topology.components
+    report = report_of(
+        product="make",
+        surface=surface,
+        request=block.asked(),
+        grid=block.laid_out(),
+        solid={
+            "data": area / cells_per_layer * layer,
+            "change": volume_change,
+            "density": surface.volume / layer,
+            "level": {"method": "fixed", "common": 0.0, "lowest": 0.0, "highest": 0.0, "components": components},
+        },
+        data=before.topology.extruded,
+        result=after.topology.extruded,
+        changes=found,
+        walls={"width": {name: _finite(value) for name, value in asdict(width).items()}},
+        problems=problems,
+        seconds=clock.seconds,
+    )
+    stages = MakeStages(points=points, lines=block.lines, grid=block.grid, stamp=data, smoothed=smoothed)
+    return Result(surfaces={"block": surface}, report=report, stages=stages)
+
+
+def _points(block: Block) -> NDArray[np.float64]:
+    """Return points along the lines, as the pattern draws them; those are drawn once."""
+    spacing = min(block.grid.cell_size) / POINTS_PER_CELL
+    own = type(block.pattern).points is not Pattern.points
+    return block.pattern.points(block.region, spacing) if own else sample(block.lines, spacing)
 
 
 def _fused_lines(lines: MultiLineString, before: Regions, line_width: float) -> int:
@@ -154,15 +186,15 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
     if fused_lines:
         yield f"{fused_lines} separate line(s) of the pattern run together at this line width: use larger cells"
     for count, what in (
-        (found.broken, "wall(s) broke"),
+        (found.broken + found.voids_joined + found.walls_pierced, "wall(s) broke"),
         (found.vanished, "part(s) vanished"),
         (found.appeared, "part(s) came out of nothing"),
-        (found.fused, "gap(s) between walls closed up"),
-        (found.closed, "hole(s) closed"),
+        (found.fused + found.voids_cut, "gap(s) between walls closed up"),
+        (found.voids_closed, "hole(s) closed"),
     ):
         if count:
             yield f"{count} {what} in smoothing"
-    if found.pinhole_share > MOST_PINHOLES:
+    if found.pinhole_share and found.pinhole_share > MOST_PINHOLES:
         yield (
             f"{found.pinholes} hole(s) narrower than a line, {found.pinhole_share:.0%} of all void, closed in "
             "smoothing: use larger cells or a thinner line"
@@ -172,58 +204,6 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
             f"the walls are {width.p5:.3g} mm thin at the 5th percentile, under {THINNEST:.0%} of the "
             f"{width.requested:g} mm asked for"
         )
-
-
-def _report(
-    block: Block,
-    surface: Surface,
-    volume_change: float,
-    before: Regions,
-    after: Regions,
-    found: Changes,
-    width: WallWidth,
-    problems: list[str],
-) -> dict[str, Any]:
-    """Return the report as plain numbers: lengths in mm, areas in mm², volumes in mm³, angles in degrees."""
-    bounds = surface.bounds
-    smoothing = block.smoothing
-    return {
-        "version": __version__,
-        "pattern": block.pattern.name,
-        "parameters": in_degrees(block.pattern),
-        "size": list(block.grid.extents),
-        "height": block.height,
-        "line_width": block.line_width,
-        "stamp_method": block.stamp,
-        "triangles": len(surface.faces),
-        "closed": surface.closed,
-        "volume": surface.volume,
-        "area": surface.area,
-        "density": surface.volume / (math.prod(block.grid.extents) * block.height),
-        "extents": (bounds[1] - bounds[0]).tolist(),
-        "bounds": bounds.tolist(),
-        "components": after.topology.components,
-        "euler_number": surface.euler_number,
-        "grid": list(block.grid.shape),
-        "spacing": float(block.grid.cell_size.min()),
-        "cells_per_line": block.cells,
-        "layers": block.layers,
-        "steps": smoothing.steps,
-        "fidelity": smoothing.fidelity,
-        "interface": smoothing.interface,
-        "alpha": smoothing.alpha,
-        "stamp": _counts(before),
-        "result": _counts(after),
-        "changes": asdict(found),
-        "wall_width": {name: _finite(value) for name, value in asdict(width).items()},
-        "volume_change": volume_change,
-        "problems": problems,
-    }
-
-
-def _counts(state: Regions) -> dict[str, int]:
-    counts = state.topology
-    return {"components": counts.components, "holes": counts.holes, "euler_number": counts.euler_number}
 
 
 def _finite(value: float) -> float | None:

@@ -16,7 +16,8 @@ from infill.grid import Grid
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.surfaces.stacking import layer_count
-from patterns import PATTERNS, Pattern, PatternError, lacking
+from patterns import PATTERNS, Pattern, PatternError, in_degrees, lacking
+from patterns.protocol import lines_of
 
 if TYPE_CHECKING:
     from shapely import MultiLineString, Polygon
@@ -69,13 +70,7 @@ class Block:
     @cached_property
     def lines(self) -> MultiLineString:
         """The centre lines of the walls, mm."""
-        try:
-            lines = self.pattern.lines(self.region)
-        except Exception as error:
-            if isinstance(error, PatternError):
-                raise
-            said = " ".join(str(error).split())
-            raise PatternError(f"the pattern {self.pattern.name} failed: {type(error).__name__}: {said}") from error
+        lines = lines_of(self.pattern, self.region)
         if lines.is_empty:
             raise PatternError(f"no line of {self.pattern.name} lies in the block; use smaller cells or a larger block")
         return lines
@@ -107,13 +102,43 @@ class Block:
         """Bytes of memory the work will need, the program itself included."""
         return self.grid_memory + BYTES_PER_TRIANGLE * self.triangles
 
-    def facts(self) -> dict[str, Any]:
-        """Return what a dry run shows, as plain numbers: lengths in mm, sizes in bytes."""
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """Lower corner of the block, mm."""
+        x, y = self.grid.origin
+        return x, y, 0.0
+
+    def asked(self) -> dict[str, Any]:
+        """Return what was asked for, as the section `request` of the report has it."""
+        smoothing = self.smoothing
         return {
             "pattern": self.pattern.name,
+            "parameters": in_degrees(self.pattern),
             "size": list(self.grid.extents),
-            "grid": list(self.grid.shape),
-            "spacing": float(self.grid.cell_size.min()),
+            "height": self.height,
+            "line_width": self.line_width,
+            "stamp": self.stamp,
+            "cells_per_line": self.cells,
+            "steps": smoothing.steps,
+            "fidelity": smoothing.fidelity,
+            "interface": smoothing.interface,
+            "alpha": smoothing.alpha,
+        }
+
+    def laid_out(self) -> dict[str, Any]:
+        """Return the stack of layers, as the section `grid` of the report has it."""
+        return {
+            "shape": [*self.grid.shape, self.layers],
+            "spacing": [*self.grid.cell_size.tolist(), self.height / self.layers],
+            "origin": list(self.origin),
+            "space": "",
+        }
+
+    def facts(self) -> dict[str, Any]:
+        """Return what a dry run shows, as plain numbers: sections of the report, and sizes in bytes."""
+        return {
+            "request": self.asked(),
+            "grid": self.laid_out(),
             "memory": self.memory,
             "triangles": self.triangles,
             "stl_bytes": self.stl_bytes,
@@ -191,7 +216,7 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     """Return the pattern that a name and its parameters stand for, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):
-            raise ParameterError(f"{pattern!r} is no pattern; give a name, or a pattern such as Honeycomb(cell=5)")
+            raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
             raise ParameterError(
                 f"{', '.join(parameters)} given beside a ready-made pattern; set parameters where the pattern is made"

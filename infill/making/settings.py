@@ -1,25 +1,38 @@
 """The settings of `infill make`: defaults, a TOML file, and flags over both.
 
 Angles are degrees here, as at the command line; `MakeSettings.make` turns them into radians.
+
+In the file, make's options stand at the top; the pattern's parameters beside them, or in a table `[set]`,
+where they may have any name::
+
+    pattern = "zigzag"
+    size = [60, 40]
+
+    [set]
+    waves = 7.5
 """
 
 from __future__ import annotations
 
 import dataclasses
-import difflib
-import math
 import re
 import tomllib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.errors import FormatError, ParameterError
+from infill.making.assigning import Source, assignments, merged, values
 from patterns import PATTERNS, Pattern, in_degrees, parameters
+from patterns.given import from_degrees, nearest
 
 if TYPE_CHECKING:
     from infill.making.request import Block
+    from infill.making.stages import MakeStages
     from infill.result import Progress, Result
+
+SET = "set"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,17 +68,17 @@ class MakeSettings:
     alpha: float = 1 / 7
     parameters: dict[str, Any] = field(default_factory=dict)
 
-    def _pattern(self) -> Pattern:
+    def build_pattern(self) -> Pattern:
+        """Return the pattern with its parameters, angles in radians."""
         kind = PATTERNS.find(self.pattern)
-        angles = {name for name, (_, described) in parameters(kind).items() if described.unit == "rad"}
-        return kind(**{name: math.radians(v) if name in angles else v for name, v in self.parameters.items()})
+        return kind(**from_degrees(kind, self.parameters))
 
     def _request(self) -> dict[str, Any]:
         from infill.phasefield.allen_cahn import Smoothing
 
         smoothing = Smoothing(steps=self.steps, fidelity=self.fidelity, interface=self.interface, alpha=self.alpha)
         return {
-            "pattern": self._pattern(),
+            "pattern": self.build_pattern(),
             "size": self.size,
             "height": self.height,
             "line_width": self.line_width,
@@ -82,7 +95,7 @@ class MakeSettings:
 
     def make(
         self, *, allow_broken: bool = False, max_memory: int | None = None, progress: Progress | None = None
-    ) -> Result:
+    ) -> Result[MakeStages]:
         """Run `infill.make` with these settings."""
         from infill.making.block import make
 
@@ -92,58 +105,55 @@ class MakeSettings:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = dataclasses.asdict(self)
         del plain["parameters"]
-        own = in_degrees(self._pattern())
-        rows = [f"{name} = {_toml(value)}" for name, value in {**plain, **own}.items() if value is not None]
-        return "\n".join(["# infill make --config THIS_FILE -o OUT", *rows, ""])
+        own = in_degrees(self.build_pattern())
+        lines = ["# infill make --config THIS_FILE -o OUT", *_rows(plain), "", f"[{SET}]", *_rows(own), ""]
+        return "\n".join(lines)
 
 
-def resolve(flags: dict[str, Any], config: Path | None = None) -> MakeSettings:
-    """Return the settings: flags that are not None win over the file, the file over the defaults.
+def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = ()) -> MakeSettings:
+    """Return the settings: what is given at the command line wins over the file, the file over the defaults.
+
+    Parameters
+    ----------
+    flags : mapping
+        Options by name, those that are not None: make's, and parameters of the pattern that are flags.
+    config : Path, optional
+        A TOML file.
+    assigned : sequence of str
+        Parameters of the pattern as ``name=value``; they may have the name of an option of make.
 
     Raises
     ------
-    ParameterError
-        For a key that neither `make` nor the pattern has, or without a pattern.
+    ParameterError, PatternError
+        For a name that neither `make` nor the pattern has, a parameter that is given twice or cannot be what
+        it is given, or without a pattern.
     FormatError
-        If the file is missing or no TOML.
+        If the file is missing or not TOML.
     """
-    given = {name.replace("-", "_"): value for name, value in (_read(config) if config else {}).items()}
+    filed = _read(config) if config else {}
+    table = filed.pop(SET, {})
+    if not isinstance(table, dict):
+        raise ParameterError(f"{SET} is {table!r}; it must be a table: a line [{SET}], then lines such as cell = 5")
     flagged = {name: value for name, value in flags.items() if value is not None}
-    if "pattern" not in given | flagged:
+    given = filed | flagged
+    if "pattern" not in given:
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    kind = PATTERNS.find(str((given | flagged)["pattern"]))
-    common = {each.name: each for each in dataclasses.fields(MakeSettings) if each.name != "parameters"}
+    kind = PATTERNS.find(_typed("pattern", given["pattern"], ""))
+    common = {each.name: each.default for each in dataclasses.fields(MakeSettings) if each.name != "parameters"}
     own = parameters(kind)
-    for name, (_, described) in own.items():
-        rival = described.replaces
-        if rival in flagged and name not in flagged:
-            given.pop(name, None)  # the flag for one drops the other from the file
-        elif name in flagged and rival not in flagged:
-            given.pop(rival, None)
-        if {name, rival} <= set(given | flagged):
-            raise ParameterError(
-                f"{name} and {rival} of {kind.name} are both given; {name} replaces {rival}: leave one out"
-            )
-    given |= flagged
     for name in given:
         if name not in common and name not in own:
-            near = difflib.get_close_matches(name, [*common, *own], n=1)
-            advice = f"did you mean {near[0]!r}?" if near else f"it has {', '.join(own)}"
-            raise ParameterError(f"{kind.name} has no option {name.replace('_', '-')!r}; {advice}")
-    if "size" in given:
-        given["size"] = parse_size(given["size"])
-    for name, default in {
-        **{n: f.default for n, f in common.items()},
-        **{n: f.default for n, (f, _) in own.items()},
-    }.items():
-        if name in given:
-            given[name] = _typed(name, given[name], default)
-    return MakeSettings(
-        **{name: given[name] for name in common if name in given},
-        parameters={name: given[name] for name in own if name in given},
+            word = name.replace("_", "-")
+            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, own, others=common)}")
+    typed = {name: _typed(name, value, common[name]) for name, value in given.items() if name in common}
+    parameters_given = merged(
+        kind,
+        command=[*values(kind, _without(flagged, common), Source.FLAG), *assignments(kind, assigned, options=common)],
+        file=[*values(kind, _without(filed, common), Source.TOP), *values(kind, table, Source.TABLE)],
     )
+    return MakeSettings(**typed, parameters=parameters_given)
 
 
 def parse_size(size: object) -> tuple[float, float]:
@@ -164,25 +174,24 @@ def parse_size(size: object) -> tuple[float, float]:
 
 
 def _read(path: Path) -> dict[str, Any]:
+    """Return the content of a TOML file, dashes in the names of options as underscores."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         raise FormatError(f"there is no config file {path}; check the name") from None
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror}; check the file") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(f"{path} is no TOML: {error}; write lines such as size = [60, 40]") from error
+        raise FormatError(f"{path} is not TOML: {error}; write lines such as size = [60, 40]") from error
+    return {name.replace("-", "_"): value for name, value in content.items()}
 
 
 def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
-    """Return `value` if it is of the kind that `default` is, or raise ParameterError."""
+    """Return the value of an option of make if it is of the kind that `default` is, or raise ParameterError."""
     word = name.replace("_", "-")
-    if isinstance(default, bool):
-        wanted, fits = "true or false", isinstance(value, bool)
-    elif isinstance(default, tuple):
-        fits = isinstance(value, (list, tuple)) and len(value) == len(default) and all(map(_is_number, value))
-        wanted, value = f"{len(default)} numbers", tuple(value) if fits else value
-    elif isinstance(default, str) or name == "pattern":
+    if name == "size":
+        return parse_size(value)
+    if isinstance(default, str) or name == "pattern":
         wanted, fits = "a word", isinstance(value, str)
     else:
         wanted, fits = "a number", _is_number(value)
@@ -191,8 +200,17 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     return value
 
 
+def _without(given: Mapping[str, Any], names: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in given.items() if name not in names}
+
+
 def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _rows(values: Mapping[str, Any]) -> list[str]:
+    """Return a line of TOML for each value that is not None."""
+    return [f"{name} = {_toml(value)}" for name, value in values.items() if value is not None]
 
 
 def _toml(value: object) -> str:

@@ -79,6 +79,11 @@ class Smoothing:
         """Lam dt of the fidelity step (10)."""
         return self.alpha * self.fidelity
 
+    @property
+    def blur(self) -> float:
+        """Standard deviation, in cells, of the Gaussian that the diffusion of all steps amounts to."""
+        return math.sqrt(2 * self.alpha * self.steps)
+
     def weights(self, spacing: tuple[float, ...]) -> tuple[float, ...]:
         """Return dt / h_axis^2 for each axis, with dt = alpha h_min^2.
 

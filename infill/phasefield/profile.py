@@ -64,9 +64,13 @@ class Profile:
 
         out = np.empty_like(values) if out is None else out
         in_threads(
-            transfer.straighten, values.reshape(-1, CELLS), np.float32(self.steepest), np.float32(self.scale),
-            out.reshape(-1, CELLS), threads=thread_count(threads),
-        )  # fmt: skip
+            transfer.straighten,
+            values.reshape(-1, CELLS),
+            np.float32(self.steepest),
+            np.float32(self.scale),
+            out.reshape(-1, CELLS),
+            threads=thread_count(threads),
+        )
         return out
 
 

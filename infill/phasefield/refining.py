@@ -230,9 +230,12 @@ def filtered_bricks(
     del before
     shape = data.shape
     field = SparseField(
-        shape=(shape[0], shape[1], shape[2]), slots=bricks.slots, where=bricks.where[: bricks.count],
-        values=np.empty((0, *BRICK), dtype=np.float32), data=bricks.held[: bricks.count].reshape(-1, *BRICK),
-    )  # fmt: skip
+        shape=(shape[0], shape[1], shape[2]),
+        slots=bricks.slots,
+        where=bricks.where[: bricks.count],
+        values=np.empty((0, *BRICK), dtype=np.float32),
+        data=bricks.held[: bricks.count].reshape(-1, *BRICK),
+    )
     mild, middle, strong = (replace(field, values=each.whole(bricks).reshape(-1, *BRICK)) for each in sums)
     return mild, middle, strong
 
@@ -262,9 +265,16 @@ class _Sum:
             larger[:known] = self.total
             self.total = larger
         in_threads(
-            kernels.add_snapshot, bricks.phi, bricks.held, self.total, np.float32(weight), known,
-            np.float32(self.so_far), bricks.count, threads=bricks.threads,
-        )  # fmt: skip
+            kernels.add_snapshot,
+            bricks.phi,
+            bricks.held,
+            self.total,
+            np.float32(weight),
+            known,
+            np.float32(self.so_far),
+            bricks.count,
+            threads=bricks.threads,
+        )
         self.so_far += weight
 
 
@@ -281,10 +291,22 @@ def _grown(before: Field, known: int, bricks: Bricks) -> Field:
 def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> None:
     """Do one step in place; `before` becomes the field as it was."""
     in_threads(
-        kernels.step, bricks.phi, before, bricks.faces, bricks.next_faces, bricks.flat, bricks.next_flat,
-        bricks.uniform, bricks.beside, bricks.where, bricks.count, numbers, np.float32(momentum), bricks.shape,
+        kernels.step,
+        bricks.phi,
+        before,
+        bricks.faces,
+        bricks.next_faces,
+        bricks.flat,
+        bricks.next_flat,
+        bricks.uniform,
+        bricks.beside,
+        bricks.where,
+        bricks.count,
+        numbers,
+        np.float32(momentum),
+        bricks.shape,
         threads=bricks.threads,
-    )  # fmt: skip
+    )
     bricks.faces, bricks.next_faces = bricks.next_faces, bricks.faces
     bricks.flat, bricks.next_flat = bricks.next_flat, bricks.flat
 
@@ -303,9 +325,18 @@ def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: i
     blurred = np.empty_like(sums)
     in_threads(kernels.blur, sums, low.slots, low.where, blurred, threads=threads)
     in_threads(
-        kernels.blend, below, above, blurred, low.slots, low.where, low.shape, np.float32(limits.signed),
-        np.float32(limits.unsigned), np.float32(TINY), threads=threads,
-    )  # fmt: skip
+        kernels.blend,
+        below,
+        above,
+        blurred,
+        low.slots,
+        low.where,
+        low.shape,
+        np.float32(limits.signed),
+        np.float32(limits.unsigned),
+        np.float32(TINY),
+        threads=threads,
+    )
 
 
 def filtered_reference(

@@ -120,9 +120,12 @@ def smooth_bricks(
         bricks.step(numbers, domain)
     shape = data.shape
     return SparseField(
-        shape=(shape[0], shape[1], shape[2]), slots=bricks.slots, where=bricks.where[: bricks.count],
-        values=bricks.phi[: bricks.count].reshape(-1, *BRICK), data=bricks.held[: bricks.count].reshape(-1, *BRICK),
-    )  # fmt: skip
+        shape=(shape[0], shape[1], shape[2]),
+        slots=bricks.slots,
+        where=bricks.where[: bricks.count],
+        values=bricks.phi[: bricks.count].reshape(-1, *BRICK),
+        data=bricks.held[: bricks.count].reshape(-1, *BRICK),
+    )
 
 
 def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
@@ -211,16 +214,36 @@ class Bricks:
         self.slots[tuple(wanted.T)] = np.arange(first, self.count)
         kernels.find_neighbours(self.slots, self.where, self.beside, first, self.count)
         in_threads(
-            kernels.fill, self.phi, self.held, self.flat, self.next_flat, self.uniform, first, self.count,
+            kernels.fill,
+            self.phi,
+            self.held,
+            self.flat,
+            self.next_flat,
+            self.uniform,
+            first,
+            self.count,
             threads=self.threads,
-        )  # fmt: skip
+        )
 
     def step(self, numbers: Numbers, domain: NDArray[np.bool_] | None) -> None:
         """Do one step, in place."""
         in_threads(
-            kernels.step, self.phi, self.held, self.faces, self.next_faces, self.flat, self.next_flat, self.uniform,
-            self.beside, self.where, domain, self.count, numbers, self.shape, threads=self.threads,
-        )  # fmt: skip
+            kernels.step,
+            self.phi,
+            self.held,
+            self.faces,
+            self.next_faces,
+            self.flat,
+            self.next_flat,
+            self.uniform,
+            self.beside,
+            self.where,
+            domain,
+            self.count,
+            numbers,
+            self.shape,
+            threads=self.threads,
+        )
         self.faces, self.next_faces = self.next_faces, self.faces
         self.flat, self.next_flat = self.next_flat, self.flat
 

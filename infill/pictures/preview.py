@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,13 @@ from PIL import Image, ImageDraw, ImageFont
 from infill.errors import FormatError
 from infill.formats.whole_files import whole_file
 from infill.grid import VOID, Grid
+from infill.making.stages import MakeStages
 from infill.pictures.render import render
 from infill.result import Result
 from infill.surface import Surface
+
+if TYPE_CHECKING:
+    from infill.smoothing.stages import SmoothStages
 
 PANEL = 420  # pixels
 MARGIN, CAPTION = 14, 34
@@ -31,14 +35,14 @@ SUFFIXES = (".png",)
 
 
 def check_preview(path: str | os.PathLike[str]) -> Path:
-    """Return the path, or raise FormatError if it is no picture we can write."""
+    """Return the path, or raise FormatError if it is not a picture we can write."""
     target = Path(path)
     if target.suffix.lower() not in SUFFIXES:
         raise FormatError(f"a preview cannot be written as {target.name!r}; use a name that ends in {SUFFIXES[0]}")
     return target
 
 
-def save_preview(result: Result, path: str | os.PathLike[str]) -> Path:
+def save_preview(result: Result[Any], path: str | os.PathLike[str]) -> Path:
     """Write `preview` as a PNG file."""
     target = check_preview(path)
     with whole_file(target) as file:
@@ -46,24 +50,27 @@ def save_preview(result: Result, path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def write_preview(result: Result, file: BinaryIO) -> None:
+def write_preview(result: Result[Any], file: BinaryIO) -> None:
     """Write `preview` as PNG."""
     preview(result).save(file, format="PNG")
 
 
-def preview(result: Result) -> Image.Image:
+def preview(result: Result[Any]) -> Image.Image:
     """Return the stages of a result as one picture: points, stamp, field and mesh, or voxels and mesh."""
-    return _before_and_after(result) if "levelled" in result.fields else _four_stages(result)
+    stages = result.stages
+    if isinstance(stages, MakeStages):
+        return _four_stages(stages, result)
+    return _before_and_after(stages, result)
 
 
-def _before_and_after(result: Result) -> Image.Image:
+def _before_and_after(stages: SmoothStages, result: Result[Any]) -> Image.Image:
     """Return the voxels and the smoothed surface, at the same scale and from the same side."""
     from infill.smoothing.placing import staircase
 
     report = result.report
     panels = {
-        f"data: {' x '.join(map(str, report['grid']))} voxels": _mesh(staircase(result)),
-        f"smoothed: {report['steps']} steps, {report['triangles']:,} triangles": _mesh(result.surface),
+        f"data: {' x '.join(map(str, report['grid']['shape']))} voxels": _mesh(staircase(stages)),
+        f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles": _mesh(result.surface),
     }
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     facts = f"{size} mm, volume {report['volume']:.6g} cubic mm ({report['volume_change']:+.4%})"
@@ -74,19 +81,20 @@ def _mesh(surface: Surface) -> Image.Image:
     return Image.fromarray(render(surface, width=PANEL, height=PANEL, background=BACKGROUND))
 
 
-def _four_stages(result: Result) -> Image.Image:
-    report, fields = result.report, result.fields
+def _four_stages(stages: MakeStages, result: Result[Any]) -> Image.Image:
+    report, request = result.report, result.report["request"]
     width = report["wall_width"]
     panels = {
-        f"points: {len(fields['points']):,}": _points(fields["points"], fields["grid"]),
-        f"stamp: {' x '.join(map(str, report['grid']))} cells": _field(fields["stamp"]),
-        f"smoothed: {report['steps']} steps": _contoured(fields["smoothed"]),
+        f"points: {len(stages.points):,}": _points(stages.points, stages.grid),
+        f"stamp: {' x '.join(map(str, stages.grid.shape))} cells": _field(stages.stamp),
+        f"smoothed: {request['steps']} steps": _contoured(stages.smoothed),
         f"mesh: {report['triangles']:,} triangles": _mesh(result.surface),
     }
-    size = " x ".join(f"{length:g}" for length in (*report["size"], report["height"]))
+    size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
     mean = "not measured" if width["mean"] is None else f"{width['mean']:.3f} ({width['p5']:.3f} to {width['p95']:.3f})"
     facts = (
-        f"{report['pattern']}, {size} mm, density {report['density']:.1%}, walls {mean} of {report['line_width']:g} mm"
+        f"{request['pattern']}, {size} mm, density {report['density']:.1%}, "
+        f"walls {mean} of {request['line_width']:g} mm"
     )
     return _sheet(panels, facts)
 

@@ -3,39 +3,74 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.errors import GeometryError
 from infill.machine import require_memory
 from infill.phasefield.sparse import SparseField
-from infill.result import Result
 from infill.surface import Surface
+from infill.surfaces.components import shell_names
 from infill.surfaces.distance import distances
+from infill.surfaces.simplification import simplified
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
+if TYPE_CHECKING:
+    from infill.result import Result
+    from infill.smoothing.request import Request
+    from infill.smoothing.stages import SmoothStages
+
 COMPARED = 5_000  # vertices of which the distance is measured
+SIMPLER = 0.05  # of the volume: what simplifying may change
 
 
 def placed(surface: Surface, data: Volume) -> Surface:
     """Return the surface where the volume lies in space."""
-    faces = surface.faces[:, ::-1] if data.mirrored else surface.faces
-    return Surface(vertices=data.place(surface.vertices), faces=faces, space=data.space)
+    return surface.moved(data.place(surface.vertices), space=data.space, mirrored=data.mirrored)
 
 
-def staircase(result: Result) -> Surface:
+def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] | None]:
+    """Return the surface with as few triangles as asked for, and what that cost; None if nothing was asked for.
+
+    Raises
+    ------
+    GeometryError
+        If the volume would change by more than 5 %, unless broken results are allowed.
+    """
+    if request.tolerance is None and request.max_triangles is None:
+        return full, None
+    light = replace(
+        simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads),
+        space=full.space,
+    )
+    change = light.volume / full.volume - 1
+    if abs(change) > SIMPLER and not request.allow_broken:
+        raise GeometryError(
+            f"simplifying to {len(light.faces):,} triangles would change the volume by {change:+.0%}; "
+            "allow more triangles or give a smaller tolerance"
+        )
+    return light, {
+        "triangles_before": len(full.faces),
+        "volume_change": change,
+        "shells": shell_names(light)[1],
+        "distance": summary(distances(some(full.vertices), light, threads=request.threads)),
+    }
+
+
+def staircase(stages: SmoothStages) -> Surface:
     """Return the surface of the data that a result was smoothed from, in the same place."""
-    return raw_surface(result.fields["levelled"].against, result.fields["data"], None)
+    return raw_surface(stages.levelled.against, stages.data, None)
 
 
-def field_volume(result: Result) -> Volume:
+def field_volume(result: Result[SmoothStages]) -> Volume:
     """Return the field of a result as a whole, less its level, so that the surface lies at 0: float32, [x, y, z].
 
     Of a surface at the level of the volume it is the distance from the surface, +-1 some cells away from it.
     """
-    data, found = result.fields["data"], result.fields["levelled"]
+    data, found = result.stages.data, result.stages.levelled
     require_memory(4 * data.values.size, None, "write a mesh instead of the field, or use larger voxels")
     values = found.against.to_dense()
     values -= np.float32(found.height)
@@ -45,8 +80,8 @@ def field_volume(result: Result) -> Volume:
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
     """Return the surface of the data in bricks, placed in space."""
-    raw = extract_bricks(replace(field, values=as_float(field)), spacing=tuple(data.cell_size), threads=threads)
-    return placed(raw, data)
+    grey = replace(field, values=field.data.astype(np.float32))
+    return placed(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
 
 
 def moved(
@@ -63,14 +98,8 @@ def moved(
     }
 
 
-def as_float(field: SparseField) -> NDArray[np.float32]:
-    """Return the data of the bricks as phase field."""
-    values: NDArray[np.float32] = field.data.astype(np.float32)
-    return values
-
-
 def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return so many of the vertices as are compared, spread evenly over them."""
+    """Return as many of the vertices as are compared, spread evenly over them."""
     return vertices[:: max(1, len(vertices) // COMPARED)]
 
 

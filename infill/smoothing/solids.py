@@ -2,36 +2,41 @@
 
     data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
-and a report of what smoothing did: to the volume, to components, cavities and tunnels, and to the thinnest walls.
+What is solid is found by the three functions, each its own way. The rest is one story in five stages, `_smooth`:
+
+    cleaned     the data without specks
+    smoothed    the field in bricks
+    levelled    the surface at the level where every component has its volume
+    judged      what smoothing did to components, cavities, tunnels and walls, and what of that is a problem
+    delivered   the surface in its place, simplified if asked, and how far it lies from the data
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import asdict, replace
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, Literal, Unpack
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from infill.checks import within
 from infill.errors import GeometryError, ParameterError
 from infill.grid import spacing_of
-from infill.inspection.changes import verdict
+from infill.inspection.bricks import Verdict, verdict
+from infill.inspection.thickness import thinnest_walls
 from infill.kernels.compiling import told_of_compiling
-from infill.machine import require_memory
-from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.profile import REFINED
-from infill.result import Clock, Progress, Result
-from infill.smoothing.placing import as_float, moved, placed, some, summary
+from infill.phasefield.refining import refine_bricks
+from infill.phasefield.sparse import smooth_bricks
+from infill.report import report_of
+from infill.result import Clock, Result
+from infill.smoothing.cleaning import cleaned, require_room
+from infill.smoothing.levelling import Surfaced, levelled
+from infill.smoothing.placing import lightened, moved, placed
+from infill.smoothing.request import Given, Options, Request
+from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
-from infill.surfaces.capping import capped
-from infill.surfaces.distance import distances
-from infill.surfaces.merging import closed_or_merged, surface_of
-from infill.surfaces.simplification import simplified
-from infill.version import __version__
+from infill.surfaces.merging import surface_of
 from infill.volume import Volume
-from infill.voxels.from_mesh import Repairs, voxelise_reported
+from infill.voxels.from_mesh import voxelise_reported
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.segmentation import grey as grey_levels
 from infill.voxels.segmentation import threshold as segment
@@ -40,32 +45,12 @@ if TYPE_CHECKING:
     import trimesh
 
     from infill.phasefield.sparse import SparseField
-    from infill.surfaces.components import Components
 
-LevelMethod = Literal["volume"] | float
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
-BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface
-BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
 OFF = 0.01  # of the volume: what the level of the volume may miss, by specks that are gone
-SIMPLER = 0.05  # of the volume: what simplifying may change
 ROUGH = 0.03  # of the volume: what voxels may hold more or less than a mesh
 ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 ADVICE_REFINED = "use finer voxels or fewer steps (or --allow-broken, to have it anyway)"
-
-
-class Options(TypedDict, total=False):
-    """What the three functions take alike; see `smooth_volume`."""
-
-    smoothing: Smoothing
-    refine: bool
-    level: LevelMethod
-    despeckle: float
-    allow_broken: bool
-    tolerance: float | None
-    max_triangles: int | None
-    threads: int | None
-    max_memory: int | None
-    progress: Progress | None
 
 
 def smooth_volume(
@@ -77,7 +62,7 @@ def smooth_volume(
     label: int | tuple[int, ...] | None = None,
     grey: bool = False,
     **options: Unpack[Options],
-) -> Result:
+) -> Result[SmoothStages]:
     """Return the smooth surface of what is solid in a volume.
 
     Parameters
@@ -136,9 +121,7 @@ def smooth_volume(
     >>> bool(abs(result.mesh.volume / ball.sum() - 1) < 1e-4)
     True
     """
-    scan = volume if isinstance(volume, Volume) else Volume(
-        values=np.asarray(volume), spacing=spacing_of(spacing, 3), origin=origin
-    )  # fmt: skip
+    scan = volume if isinstance(volume, Volume) else _volume(volume, spacing, origin)
     low, high = threshold if isinstance(threshold, tuple) else (threshold, None)
     otsu = isinstance(low, str)
     if otsu and low != "otsu":
@@ -153,7 +136,12 @@ def smooth_volume(
         data = grey_levels(scan, level)
     elif used["method"] == "phase":
         data = scan
-    return _smoothed(data, {"source": "volume", "segmentation": used, "grey": grey}, None, **options)
+    facts = {"source": "volume", "segmentation": used, "grey": grey}
+    return _smooth(Given(data=data, facts=facts), Request(**options))
+
+
+def _volume(values: ArrayLike, spacing: float | tuple[float, ...], origin: tuple[float, ...]) -> Volume:
+    return Volume(values=np.asarray(values), spacing=spacing_of(spacing, 3), origin=origin)
 
 
 def smooth_mesh(
@@ -162,7 +150,7 @@ def smooth_mesh(
     resolution: int | None = None,
     voxel: float | None = None,
     **options: Unpack[Options],
-) -> Result:
+) -> Result[SmoothStages]:
     """Return the smooth surface of a mesh, by way of voxels.
 
     Parameters
@@ -177,18 +165,26 @@ def smooth_mesh(
         See `smooth_volume`.
 
     >>> import trimesh
-    >>> smooth_mesh(trimesh.creation.icosphere(radius=10), voxel=0.5).report["result"]["components"]
+    >>> smooth_mesh(trimesh.creation.icosphere(radius=10), voxel=0.5).report["components"]
     1
     """
     surface = surface_of(mesh)
     found = voxelise_reported(
         surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=options.get("max_memory")
     )
-    source = {"source": "mesh", "repairs": asdict(found.repairs)}
-    return _smoothed(found.volume, source, found.closed, repairs=found.repairs, **options)
+    given = Given(
+        data=found.volume,
+        facts={"source": "mesh", "repairs": asdict(found.repairs)},
+        reference=found.closed,
+        volume=found.repairs.volume,
+        overlapping=found.repairs.components > 1,
+    )
+    return _smooth(given, Request(**options))
 
 
-def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None, **options: Unpack[Options]) -> Result:
+def smooth_points(
+    points: ArrayLike, *, voxel: float, shell: float | None = None, **options: Unpack[Options]
+) -> Result[SmoothStages]:
     """Return the smooth surface of a cloud of points.
 
     Parameters
@@ -212,170 +208,120 @@ def smooth_points(points: ArrayLike, *, voxel: float, shell: float | None = None
         max_memory=options.get("max_memory"),
         threads=options.get("threads"),
     )
-    return _smoothed(solid, {"source": "points", "points": len(cloud), "shell": shell}, None, **options)
+    facts = {"source": "points", "points": len(cloud), "shell": shell}
+    return _smooth(Given(data=solid, facts=facts), Request(**options))
 
 
 @told_of_compiling("the smoother, about 15 s")
-def _smoothed(
-    data: Volume,
-    source: dict[str, Any],
-    reference: Surface | None,
-    *,
-    repairs: Repairs | None = None,
-    smoothing: Smoothing = Smoothing(steps=20),  # noqa: B008 - frozen
-    refine: bool = False,
-    level: LevelMethod = "volume",
-    despeckle: float = 0.0,
-    allow_broken: bool = False,
-    tolerance: float | None = None,
-    max_triangles: int | None = None,
-    threads: int | None = None,
-    max_memory: int | None = None,
-    progress: Progress | None = None,
-) -> Result:
-    """Do what the three functions have in common."""
-    from infill.phasefield.refining import refine_bricks
-    from infill.phasefield.sparse import smooth_bricks
-    from infill.surfaces.components import components, data_bits, shell_names
-    from infill.surfaces.levels import as_straightened, at_level, at_volume, counted
-
-    if isinstance(level, str) and level != "volume":
-        raise ParameterError(f"there is no level {level!r}; give volume, or a number between -1 and 1")
-    clock = Clock(progress)
-    size: tuple[float, ...] = tuple(float(x) for x in data.cell_size)
-    values, specks = data.values, 0
+def _smooth(given: Given, request: Request) -> Result[SmoothStages]:
+    """Tell the story of the five stages, which all three functions have in common."""
+    clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
-        _require(data, max_memory, BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if refine else 0))
-        if despeckle:
-            values, specks = _despeckled(data, within("despeckle", despeckle, 0, math.inf, "mm³"), threads)
-
-        def report_step(share: float) -> None:
-            if progress is not None:
-                progress("smooth", 0.05 + 0.3 * share)
-
-        smoothed = refine_bricks if refine else smooth_bricks
-        field = smoothed(values, smoothing, spacing=size, threads=threads, progress=report_step)
+        require_room(given.data, request)
+        data, specks = cleaned(given.data, request)
+        field = _smoothed(data, request, clock)
+    spacing = tuple(data.cell_size.tolist())
     with clock.stage("surface", 0.4):
-        by_volume, guess = level == "volume", None
-        if by_volume:
-            before, field, guess = counted(field, spacing=size, straighten=not refine, threads=threads)
-        else:
-            before = components(field, data_bits(field, threads=threads))
-        targets: NDArray[np.float64] = before.cells.astype(np.float64) * data.cell_volume
-        if field.data.dtype != np.int8:
-            targets = _grey_volumes(field, before, size, threads)
-        if by_volume:
-            found = at_volume(field, before, spacing=size, targets=targets, guess=guess, threads=threads)
-            found = as_straightened(found) if refine else found
-        else:
-            most = 0.99 if refine else 0.999
-            height = within("level", float(level), -most, most)
-            cut = REFINED.distance_level(height) if refine else height
-            found = replace(
-                at_level(field, before, spacing=size, level=cut, threads=threads),
-                common=height, levels=np.full(before.count, height),
-            )  # fmt: skip
-        closed = found.surface.closed
-        if not closed:
+        surfaced = levelled(field, request, spacing=spacing)
+        if not surfaced.found.surface.closed:
             raise GeometryError(f"the surface is not closed; {ADVICE}")
     with clock.stage("check", 0.6):
-        report = verdict(found, before, targets, level, smoothing.steps, size, threads)
-        for piece in report["lost"]:
-            piece["at"] = data.place(np.array([piece["at"]]))[0].tolist()
-        report["problems"] += _of_voxels(float(targets.sum()), repairs)
-        if by_volume and abs(report["volume_change"]) > OFF:
-            report["problems"].append(f"the volume is off by {report['volume_change']:+.1%}, which no level mends")
-        if report["problems"] and not allow_broken:
-            raise GeometryError(f"{'; '.join(report['problems'])}; {ADVICE_REFINED if refine else ADVICE}")
+        judged, problems = _judged(surfaced, given, request, spacing=spacing)
     with clock.stage("measure", 0.75):
-        surface = placed(found.surface, data)
-        report["distance"] = moved(surface, field, data, reference, threads)
-        full = surface
-        if tolerance is not None or max_triangles is not None:
-            surface = replace(
-                simplified(full, tolerance=tolerance, triangles=max_triangles, threads=threads), space=data.space
-            )
-            change = surface.volume / full.volume - 1
-            if abs(change) > SIMPLER and not allow_broken:
-                raise GeometryError(
-                    f"simplifying to {len(surface.faces):,} triangles would change the volume by {change:+.0%}; "
-                    "allow more triangles or give a smaller tolerance"
-                )
-            report["simplified"] = {
-                "triangles_before": len(full.faces),
-                "volume_change": change,
-                "shells": shell_names(surface)[1],
-                "distance": summary(distances(some(full.vertices), surface, threads=threads)),
-            }
-    closed = closed if surface is full else surface.closed
-    bounds = surface.bounds
-    report = {
-        "version": __version__, **source, "grid": list(data.values.shape), "spacing": list(size),
-        "space": data.space, "steps": smoothing.steps, "refined": refine,
-        "fidelity": 0.0 if refine else smoothing.fidelity,
-        "interface": smoothing.interface, "alpha": smoothing.alpha, "despeckled": specks,
-        "triangles": len(surface.faces), "closed": closed, "volume": surface.volume, "area": surface.area,
-        "extents": (bounds[1] - bounds[0]).tolist(), "bounds": bounds.tolist(), **report,
-    }  # fmt: skip
-    report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
-    return Result(
+        full = placed(surfaced.found.surface, data)
+        distance = moved(full, field, data, given.reference, request.threads)
+        surface, simplified = lightened(full, request)
+        walls = _walls(judged, surfaced, data, spacing=spacing)
+    report = report_of(
+        product="smooth",
         surface=surface,
-        report=report,
-        fields={"levelled": found, "data": replace(data, values=values)},
+        request=request.facts(),
+        grid={
+            "shape": list(data.values.shape),
+            "spacing": list(spacing),
+            "origin": list(data.origin),
+            "space": data.space,
+        },
+        solid={"data": float(surfaced.targets.sum()), "level": _level(surfaced, request)},
+        data=judged.data,
+        result=judged.result,
+        changes=judged.changes,
+        walls=walls,
+        problems=problems,
+        seconds=clock.seconds,
+        simplified=simplified,
+        input={**given.facts, "despeckled": specks},
+        distance=distance,
+    )
+    stages = SmoothStages(data=data, levelled=surfaced.found)
+    return Result(surfaces={"solid": surface}, report=report, stages=stages)
+
+
+def _smoothed(data: Volume, request: Request, clock: Clock) -> SparseField:
+    """Return the field in bricks: the second stage."""
+    method = refine_bricks if request.refine else smooth_bricks
+    return method(
+        data.values,
+        request.smoothing,
+        spacing=tuple(data.cell_size.tolist()),
+        threads=request.threads,
+        progress=lambda share: clock.tell("smooth", 0.05 + 0.3 * share),
     )
 
 
-def _of_voxels(total: float, repairs: Repairs | None) -> list[str]:
+def _judged(
+    surfaced: Surfaced, given: Given, request: Request, *, spacing: tuple[float, ...]
+) -> tuple[Verdict, list[str]]:
+    """Return what smoothing did, and what of that is a problem: the fourth stage.
+
+    Raises
+    ------
+    GeometryError
+        If there is a problem, unless broken results are allowed.
+    """
+    found = verdict(
+        surfaced.found,
+        surfaced.before,
+        spacing=spacing,
+        blur=request.smoothing.blur,
+        levels=surfaced.levels,
+        threads=request.threads,
+    )
+    total = float(surfaced.targets.sum())
+    problems = [*found.problems, *_of_voxels(total, given)]
+    off = surfaced.volume / total - 1
+    if request.level == "volume" and abs(off) > OFF:
+        problems.append(f"the volume is off by {off:+.1%}, which no level mends")
+    if problems and not request.allow_broken:
+        raise GeometryError(f"{'; '.join(problems)}; {ADVICE_REFINED if request.refine else ADVICE}")
+    return found, problems
+
+
+def _of_voxels(total: float, given: Given) -> list[str]:
     """Say whether the voxels hold much more or less than the mesh they stand for."""
-    if repairs is None or repairs.volume == 0:
+    if not given.volume:
         return []
-    off = total / repairs.volume - 1
-    if off > ROUGH or (off < -ROUGH and repairs.components == 1):  # components that overlap are united
+    off = total / given.volume - 1
+    if off > ROUGH or (off < -ROUGH and not given.overlapping):  # components that overlap are united
         word = "more" if off > 0 else "less"
         return [f"the voxels hold {abs(off):.0%} {word} than the mesh, whose walls are thin for them"]
     return []
 
 
-def _closed(mesh: Surface, solid: Volume, repairs: Repairs) -> Surface:
-    """Return a mesh with its holes capped as for the voxels."""
-    if not repairs.holes:
-        return mesh
-    size, origin = solid.cell_size, np.array(solid.origin)
-    whole = closed_or_merged(mesh.vertices, mesh.faces)
-    vertices, faces, _ = capped((whole.vertices - origin) / size - 0.5, whole.faces)
-    return Surface(vertices=(vertices + 0.5) * size + origin, faces=faces)
+def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
+    """Return at which levels of phi the surface lies, for the report."""
+    return {
+        "method": "volume" if request.level == "volume" else "fixed",
+        "common": surfaced.common,
+        "lowest": float(surfaced.levels.min()),
+        "highest": float(surfaced.levels.max()),
+        "components": len(surfaced.levels),
+    }
 
 
-def _require(data: Volume, limit: int | None, each: int) -> None:
-    """Raise MemoryLimitError if the surface will not fit into memory, at `each` bytes a cell, guessed from layers."""
-    values: NDArray[Any] = data.values
-    steps = max(1, values.shape[0] // 16)
-    layers = values[::steps] > 0
-    crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * 1.5
-    require_memory(int(crossings * each), limit, "use larger voxels, a part of the volume, or despeckle it")
-
-
-def _despeckled(data: Volume, largest: float, threads: int | None) -> tuple[NDArray[Any], int]:
-    """Return the data without components up to a volume, mm³, and how many those were."""
-    from infill.phasefield.sparse import smooth_bricks
-    from infill.surfaces.components import components, data_bits, without
-
-    field = smooth_bricks(data.values, Smoothing(steps=0), threads=threads)
-    every = components(field, data_bits(field, threads=threads))
-    small = every.cells * data.cell_volume <= largest
-    if small.all():
-        raise ParameterError(
-            f"despeckle is {largest:g} mm³ and the largest component has {every.cells.max() * data.cell_volume:g} mm³; "
-            "give less"
-        )
-    return (without(data.values, field, every, small), int(small.sum())) if small.any() else (data.values, 0)
-
-
-def _grey_volumes(
-    field: SparseField, data: Components, size: tuple[float, ...], threads: int | None
-) -> NDArray[np.float64]:
-    """Return the volume of each component of grey data as its surface at level 0 encloses it, mm³."""
-    from infill.surfaces.levels import volumes_of
-
-    volume = volumes_of(replace(field, values=as_float(field)), data, spacing=size, threads=threads)
-    return np.where(volume > 0, volume, data.cells * math.prod(size))
+def _walls(judged: Verdict, surfaced: Surfaced, data: Volume, *, spacing: tuple[float, ...]) -> dict[str, Any]:
+    """Return how thin the walls are, and which are lost, for the report."""
+    found = surfaced.found
+    before, after = thinnest_walls(found.against, found.surface, spacing, found.height)
+    lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in judged.lost]
+    return {"thinnest": {"data": before, "result": after}, "lost": lost}

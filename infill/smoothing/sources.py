@@ -23,7 +23,8 @@ from infill.volume import Volume
 
 if TYPE_CHECKING:
     from infill.result import Result
-    from infill.smoothing.solids import Options
+    from infill.smoothing.request import Options
+    from infill.smoothing.stages import SmoothStages
 
 Kind = Literal["mesh", "points", "volume"]
 Source = Surface | Volume | NDArray[np.float64]
@@ -106,16 +107,21 @@ def smooth_source(
     otsu: bool = False,
     grey: bool = False,
     **options: Unpack[Options],
-) -> Result:
+) -> Result[SmoothStages]:
     """Smooth what `read_source` returned; raise ParameterError for what does not fit its kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
     kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
     given = {
-        "resolution": resolution is not None, "voxel": voxel is not None, "shell": shell is not None,
-        "threshold": threshold is not None, "range": between is not None, "label": label is not None,
-        "otsu": otsu, "grey": grey,
-    }  # fmt: skip
+        "resolution": resolution is not None,
+        "voxel": voxel is not None,
+        "shell": shell is not None,
+        "threshold": threshold is not None,
+        "range": between is not None,
+        "label": label is not None,
+        "otsu": otsu,
+        "grey": grey,
+    }
     wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
     if wrong:
         fits = [each for each in KINDS if wrong[0] in FITTING[each]]

@@ -21,9 +21,6 @@ from infill.surface import Surface
 from infill.surfaces.shells import vertex_components
 from infill.surfaces.sparse_marching import rows_above
 
-LARGE = 100  # cells: two such components that run together are told
-SMALLEST_PART = 8  # cells: what comes off a component and is smaller is a crumb, no part of it
-
 
 @dataclass(frozen=True, kw_only=True)
 class Components:
@@ -51,29 +48,6 @@ class Components:
     def count(self) -> int:
         """Number of components."""
         return len(self.cells)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fate:
-    """What became of components, by their numbers before and after.
-
-    Parameters
-    ----------
-    vanished : (n,) int
-        Components that have no cell in common with any after.
-    broken : (n,) int
-        Components of which two or more parts of at least `SMALLEST_PART` cells are left.
-    joined : (n,) int
-        Components after that hold at least `LARGE` cells of two or more before; if thickness is known, of those more
-        than one cell thick.
-    appeared : (n,) int
-        Components after that have no cell in common with any before.
-    """
-
-    vanished: NDArray[np.integer]
-    broken: NDArray[np.integer]
-    joined: NDArray[np.integer]
-    appeared: NDArray[np.integer]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,9 +121,16 @@ def _meet_or_spread(
 ) -> NDArray[np.uint16]:
     out = np.empty_like(bits)
     in_threads(
-        kernels.meet_or_spread, field.slots, field.where, bits, kind, meet, way, out,
+        kernels.meet_or_spread,
+        field.slots,
+        field.where,
+        bits,
+        kind,
+        meet,
+        way,
+        out,
         threads=thread_count(threads),
-    )  # fmt: skip
+    )
     return out
 
 
@@ -214,27 +195,15 @@ def _sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> N
     return sides
 
 
-def fate(before: Components, after: Components) -> Fate:
-    """Compare two sets of components on the same bricks."""
+def shared_cells(one: Components, other: Components) -> NDArray[np.int64]:
+    """Return rows (n, 3) of a component of each and cells they share, on the same bricks; pairs may come again."""
     found = kernels.overlaps(
-        before.bits, before.bricks, before.starts, before.names, after.bits, after.bricks, after.starts, after.names
+        one.bits, one.bricks, one.starts, one.names, other.bits, other.bricks, other.starts, other.names
     )
-    single = before.alone >= 0
-    own, theirs = before.names[before.alone[single]], after.names[after.alone[single]]
+    single = one.alone >= 0
+    own, theirs = one.names[one.alone[single]], other.names[other.alone[single]]
     alone = np.stack([own, theirs, np.full(len(own), CELLS)], axis=1).astype(np.int64)
-    every = np.concatenate([found, alone])
-    key, index = np.unique(every[:, 0] * max(after.count, 1) + every[:, 1], return_inverse=True)
-    shared = np.bincount(index, weights=every[:, 2], minlength=len(key))
-    one, other = np.divmod(key, max(after.count, 1))
-    parts = np.bincount(one[shared >= SMALLEST_PART], minlength=before.count)
-    held = (shared >= SMALLEST_PART) & (before.thick[one] if len(before.thick) else True)
-    pieces = np.bincount(other[held & (shared >= LARGE)], minlength=after.count)
-    return Fate(
-        vanished=np.flatnonzero(np.bincount(one, minlength=before.count) == 0),
-        broken=np.flatnonzero(parts > 1),
-        joined=np.flatnonzero(pieces > 1),
-        appeared=np.flatnonzero(np.bincount(other, minlength=after.count) == 0),
-    )
+    return np.concatenate([found, alone])
 
 
 def shells(surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None) -> Shells:

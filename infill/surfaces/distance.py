@@ -38,7 +38,7 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
     near = near.reshape(len(points), -1)
     best = np.full(len(points), np.inf)
     for column in near.T:
-        best = np.minimum(best, _squared(np.asarray(points, dtype=np.float64), corners[face[column]]))
+        best = np.minimum(best, squared(np.asarray(points, dtype=np.float64), corners[face[column]]))
     found: Floats = np.sqrt(best)
     return found
 
@@ -60,7 +60,7 @@ def _samples(corners: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
     return a[face] + u[:, None] * (b - a)[face] + v[:, None] * (c - a)[face], face
 
 
-def _squared(p: Floats, triangles: Floats) -> Floats:
+def squared(p: Floats, triangles: Floats) -> Floats:
     """Return the squared distance of point i from triangle i.
 
     That from trimesh.triangles.closest_point, without the time that it takes to load trimesh, which is longer than

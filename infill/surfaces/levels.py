@@ -18,7 +18,7 @@ from infill.errors import GeometryError
 from infill.kernels import components as components_kernels
 from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count, together
-from infill.phasefield.profile import REFINED, STRAIGHT
+from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
@@ -85,12 +85,6 @@ def straightened(
     return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
 
 
-def as_straightened(found: Levelled) -> Levelled:
-    """Return a surface of a refined field with its levels as they would be named on a straightened one."""
-    share = REFINED.scale / STRAIGHT.scale
-    return replace(found, common=found.common * share, levels=found.levels * share)
-
-
 def volume_of(found: Level, threads: int) -> tuple[float, float]:
     """Return the volume a surface encloses, mm³, and how it changes when the level rises by one."""
     own, change = face_sums(found.surface, found.rate, threads=threads)
@@ -134,9 +128,14 @@ def at_level(
     """Return the surface at one level: the paper's is 0."""
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
-        against=field, height=level, surface=found.surface, rate=found.rate, common=level,
-        levels=np.full(data.count, level), threads=threads,
-    )  # fmt: skip
+        against=field,
+        height=level,
+        surface=found.surface,
+        rate=found.rate,
+        common=level,
+        levels=np.full(data.count, level),
+        threads=threads,
+    )
 
 
 def at_volume(
@@ -192,9 +191,14 @@ def at_volume(
         )
     if data.count == 1:
         return Levelled(
-            against=field, height=height, surface=found.surface, rate=found.rate, common=height,
-            levels=np.array([height]), threads=threads,
-        )  # fmt: skip
+            against=field,
+            height=height,
+            surface=found.surface,
+            rate=found.rate,
+            common=height,
+            levels=np.array([height]),
+            threads=threads,
+        )
     return _each_component(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
 
 
@@ -254,8 +258,7 @@ def _each_component(
         stepped = levels + np.where(slope < 0, change, 0)
         stepped = np.where((slope < 0) & (stepped > low) & (stepped < high), stepped, (low + high) / 2)
         levels = np.where(off, np.clip(stepped, -1 + 1e-6, LIMIT), levels)[group]
-    if best is None:  # pragma: no cover - there is always a first round
-        raise GeometryError("no surface was found; use finer voxels")
+    assert best is not None  # there is always a first round
     return best
 
 
@@ -265,10 +268,21 @@ def _lowered(
     """Return the field less the level of the nearest component."""
     out = np.empty_like(field.values)
     in_threads(
-        components_kernels.lower_to_levels, field.values.reshape(-1, CELLS), field.where, field.slots, data.bits,
-        data.bricks, data.starts, data.alone, data.names, levels.astype(np.float32), np.float32(common), REACH,
-        out.reshape(-1, CELLS), threads=threads,
-    )  # fmt: skip
+        components_kernels.lower_to_levels,
+        field.values.reshape(-1, CELLS),
+        field.where,
+        field.slots,
+        data.bits,
+        data.bricks,
+        data.starts,
+        data.alone,
+        data.names,
+        levels.astype(np.float32),
+        np.float32(common),
+        REACH,
+        out.reshape(-1, CELLS),
+        threads=threads,
+    )
     return replace(field, values=out)
 
 

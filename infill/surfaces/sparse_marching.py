@@ -110,10 +110,28 @@ def extract_level(
     edges = np.empty((offsets[-1, 2], len(EDGES)), dtype=np.int32)
     lowest = np.empty((offsets[-1, 2], 3), dtype=np.int32)
     in_threads(
-        kernels.write, field.slots, places, index, values, bits, field.shape, numbers, cubes.counts, cubes.triangles,
-        masks, starts, offsets, np.array(EDGES, dtype=np.int8), vertices, rate, faces, corners, edges, lowest,
+        kernels.write,
+        field.slots,
+        places,
+        index,
+        values,
+        bits,
+        field.shape,
+        numbers,
+        cubes.counts,
+        cubes.triangles,
+        masks,
+        starts,
+        offsets,
+        np.array(EDGES, dtype=np.int8),
+        vertices,
+        rate,
+        faces,
+        corners,
+        edges,
+        lowest,
         threads=threads,
-    )  # fmt: skip
+    )
     if len(corners):
         extra, more = _undecided(corners, edges, lowest, len(vertices))
         vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, more])
@@ -136,11 +154,21 @@ def measured(
     values, numbers, cubes = field.values.reshape(-1, CELLS), _numbers(level), cube_table()
     bits = rows_above(field, field.values, level, threads=count)
     parts = in_threads(
-        kernels.measure, field.slots, _crossed(field.slots, field.shape), bits, values, field.shape,
-        numbers, cubes.counts, cubes.triangles, np.array(EDGES, dtype=np.int8),
-        np.array(spacing, dtype=np.float64), np.array(field.shape) * spacing / 2, np.arange(3, dtype=np.int32),
+        kernels.measure,
+        field.slots,
+        _crossed(field.slots, field.shape),
+        bits,
+        values,
+        field.shape,
+        numbers,
+        cubes.counts,
+        cubes.triangles,
+        np.array(EDGES, dtype=np.int8),
+        np.array(spacing, dtype=np.float64),
+        np.array(field.shape) * spacing / 2,
+        np.arange(3, dtype=np.int32),
         threads=count,
-    )  # fmt: skip
+    )
     volume, slope, undecided = (sum(part[n] for part in parts) for n in range(3))
     return None if undecided else (volume / 6, slope / 6)
 
@@ -237,9 +265,17 @@ def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, thread
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places), 3), dtype=np.int64)
     in_threads(
-        kernels.count, field.slots, places, bits, field.shape, raw_counts(), masks, starts, counts,
+        kernels.count,
+        field.slots,
+        places,
+        bits,
+        field.shape,
+        raw_counts(),
+        masks,
+        starts,
+        counts,
         threads=thread_count(threads),
-    )  # fmt: skip
+    )
     vertices, faces, _ = counts.sum(axis=0)
     return int(vertices - faces // 2)
 

@@ -80,11 +80,11 @@ def stamp(
     marked = np.zeros(grid.shape, dtype=bool)
     marked[tuple(index.T)] = True
     for axis in range(marked.ndim):
-        marked = _widened(marked, axis, block // 2)
+        marked = widened(marked, axis, block // 2)
     return np.where(marked, np.float32(SOLID), np.float32(VOID))
 
 
-def _widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
+def widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
     """Return `marked` grown by `reach` cells both ways along one axis.
 
     What scipy.ndimage.maximum_filter1d returns, four times as fast for the blocks of 3 and 5 cells.

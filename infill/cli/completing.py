@@ -1,0 +1,28 @@
+"""What a shell offers for a word that is begun; the catalogue is loaded only when it asks."""
+
+from __future__ import annotations
+
+import typer
+
+
+def pattern_names(incomplete: str) -> list[tuple[str, str]]:
+    """Return the patterns whose names begin so, each with its summary."""
+    from patterns import PATTERNS
+
+    return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete)]
+
+
+def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
+    """Return ``name=`` for the parameters of the pattern that was typed, then ``name=value`` for a flag among them."""
+    from patterns import PATTERNS, parameters
+
+    # While --set waits for its value, arguments are not told from what is left over.
+    pattern = next((word for word in (context.params.get("pattern"), *context.args) if word in PATTERNS), None)
+    if pattern is None:
+        return []
+    offered = []
+    for name, (field, described) in parameters(PATTERNS[pattern]).items():
+        word = f"{name if '_' in incomplete else name.replace('_', '-')}="
+        values = ("true", "false") if isinstance(field.default, bool) and incomplete.startswith(word) else ("",)
+        offered += [(word + value, described.help) for value in values if (word + value).startswith(incomplete)]
+    return offered

@@ -1,0 +1,230 @@
+"""What smoothing did to a solid in bricks: how it hangs together before and after, and what was lost.
+
+    data  ──▶  solid, void                        every cell above 0, and the rest
+          ──▶  cores  ──▶  walls, sturdy solid    2 x 2 x 2 cells, all solid: what is more than one cell thick
+    field ──▶  solid, void                        every cell above the level
+    surface ─▶ shells                             what is handed over
+
+What is one cell thick may go, as the equation takes it; what is thicker may not. So components are compared as they
+are, but walls by their cores, which a bridge of single cells does not join, and voids around the sturdy solid.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.inspection.changes import Changes, Counts
+from infill.inspection.fates import Fate, Overlaps, fate, summed
+from infill.kernels.threads import thread_count, together
+from infill.phasefield.sparse import SparseField
+from infill.surfaces.components import (
+    Components,
+    cells_of,
+    components,
+    cores,
+    data_bits,
+    grown,
+    opened,
+    shared_cells,
+    solid_bits,
+    with_thickness,
+)
+from infill.surfaces.levels import Levelled
+from infill.surfaces.sparse_marching import euler_number_of_bits
+
+LARGE = 100  # cells: two such components that run together are told
+SMALLEST_PART = 8  # cells: what comes off a component and is smaller is a crumb, not a part of it
+WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
+NAMED = 5  # of the lost walls are told of
+FAINT = -0.9  # a component that only so low a level holds would be gone at level 0
+ROUNDED = 2  # cells by which edges and corners draw back, beyond what the smoothing blurs
+
+Bits = NDArray[np.uint16]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lost:
+    """A piece of wall that is gone.
+
+    Parameters
+    ----------
+    voxels : int
+        Its size.
+    at : (3,) float
+        The middle of it, mm along the axes of the grid from its lower corner.
+    """
+
+    voxels: int
+    at: NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verdict:
+    """What smoothing did to a solid.
+
+    Parameters
+    ----------
+    data, result : Counts
+        How it hangs together before and after.
+    changes : Changes
+    lost : tuple of Lost
+        The largest pieces of wall that are gone.
+    """
+
+    data: Counts
+    result: Counts
+    changes: Changes
+    lost: tuple[Lost, ...]
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What was lost that was more than one cell thick, one phrase each."""
+        return tuple(
+            what.format(f"{count} {words[count > 1]}") + " in smoothing"
+            for name, what, words in PROBLEMS
+            if (count := getattr(self.changes, name))
+        )
+
+
+PROBLEMS = (
+    ("vanished", "{} vanished", ("component", "components")),
+    ("broken", "{} fell apart", ("component", "components")),
+    ("fused", "{} ran together out of several", ("component", "components")),
+    ("walls_lost", "{} vanished", ("wall", "walls")),
+    ("walls_pierced", "{} broke through walls", ("hole", "holes")),
+    ("voids_joined", "{} between voids broke", ("wall", "walls")),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _States:
+    """The components to compare, and their counts."""
+
+    solid: Components
+    solid_after: Components
+    walls: Components
+    voids: Components
+    voids_after: Components
+    gone: Components
+    data: Counts
+    sturdy: Counts
+
+
+def verdict(
+    found: Levelled,
+    before: Components,
+    *,
+    spacing: tuple[float, ...],
+    blur: float,
+    levels: NDArray[np.float64],
+    threads: int | None = None,
+) -> Verdict:
+    """Return what smoothing did to a solid.
+
+    Parameters
+    ----------
+    found : Levelled
+        The surface, and the field it was taken from.
+    before : Components
+        Of the data.
+    spacing : (hx, hy, hz), mm
+    blur : float
+        Standard deviation of the diffusion, cells: so far, and `ROUNDED` cells more, edges may draw back.
+    levels : (b,) float64
+        Level of phi that each component has.
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
+    """
+    states = _states(found, before, ROUNDED + int(np.ceil(blur)), threads)
+    result = _of_surface(found)
+    of_solid, of_walls, of_voids = (
+        compared(one, other)
+        for one, other in (
+            (states.solid, states.solid_after),
+            (states.walls, states.solid_after),
+            (states.voids, states.voids_after),
+        )
+    )
+    thick = states.solid.thick
+    changes = Changes(
+        vanished=int(thick[of_solid.vanished].sum()),
+        vanished_thin=int((~thick[of_solid.vanished]).sum()),
+        broken=int((states.walls.cells[of_walls.broken] >= WALL).sum()),
+        fused=len(of_solid.fused),
+        appeared=len(of_solid.appeared),
+        voids_closed=int(states.voids.thick[of_voids.vanished].sum()),
+        voids_cut=int(states.voids.thick[of_voids.broken].sum()),
+        voids_joined=len(of_voids.fused),
+        walls_pierced=max(0, result.tunnels - max(states.data.tunnels, states.sturdy.tunnels)),
+        walls_lost=int((states.gone.cells >= WALL).sum()),
+        faint=int((thick & (states.solid.cells >= WALL) & (levels < FAINT)).sum()),
+    )
+    largest = np.argsort(-states.gone.cells)[:NAMED]
+    lost = tuple(
+        _lost(found.against, states.gone, int(number), spacing)
+        for number in largest
+        if states.gone.cells[number] >= WALL
+    )
+    return Verdict(data=states.data, result=result, changes=changes, lost=lost)
+
+
+def _states(found: Levelled, before: Components, reach: int, threads: int | None) -> _States:
+    """Find all components that are compared, side by side."""
+    field = found.against
+    raw, now = data_bits(field, threads=threads), solid_bits(field, level=found.height, threads=threads)
+    core = cores(field, raw, threads=threads)
+    thick = opened(field, core, threads=threads)
+    lost = thick & ~grown(field, now, reach, threads=threads)
+    solid, after, walls, sturdy, voids, sturdy_voids, voids_after, gone = together(
+        lambda: with_thickness(field, before),
+        lambda: components(field, now),
+        lambda: components(field, core),
+        lambda: components(field, thick),
+        lambda: components(field, raw, void=True),
+        lambda: components(field, thick, void=True, thickness=True),
+        lambda: components(field, now, void=True),
+        lambda: components(field, lost, whole=False),
+        threads=thread_count(threads),
+    )
+    return _States(
+        solid=solid,
+        solid_after=after,
+        walls=walls,
+        voids=sturdy_voids,
+        voids_after=voids_after,
+        gone=gone,
+        data=_counts(solid, voids, euler_number_of_bits(field, raw, threads=threads)),
+        sturdy=_counts(sturdy, sturdy_voids, euler_number_of_bits(field, thick, threads=threads)),
+    )
+
+
+def compared(before: Components, after: Components) -> Fate:
+    """Return what became of components on the same bricks; what is no more than one cell thick does not fuse."""
+    found: Overlaps = summed(shared_cells(before, after), before=before.count, after=after.count)
+    counted = before.thick if len(before.thick) else None
+    return fate(found, part=SMALLEST_PART, piece=LARGE, counted=counted)
+
+
+def _counts(solid: Components, void: Components, euler_number: int) -> Counts:
+    """Return the counts of a solid whose void has the outside for its first component."""
+    cavities = void.count - 1
+    return Counts.of(components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2)
+
+
+def _of_surface(found: Levelled) -> Counts:
+    """Return the counts of the surface that is handed over."""
+    shells = found.shells
+    return Counts(
+        components=shells.components,
+        cavities=shells.cavities,
+        tunnels=shells.tunnels,
+        euler_number=int(shells.euler.sum()),
+    )
+
+
+def _lost(field: SparseField, pieces: Components, number: int, spacing: tuple[float, ...]) -> Lost:
+    cells = cells_of(field, pieces, number)
+    return Lost(voxels=len(cells), at=(cells.mean(axis=0) + 0.5) * spacing)

@@ -1,0 +1,128 @@
+"""What became of components: one comparison of two labellings of the same cells, whoever labelled them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+TABLE = 4  # times the cells: a table of pairs that is larger costs more than sorting the cells
+
+
+@dataclass(frozen=True, kw_only=True)
+class Overlaps:
+    """Which components before and after share cells.
+
+    Parameters
+    ----------
+    before, after : int
+        How many components there are.
+    one, other : (n,) int
+        Pairs of a component before and one after that share cells, each pair once; numbered from 0.
+    cells : (n,) int
+        How many cells they share.
+    """
+
+    before: int
+    after: int
+    one: NDArray[np.integer]
+    other: NDArray[np.integer]
+    cells: NDArray[np.integer]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fate:
+    """What became of each component before, and where each one after came from.
+
+    Parameters
+    ----------
+    kept, known : (before,) and (after,) bool
+        Whether it shares a cell with any.
+    parts : (before,) int
+        Into how many parts it fell.
+    pieces : (after,) int
+        Of how many it was put together.
+    """
+
+    kept: NDArray[np.bool_]
+    known: NDArray[np.bool_]
+    parts: NDArray[np.integer]
+    pieces: NDArray[np.integer]
+
+    @property
+    def vanished(self) -> NDArray[np.integer]:
+        """Numbers of the components before of which no cell is left."""
+        return np.flatnonzero(~self.kept)
+
+    @property
+    def appeared(self) -> NDArray[np.integer]:
+        """Numbers of the components after that lie where there was none."""
+        return np.flatnonzero(~self.known)
+
+    @property
+    def broken(self) -> NDArray[np.integer]:
+        """Numbers of the components before that fell apart."""
+        return np.flatnonzero(self.parts > 1)
+
+    @property
+    def fused(self) -> NDArray[np.integer]:
+        """Numbers of the components after that hold several from before."""
+        return np.flatnonzero(self.pieces > 1)
+
+    @property
+    def breaks(self) -> int:
+        """How often one became one more."""
+        return int((self.parts - 1).clip(0).sum())
+
+    @property
+    def fusions(self) -> int:
+        """How often one more ran into another."""
+        return int((self.pieces - 1).clip(0).sum())
+
+
+def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlaps:
+    """Return the overlaps of two arrays of the same shape, numbered from 1; 0 is no component."""
+    rows, columns = int(before.max()) + 1, int(after.max()) + 1
+    key = (before.astype(np.intp) * columns + after).ravel()
+    if rows * columns <= TABLE * key.size:
+        table = np.bincount(key, minlength=rows * columns)
+        pair = np.flatnonzero(table)
+        cells = table[pair]
+    else:
+        pair, cells = np.unique(key, return_counts=True)
+    one, other = np.divmod(pair, columns)
+    real = (one > 0) & (other > 0)
+    return Overlaps(before=rows - 1, after=columns - 1, one=one[real] - 1, other=other[real] - 1, cells=cells[real])
+
+
+def summed(stretches: NDArray[np.integer], *, before: int, after: int) -> Overlaps:
+    """Return the overlaps of rows (n, 3) of a component before, one after and cells shared; pairs may come again."""
+    key, index = np.unique(stretches[:, 0] * max(after, 1) + stretches[:, 1], return_inverse=True)
+    cells = np.bincount(index, weights=stretches[:, 2], minlength=len(key)).astype(np.int64)
+    one, other = np.divmod(key, max(after, 1))
+    return Overlaps(before=before, after=after, one=one, other=other, cells=cells)
+
+
+def fate(found: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.bool_] | None = None) -> Fate:
+    """Compare the components before and after.
+
+    Parameters
+    ----------
+    found : Overlaps
+    part : int
+        Cells: what comes off a component and is smaller is a crumb, not a part of it.
+    piece : int
+        Cells that a component must bring along to count where several run together.
+    counted : (before,) bool, optional
+        Which components count where several run together; all if left out.
+    """
+    brought = found.cells >= piece
+    if counted is not None:
+        brought &= counted[found.one]
+    return Fate(
+        kept=np.bincount(found.one, minlength=found.before) > 0,
+        known=np.bincount(found.other, minlength=found.after) > 0,
+        parts=np.bincount(found.one[found.cells >= part], minlength=found.before),
+        pieces=np.bincount(found.other[brought], minlength=found.after),
+    )

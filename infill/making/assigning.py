@@ -1,0 +1,118 @@
+"""The parameters of a pattern as they are given: by flags, by ``--set name=value``, or in a config file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+from infill.errors import ParameterError
+from patterns import Pattern, PatternError, parameters
+from patterns.given import assigned, nearest, value_of
+
+
+class Source(Enum):
+    """Where a parameter can be given by name."""
+
+    FLAG = "a flag"
+    TOP = "the config file"
+    TABLE = "[set] of the config file"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Given:
+    """A parameter that was given.
+
+    Parameters
+    ----------
+    name : str
+    value : bool, number, tuple or None
+        Checked; angles in degrees.
+    said : str
+        What was typed, for messages.
+    """
+
+    name: str
+    value: Any
+    said: str
+
+
+def values(kind: type[Pattern], named: Mapping[str, Any], source: Source) -> Iterator[Given]:
+    """Yield parameters given as plain values; dashes and underscores in names are alike."""
+    known = parameters(kind)
+    for word, value in named.items():
+        name = word.replace("-", "_")
+        if name not in known:
+            raise ParameterError(f"{kind.name} has no parameter {word!r}; {nearest(name, known)}")
+        yield Given(name=name, value=value_of(kind, name, value), said=_said(name, value, source))
+
+
+def assignments(kind: type[Pattern], texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[Given]:
+    """Yield parameters given as ``name=value``, or raise ParameterError that begins with what was typed.
+
+    Parameters
+    ----------
+    kind : type of Pattern
+    texts : sequence of str
+    options : iterable of str
+        Names that are options of the command instead, for advice.
+    """
+    flags = {name: f"--{name.replace('_', '-')}" for name in options}
+    for text in texts:
+        said = f"--set {text}"
+        try:
+            name, value = assigned(kind, text)
+        except PatternError as error:
+            word = text.partition("=")[0].strip().replace("-", "_")
+            if word in flags and word not in parameters(kind):
+                raise ParameterError(f"{said}: {word} is not a parameter of {kind.name}; give {flags[word]}") from None
+            raise ParameterError(f"{said}: {error}") from error
+        yield Given(name=name, value=value, said=said)
+
+
+def merged(kind: type[Pattern], *, command: Iterable[Given], file: Iterable[Given]) -> dict[str, Any]:
+    """Return the parameters by name; the command line wins over the file.
+
+    One that is given for another (`replaces`) drops the other from the file; both in one place are an error, as is
+    one parameter with two values.
+    """
+    typed, filed = _once(command), _once(file)
+    for name, (_, described) in parameters(kind).items():
+        rival = described.replaces
+        if _counts(typed, rival) and name not in typed:
+            filed.pop(name, None)
+        elif _counts(typed, name) and rival not in typed:
+            filed.pop(rival, None)
+        both = filed | typed
+        if _counts(both, name) and _counts(both, rival):
+            raise ParameterError(
+                f"{name} and {rival} of {kind.name} are both given; {name} replaces {rival}: leave one out"
+            )
+    both = filed | typed
+    return {name: both[name].value for name in parameters(kind) if name in both}
+
+
+def _once(given: Iterable[Given]) -> dict[str, Given]:
+    """Return what is given by name, or raise ParameterError if one parameter is given two values."""
+    found: dict[str, Given] = {}
+    for each in given:
+        first = found.setdefault(each.name, each)
+        if first.value != each.value:
+            raise ParameterError(f"{first.said} and {each.said} differ; give {each.name} once")
+    return found
+
+
+def _counts(given: Mapping[str, Given], name: str) -> bool:
+    return name in given and given[name].value is not None
+
+
+def _said(name: str, value: object, source: Source) -> str:
+    """Return a parameter as it was typed."""
+    if source is not Source.FLAG:
+        return f"{name} = {value} in {source.value}"
+    word = name.replace("_", "-")
+    if isinstance(value, bool):
+        return f"--{word}" if value else f"--no-{word}"
+    shown = value if isinstance(value, (tuple, list)) else (value,)
+    return " ".join([f"--{word}", *(f"{each:g}" for each in shown)])

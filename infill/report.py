@@ -1,0 +1,106 @@
+"""The report that every product answers with: the same sections, keys, types and units. docs/report.md lists each key.
+
+Plain numbers, strings, lists and dicts, so that it is what ``--json`` prints. Lengths are mm, areas mm², volumes mm³,
+angles degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from infill.inspection.changes import Changes, Counts
+from infill.surface import Surface
+from infill.version import __version__
+
+FORM = 1  # goes up when a key is renamed, or changes its type or meaning; new keys leave it as it is
+
+
+def report_of(
+    *,
+    product: str,
+    surface: Surface,
+    request: Mapping[str, Any],
+    grid: Mapping[str, Any],
+    solid: Mapping[str, Any],
+    data: Counts,
+    result: Counts,
+    changes: Changes,
+    walls: Mapping[str, Any],
+    problems: Sequence[str],
+    seconds: Mapping[str, float],
+    simplified: Mapping[str, Any] | None = None,
+    **more: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Return the report of one run.
+
+    Parameters
+    ----------
+    product : {"make", "smooth"}
+    surface : Surface
+        What is handed over.
+    request : mapping
+        What was asked for.
+    grid : mapping
+        Its `shape`, `spacing`, `origin` and `space`.
+    solid : mapping
+        `data`, the volume before smoothing, mm³, `level`, and what else is known of the volume.
+    data, result : Counts
+        How the solid hangs together before and after smoothing.
+    changes : Changes
+    walls : mapping
+        How thick they are.
+    problems : sequence of str
+        What is wrong, one phrase each.
+    seconds : mapping
+        By stage.
+    simplified : mapping, optional
+        What simplifying cost.
+    **more
+        Sections that this product has beside those of all.
+    """
+    bounds = surface.bounds
+    mesh = {
+        "vertices": len(surface.vertices),
+        "triangles": len(surface.faces),
+        "closed": surface.closed,
+        "area": surface.area,
+        "extents": (bounds[1] - bounds[0]).tolist(),
+        "bounds": bounds.tolist(),
+        "euler_number": surface.euler_number,
+    }
+    if simplified is not None:
+        mesh["simplified"] = dict(simplified)
+    filled = {"volume": surface.volume, "change": surface.volume / solid["data"] - 1, **solid}
+    first = {name: mesh[name] for name in ("triangles", "closed", "area", "extents", "bounds")}
+    first |= {"volume": filled["volume"], "volume_change": filled["change"], "components": result.components}
+    if "density" in filled:
+        first["density"] = filled["density"]
+    if "width" in walls:
+        first["wall_width"] = walls["width"]
+    return {
+        "form": FORM,
+        "version": __version__,
+        "product": product,
+        **first,
+        "problems": list(problems),
+        "request": dict(request),
+        "grid": dict(grid),
+        **{name: dict(section) for name, section in more.items()},
+        "mesh": mesh,
+        "solid": filled,
+        "topology": {"data": counts(data), "result": counts(result)},
+        "changes": changes.facts(),
+        "walls": dict(walls),
+        "seconds": {**seconds, "total": sum(seconds.values())},
+    }
+
+
+def counts(found: Counts) -> dict[str, int]:
+    """Return counts by name."""
+    return {
+        "components": found.components,
+        "cavities": found.cavities,
+        "tunnels": found.tunnels,
+        "euler_number": found.euler_number,
+    }

@@ -1,0 +1,60 @@
+"""The first stage: enough memory, and no specks."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from infill.errors import ParameterError
+from infill.machine import require_memory
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.sparse import smooth_bricks
+from infill.surfaces.components import components, data_bits, without
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from infill.smoothing.request import Request
+    from infill.volume import Volume
+
+BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface; a measured peak
+BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
+SAMPLED = 16  # layers that are looked at to guess the surface
+FACES_PER_CROSSING = 1.5  # along two axes of three
+
+
+def require_room(data: Volume, request: Request) -> None:
+    """Raise MemoryLimitError if the surface will not fit into memory; its cells are guessed from some layers."""
+    values: NDArray[Any] = data.values
+    steps = max(1, values.shape[0] // SAMPLED)
+    layers = values[::steps] > 0
+    crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * FACES_PER_CROSSING
+    each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refine else 0)
+    advice = "use larger voxels, a part of the volume, or despeckle it"
+    require_memory(int(crossings * each), request.max_memory, advice)
+
+
+def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:
+    """Return the data without components up to the volume asked for, and how many those were.
+
+    Raises
+    ------
+    ParameterError
+        If nothing would be left.
+    """
+    largest = request.despeckle
+    if not largest:
+        return data, 0
+    field = smooth_bricks(data.values, Smoothing(steps=0), threads=request.threads)
+    every = components(field, data_bits(field, threads=request.threads))
+    small = every.cells * data.cell_volume <= largest
+    if small.all():
+        raise ParameterError(
+            f"despeckle is {largest:g} mm³ and the largest component has "
+            f"{every.cells.max() * data.cell_volume:g} mm³; give less"
+        )
+    if not small.any():
+        return data, 0
+    return replace(data, values=without(data.values, field, every, small)), int(small.sum())

@@ -1,0 +1,16 @@
+"""The catalogue: every pattern of this package by name, and those of installed plug-ins."""
+
+from __future__ import annotations
+
+from patterns.heart import ConcentricHeart
+from patterns.honeycomb import Honeycomb
+from patterns.registry import Registry
+from patterns.zigzag import Zigzag
+
+PATTERNS = Registry(
+    (
+        ConcentricHeart,
+        Zigzag,
+        Honeycomb,
+    )
+)

@@ -1,0 +1,211 @@
+"""The parameters of a pattern: what each means, its unit and its range, and the check of it.
+
+A pattern is a frozen, keyword-only dataclass whose fields are its parameters. Fields made with
+`parameter` are offered to people, with their range and unit; patterns.given reads what people give.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from numbers import Real
+from typing import Any, ClassVar, Literal, Protocol, get_args
+
+from patterns.errors import PatternError
+
+Unit = Literal["mm", "rad", ""]
+UNITS = get_args(Unit)
+SHOWN_UNITS = {"mm": " mm", "rad": " degrees", "": ""}
+TURN_SLACK = 1e-10  # rad: an end of a range in degrees, in ten digits, and back is off by a rounding
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter:
+    """Range, unit and meaning of one field of a pattern.
+
+    Attributes
+    ----------
+    help : str
+        One phrase for people.
+    unit : {"mm", "rad", ""}
+        Lengths are millimetres; angles are radians here and degrees wherever people give or read them.
+    low, high : float
+        Both ends belong to the range.
+    whole : bool
+        True for whole numbers.
+    replaces : str
+        The parameter that counts for nothing once this one is given.
+    """
+
+    help: str
+    unit: Unit = "mm"
+    low: float = -math.inf
+    high: float = math.inf
+    whole: bool = False
+    replaces: str = ""
+
+    @property
+    def shown_unit(self) -> str:
+        """The unit as people read it: mm, degrees, or nothing."""
+        return SHOWN_UNITS[self.unit].strip()
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Both ends of the range as people read them, angles in degrees."""
+        if self.unit != "rad":
+            return self.low, self.high
+        return round(math.degrees(self.low), 9), round(math.degrees(self.high), 9)
+
+    @property
+    def range(self) -> str:
+        """The range in words, with its unit; empty if every number will do.
+
+        >>> Parameter(help="", low=1, high=9).range, Parameter(help="", unit="", low=2).range
+        ('from 1 to 9 mm', 'of at least 2')
+        """
+        low, high = self.limits
+        unit = SHOWN_UNITS[self.unit]
+        if math.isfinite(low) and math.isfinite(high):
+            return f"from {low:.10g} to {high:.10g}{unit}"
+        if math.isfinite(low):
+            return f"of at least {low:.10g}{unit}"
+        if math.isfinite(high):
+            return f"of at most {high:.10g}{unit}"
+        return ""
+
+
+def parameter(
+    default: bool | float | tuple[float, ...] | None,
+    help: str,  # noqa: A002 - the word the command line uses
+    *,
+    unit: Unit = "mm",
+    low: float = -math.inf,
+    high: float = math.inf,
+    whole: bool = False,
+    replaces: str = "",
+) -> Any:  # noqa: ANN401 - stands for a field of any type, as dataclasses.field does
+    """Return a dataclass field that carries its `Parameter`.
+
+    Raises
+    ------
+    PatternError
+        For a unit or a default that could not be offered to people.
+    """
+    numbers = default if isinstance(default, tuple) else (default,)
+    if (
+        unit not in UNITS
+        or (unit == "rad" and isinstance(default, tuple))
+        or not all(each is None or isinstance(each, (bool, Real)) for each in numbers)
+    ):
+        raise PatternError(
+            f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
+            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))} (a tuple in rad cannot be)"
+        )
+    described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces)
+    return dataclasses.field(default=default, metadata={"parameter": described})
+
+
+Described = tuple["dataclasses.Field[Any]", Parameter]
+
+
+def parameters(pattern: object) -> dict[str, Described]:
+    """Return the described fields of a pattern, or of a class of patterns, by name, in the order of the class."""
+    if not dataclasses.is_dataclass(pattern):
+        return {}
+    return {
+        field.name: (field, field.metadata["parameter"])
+        for field in dataclasses.fields(pattern)
+        if "parameter" in field.metadata
+    }
+
+
+class Named(Protocol):
+    """What messages can call by its name."""
+
+    name: ClassVar[str]
+
+
+def wanted(default: object, described: Parameter) -> str:
+    """Return in words what a parameter may be, with its range and unit.
+
+    >>> wanted(None, Parameter(help="", unit="", low=1, high=9, whole=True))
+    'a whole number from 1 to 9, or none'
+    """
+    if isinstance(default, bool):
+        return "true or false"
+    kind = "whole number" if described.whole else "number"
+    some = f"{len(default)} {kind}s" if isinstance(default, tuple) else f"a {kind}"
+    return f"{some} {described.range}".rstrip() + (", or none" if default is None else "")
+
+
+def check_parameters(pattern: Named) -> None:
+    """Turn the described fields of a pattern into plain numbers, or raise PatternError.
+
+    A number must be finite and in its range, a flag True or False, a tuple as long as its default.
+    """
+    for name, described in parameters(pattern).items():
+        object.__setattr__(pattern, name, checked(pattern.name, described, getattr(pattern, name)))
+
+
+def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: ANN401 - of the kind of the field
+    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot be it.
+
+    Parameters
+    ----------
+    pattern : str
+        Name of the pattern, for the message.
+    described : (Field, Parameter)
+        From `parameters`.
+    value : object
+        Lengths in mm, angles in radians.
+    """
+    field, parameter = described
+    default = field.default
+    if value is None and default is None:
+        return None
+    plain: bool | float | tuple[float, ...] | None
+    if isinstance(default, bool):
+        plain = value if isinstance(value, bool) else None
+    elif isinstance(default, tuple):
+        plain = _numbers(value, parameter, len(default))
+    else:
+        plain = _number(value, parameter)
+    if plain is None:
+        raise PatternError(
+            f"{field.name} of {pattern} is {shown(value, parameter)}; it must be {wanted(default, parameter)}"
+        )
+    return plain
+
+
+def _numbers(value: object, described: Parameter, count: int) -> tuple[float, ...] | None:
+    """Return `count` plain numbers, or None if the parameter cannot be them."""
+    if not isinstance(value, Sequence) and not hasattr(value, "tolist"):
+        return None
+    several = value if isinstance(value, Sequence) else value.tolist()
+    numbers = [_number(each, described) for each in several] if isinstance(several, Sequence) else []
+    found = tuple(number for number in numbers if number is not None)
+    return found if len(found) == len(numbers) == count else None
+
+
+def _number(value: object, described: Parameter) -> float | None:
+    """Return a number as a plain int or float, or None if the parameter cannot be it."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        return None
+    number = float(value)
+    slack = TURN_SLACK if described.unit == "rad" else 0.0
+    if not math.isfinite(number) or not described.low - slack <= number <= described.high + slack:
+        return None
+    if described.whole:
+        return int(number) if number == round(number) else None
+    return number
+
+
+def shown(value: object, described: Parameter) -> str:
+    """Return a value as people give it: angles in degrees, numbers with commas between; and its unit."""
+    several = value if isinstance(value, (tuple, list)) else (value,)
+    if not several or not all(isinstance(each, Real) and not isinstance(each, bool) for each in several):
+        return repr(value)
+    turned = [math.degrees(each) if described.unit == "rad" else float(each) for each in several]
+    return ",".join(f"{number:.10g}" for number in turned) + SHOWN_UNITS[described.unit]

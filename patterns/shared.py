@@ -1,0 +1,40 @@
+"""The parameters that most patterns share, each declared once: cell, angle, phase, frame.
+
+    @dataclass(frozen=True, kw_only=True)
+    class Yours(Pattern):
+        cell: float = cell_parameter()
+        angle: float = angle_parameter()
+        phase: tuple[float, float] = phase_parameter()
+        frame: bool = frame_parameter(default=True)
+
+They are flags of the command line. A pattern has those that mean something to it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from patterns.declared import parameter
+
+SHARED = ("cell", "angle", "phase", "frame")
+
+
+def cell_parameter(default: float = 6.0) -> Any:  # noqa: ANN401 - a field of type float
+    """Return the field for the distance between neighbouring lines, mm."""
+    return parameter(default, "distance between neighbouring lines", low=0.001, high=1e4)
+
+
+def angle_parameter(default: float = 0.0) -> Any:  # noqa: ANN401 - a field of type float
+    """Return the field for the angle that a pattern is turned by, radians."""
+    return parameter(default, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
+
+
+def phase_parameter(default: tuple[float, float] = (0.0, 0.0)) -> Any:  # noqa: ANN401 - a field of (float, float)
+    """Return the field for the shift (x, y) of a pattern, mm."""
+    return parameter(default, "shifts the pattern in x and y", low=-1e4, high=1e4)
+
+
+def frame_parameter(*, default: bool = True) -> Any:  # noqa: ANN401 - a field of type bool
+    """Return the field that says whether the outline of the region is a wall too."""
+    return parameter(default, "a wall around the block", unit="")

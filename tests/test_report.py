@@ -1,0 +1,182 @@
+"""The report: every product has the same form, and docs/report.md lists exactly the keys there are."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+from infill import Result, Smoothing, make, smooth_mesh, smooth_points, smooth_volume
+from infill.report import FORM
+
+pytestmark = pytest.mark.usefixtures("compiled")
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "report.md"
+FREE = "request.parameters"  # a pattern's own, by name
+ONLY_AT_THE_COMMAND_LINE = {"files"}
+
+BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64
+GREY = 100.0 * (11 - np.sqrt(np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0)))
+LABELS = BALL.astype(np.uint8) * 3 + np.roll(BALL, 13, axis=0) * 4 * ~BALL
+SPHERE = trimesh.creation.icosphere(radius=10)
+FIN = np.zeros((30, 40, 30), dtype=bool)
+FIN[5:25, 5:15, 5:25] = True
+FIN[14:16, 5:36, 5:25] = True  # two cells thick: gone after 40 steps
+
+
+def every_result() -> Iterator[tuple[str, Result[Any]]]:
+    """Results over all options that change which keys a report has."""
+    yield "block", make("honeycomb", size=20, height=3)
+    yield "exact", make("concentric-heart", size=20, height=3, stamp="exact", hearts=2)
+    yield "not measured", make("honeycomb", size=1.8, cell=1.35, height=1)
+    yield "mask", smooth_volume(BALL)
+    yield "phase", smooth_volume(np.where(BALL, 1.0, -1.0))
+    yield "labels", smooth_volume(LABELS, label=(3, 4), allow_broken=True)
+    yield "threshold", smooth_volume(GREY, threshold=300.0)
+    yield "grey", smooth_volume(GREY, threshold=300.0, grey=True, level=0)
+    yield "range", smooth_volume(GREY, threshold=(300.0, 900.0), allow_broken=True)
+    yield "otsu", smooth_volume(GREY, threshold="otsu")
+    yield "lost", smooth_volume(FIN, smoothing=Smoothing(steps=40), allow_broken=True)
+    yield "mesh", smooth_mesh(SPHERE, resolution=24, refine=True, despeckle=1.0)
+    yield "simplified", smooth_mesh(SPHERE, resolution=24, tolerance=0.3)
+    yield "few", smooth_mesh(SPHERE, resolution=24, max_triangles=500)
+    yield "points", smooth_points(trimesh.creation.icosphere(3, radius=10).vertices, voxel=1.0)
+    yield "shell", smooth_points(trimesh.creation.icosphere(3, radius=10).vertices, voxel=1.0, shell=3.0)
+
+
+@pytest.fixture(scope="module")
+def results() -> dict[str, Result[Any]]:
+    return dict(every_result())
+
+
+def described(text: str) -> dict[str, tuple[str, str]]:
+    """Return type and products of every key that a page has a row for."""
+    rows = re.findall(r"^\| `([\w.\[\]]+)` \| ([^|]+) \| ([^|]+) \|", text, flags=re.MULTILINE)
+    found = {key: (kind.strip(), where.strip()) for key, kind, where in rows}
+    assert len(found) == len(rows), "a key stands twice"
+    return found
+
+
+def flat(value: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield every key of a report, nested ones with dots, with its value."""
+    if name:
+        yield name, value
+    if isinstance(value, dict) and name != FREE:
+        for key, each in value.items():
+            yield from flat(each, f"{name}.{key}" if name else key)
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        for each in value:
+            for key, inner in each.items():
+                yield from flat(inner, f"{name}[].{key}")
+
+
+def is_of(kind: str, value: Any) -> bool:
+    """Whether a value is of one of the types that the page names."""
+    for each in kind.split(" or "):
+        name, _, count = each.partition(" ")
+        fits = {
+            "int": isinstance(value, int) and not isinstance(value, bool),
+            "float": isinstance(value, float),
+            "bool": isinstance(value, bool),
+            "str": isinstance(value, str),
+            "null": value is None,
+            "object": isinstance(value, dict),
+            "list": isinstance(value, list) and (not count or len(value) == int(count)),
+        }[name]
+        if fits:
+            return True
+    return False
+
+
+def differences(page: dict[str, tuple[str, str]], reports: dict[str, dict[str, Any]]) -> list[str]:
+    """Return in what the page and the reports differ, one phrase each."""
+    found, seen = [], set()
+    for name, report in reports.items():
+        product = report["product"]
+        keys = dict(flat(report))
+        for key, value in keys.items():
+            seen.add((product, key))
+            if key not in page:
+                found.append(f"{key} of {name} is not on the page")
+            elif not is_of(page[key][0], value):
+                found.append(f"{key} of {name} is {value!r}, not {page[key][0]}")
+            elif page[key][1].split(" ")[0] not in ("all", product):
+                found.append(f"{key} of {name} is on the page for {page[key][1]} only")
+        for key, (_, where) in page.items():
+            if (
+                where in ("all", product)
+                and key not in keys
+                and "[]" not in key
+                and key not in ONLY_AT_THE_COMMAND_LINE
+            ):
+                found.append(f"{key} is missing from {name}")
+    for key, (_, where) in page.items():
+        for product in ("make", "smooth"):
+            wanted = where.split(" ")[0] in ("all", product) and key not in ONLY_AT_THE_COMMAND_LINE
+            if wanted and (product, key) not in seen:
+                found.append(f"{key} is in no report of {product}")
+    return found
+
+
+def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Result[Any]]) -> None:
+    page = described(PAGE.read_text(encoding="utf-8"))
+    assert len(page) > 100
+    assert differences(page, {name: result.report for name, result in results.items()}) == []
+
+
+def test_the_comparison_can_fail() -> None:
+    page = {"product": ("str", "all"), "a": ("int", "all"), "b.c": ("float", "make"), "b": ("object", "make")}
+    make_report, smooth_report = {"product": "make", "a": 1, "b": {"c": 1.0}}, {"product": "smooth", "a": 1}
+    assert differences(page, {"x": make_report, "y": smooth_report}) == []
+    for broken, said in (
+        ({**make_report, "a": 1.0}, "a of x is 1.0, not int"),
+        ({**make_report, "d": 1}, "d of x is not on the page"),
+        ({**make_report, "b": {}}, "b.c is missing from x"),
+    ):
+        assert said in differences(page, {"x": broken, "y": smooth_report})
+    assert "b of y is on the page for make only" in differences(
+        page, {"x": make_report, "y": {**smooth_report, "b": {}}}
+    )
+
+
+def test_a_report_is_json_as_it_stands(results: dict[str, Result[Any]]) -> None:
+    for result in results.values():
+        assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
+
+
+def test_what_stands_first_is_what_the_sections_say(results: dict[str, Result[Any]]) -> None:
+    for result in results.values():
+        report = result.report
+        assert report["form"] == FORM
+        for name in ("triangles", "closed", "area", "extents", "bounds"):
+            assert report[name] == report["mesh"][name]
+        assert report["volume"] == report["solid"]["volume"]
+        assert report["volume_change"] == report["solid"]["change"]
+        assert report["components"] == report["topology"]["result"]["components"]
+        assert report.get("density") == report["solid"].get("density")
+        assert report.get("wall_width") == report["walls"].get("width")
+
+
+def test_a_report_tells_of_the_mesh_that_is_handed_over(results: dict[str, Result[Any]]) -> None:
+    for name, result in results.items():
+        report, mesh = result.report, result.mesh
+        assert report["mesh"]["vertices"] == len(mesh.vertices), name
+        assert report["mesh"]["euler_number"] == mesh.euler_number, name
+        assert report["volume"] == pytest.approx(mesh.volume, rel=1e-6), name
+        if report["product"] == "smooth":  # a block is judged by its layer, without the rims
+            assert report["volume_change"] == pytest.approx(mesh.volume / report["solid"]["data"] - 1, abs=1e-6), name
+        for counts in report["topology"].values():
+            expected = 2 * (counts["components"] + counts["cavities"] - counts["tunnels"])
+            assert counts["euler_number"] == expected, name
+
+
+def test_a_named_surface_is_the_main_one(results: dict[str, Result[Any]]) -> None:
+    assert {tuple(result.surfaces) for result in results.values()} == {("block",), ("solid",)}
+    for result in results.values():
+        assert result.surface is next(iter(result.surfaces.values()))
