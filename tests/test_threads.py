@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from infill import Smoothing
+from infill import Smoothing, smooth_mesh, smooth_points, smooth_volume
 from infill.kernels.threads import in_threads, thread_count, together
 from infill.phasefield.inplace import smooth_inplace
 from infill.phasefield.sparse import smooth_bricks
@@ -144,3 +144,17 @@ def test_in_place_uses_the_threads_it_is_given(monkeypatch: pytest.MonkeyPatch) 
     smooth_inplace(np.ones((80, 80)), Smoothing(steps=20), threads=2)
     assert len(names) == 2
     assert thread_count(2) == 2
+
+
+def test_all_of_smooth_with_one_thread_starts_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Voxels, smoothing, levels, the comparison of before and after, distances and simplifying."""
+    two = BALL.copy()
+    two[18:22] = False
+    fewer: dict[str, Any] = {"threads": 1, "tolerance": 0.2}
+    smooth_volume(two, threads=3, refine=True)  # compiled
+    monkeypatch.setenv("NUMBA_NUM_THREADS", "3")
+    monkeypatch.setattr(threading.Thread, "start", lambda _: pytest.fail("a thread was started"))
+    monkeypatch.setattr("infill.kernels.threads._pool", lambda *_: pytest.fail("a pool was asked for"))
+    smooth_volume(two, refine=True, despeckle=1.0, **fewer)
+    smooth_mesh(SPHERE, voxel=1.0, **fewer)
+    smooth_points(POINTS, voxel=0.8, **fewer)
