@@ -31,7 +31,7 @@ Signs = NDArray[np.bool_]
 Function = Callable[[Floats, Floats, Floats], Floats]
 
 STEPS_PER_SPACING = 32
-# Nodes are offset from the multiples of the step, where straight patterns are zero and the sign is up to rounding.
+# Nodes are offset from the multiples of the step, where straight patterns are zero and rounding decides the sign.
 OFFSET = (math.sqrt(5) - 2, math.sqrt(2) - 1)
 HALVINGS = 26  # of a step: to 1e-8 of it
 NODES_AT_ONCE = 1_000_000

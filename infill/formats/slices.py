@@ -90,7 +90,7 @@ def _tiff_pages(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
 def _tiff_spacing(tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.TiffFile
     """Return the cell size along x, y, z in mm, as written by ImageJ or OME; 1 where it is missing."""
     if tiff.ome_metadata:
-        # Only attributes are looked at, and the standard parser fetches nothing from outside.
+        # Only attributes are read, and the standard parser fetches nothing from outside.
         pixels = ElementTree.fromstring(tiff.ome_metadata).find(".//{*}Pixels")  # noqa: S314
         if pixels is None or pixels.get("PhysicalSizeX") is None:
             return (1.0,) * AXES

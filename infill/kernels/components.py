@@ -65,7 +65,7 @@ def run_length(bits, k):
 @njit(nogil=True, cache=True)
 def number_runs(bits, bricks, starts):
     """Set where the numbering of runs begins in every brick and in each of its rows; return the number of runs."""
-    count = np.int64(1)  # run 0 is what lies beyond the grid
+    count = np.int64(1)  # run 0 is whatever lies beyond the grid
     for s in range(len(bits)):
         bricks[s] = count
         inner = 0

@@ -213,7 +213,7 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
 
 
 def _request(block: Block) -> dict[str, Any]:
-    """Return what was asked for, as plain numbers."""
+    """Return the request as plain values."""
     smoothing = block.smoothing
     return {
         "pattern": block.pattern.name,

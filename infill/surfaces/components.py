@@ -166,7 +166,7 @@ def components(
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], _sides_within(np.argwhere(single), field.shape).prod(axis=1))
-    if not void:  # run 0 stands for what lies beyond the grid, which is not solid
+    if not void:  # run 0 is whatever lies beyond the grid, which is not solid
         cells, names = cells[1:], names - 1
     every = Components(
         cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
