@@ -38,7 +38,7 @@ def report_of(
     ----------
     product : {"make", "smooth"}
     surface : Surface
-        The surface that is returned.
+        The final surface.
     request : mapping
         The request.
     grid : mapping

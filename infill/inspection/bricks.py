@@ -3,7 +3,7 @@
     data  ──▶  solid, void                        every cell above 0, and the rest
           ──▶  cores  ──▶  walls, sturdy solid    2 x 2 x 2 cells, all solid: what is more than one cell thick
     field ──▶  solid, void                        every cell above the level
-    surface ─▶ shells                             what is returned
+    surface ─▶ shells                             the final surface
 
 What is one cell thick may go, because the equation removes it; what is thicker may not. So components are compared
 as they are, but walls by their cores, which a bridge of single cells does not join, and voids around the sturdy solid.
@@ -215,7 +215,7 @@ def _counts(solid: Components, void: Components, euler_number: int) -> Counts:
 
 
 def _of_surface(found: Levelled) -> Counts:
-    """Return the counts of the surface that is returned."""
+    """Return the counts of the final surface."""
     shells = found.shells
     return Counts(
         components=shells.components,

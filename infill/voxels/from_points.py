@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 FEWEST = 4  # points that can enclose a volume
 FLAT = 1e-6  # of the largest extent: points that deviate from their plane by less than this count as lying in it
 AT_ONCE = 2**18  # spans of cells handled at a time
-# Points spread evenly over a surface have six others around them; the spacing is the distance to the sixth that is not
-# exceeded by 95 % of them, so that a shell laid by it is whole except for a few gaps. Measured on 20 000 points, the
+# Points spread evenly over a surface have six others around them; the spacing is the distance to the sixth that 95 %
+# of them do not exceed, so that a shell laid by it is whole except for a few gaps. Measured on 20 000 points, the
 # share is 95 % give or take 0.15 %.
 NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000
 # Half widths of the shell to try, in spacings: half a spacing is the least at which balls around neighbours touch;
