@@ -1,6 +1,6 @@
 """Infill patterns as smooth, watertight, printable meshes.
 
-Names are loaded when they are first asked for, so that a command does not pay for what it does not use.
+Names are loaded on first use, so that a command does not pay for what it does not need.
 
 >>> from infill import make
 >>> make("honeycomb", size=(20, 20), height=3).mesh.is_volume

@@ -1,4 +1,4 @@
-"""Checks of single numbers, so that one wrong number reads the same everywhere."""
+"""Checks of single numbers, so that the same mistake is reported the same way everywhere."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 from infill.errors import ParameterError
 
-SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm: beyond, files of 32-bit numbers lose it
+SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm; beyond these, files of 32-bit numbers lose it
 
 
 def positive(name: str, value: float, unit: str = "") -> float:
@@ -40,7 +40,7 @@ def within(name: str, value: float, low: float, high: float, unit: str = "") -> 
 
 
 def whole(name: str, value: float, low: int) -> int:
-    """Return `value` as an int, or raise ParameterError if it is no whole number of at least `low`."""
+    """Return `value` as an int, or raise ParameterError if it is not a whole number of at least `low`."""
     number = _float(name, value)
     if isinstance(value, bool) or not math.isfinite(number) or number != int(number) or number < low:
         raise ParameterError(f"{name} is {number:.10g}; it must be a whole number of at least {low}")

@@ -1,27 +1,27 @@
 """The errors of this package, one leaf per condition.
 
 InfillError
-├── ParameterError(ValueError)      a number out of its range
-├── FormatError(ValueError)         a file suffix or a file content we cannot use
+├── ParameterError(ValueError)      a number out of range
+├── FormatError(ValueError)         a file suffix or file contents we cannot use
 ├── GeometryError(ValueError)       the mesh would come out wrong: open, broken, a feature lost
-├── MemoryLimitError(ValueError)    a grid over the memory at hand
+├── MemoryLimitError(ValueError)    a grid that exceeds the available memory
 └── OutputError(OSError)            a file that exists, or cannot be written
 
-A message is one line: what was given, what the limit is, what to do. `patterns` has its own leaf,
+A message is one line: what was given, what the limit is, what to do. `patterns` has its own single error,
 `patterns.PatternError`, since it may not import this package.
 """
 
 
 class InfillError(Exception):
-    """Whatever this package raises on purpose."""
+    """Base class of every error this package raises on purpose."""
 
 
 class ParameterError(InfillError, ValueError):
-    """A parameter is out of its range."""
+    """A parameter is out of range."""
 
 
 class FormatError(InfillError, ValueError):
-    """A file suffix is unknown, or a file holds something else than it should."""
+    """A file suffix is unknown, or a file holds something other than it should."""
 
 
 class GeometryError(InfillError, ValueError):
@@ -29,7 +29,7 @@ class GeometryError(InfillError, ValueError):
 
 
 class MemoryLimitError(InfillError, ValueError):
-    """The work needs more memory than there is."""
+    """The work needs more memory than is available."""
 
 
 class OutputError(InfillError, OSError):

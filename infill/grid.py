@@ -1,4 +1,4 @@
-"""The grid: cells of one size on a box."""
+"""The grid: equal cells filling a box."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def spacing_of(spacing: float | tuple[float, ...], dimensions: int) -> tuple[flo
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """Cells on a box, in two or three dimensions (any number works).
+    """Equal cells filling a box, in two or three dimensions (any number works).
 
     Parameters
     ----------
@@ -45,11 +45,11 @@ class Grid:
     Raises
     ------
     ParameterError
-        For sizes that are not finite and above 0.
+        For sizes that are not finite and positive.
 
     Notes
     -----
-    Cell i of an axis spans origin + i h to origin + (i + 1) h; its centre is at half.
+    Cell i of an axis spans origin + i h to origin + (i + 1) h; its centre is midway.
 
     >>> Grid(shape=(4, 2), spacing=0.5).extents
     (2.0, 1.0)

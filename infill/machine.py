@@ -1,4 +1,4 @@
-"""What this machine has: cores and memory."""
+"""The resources of this machine: cores and memory."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def usable_cores() -> int:
 
 
 def available_memory() -> int | None:
-    """Return the bytes of memory that are free, or all there are where only that is told; None for neither."""
+    """Return how many bytes of memory are free, or the total where only that is known; None if neither is."""
     if sys.platform == "win32":
         return _windows_available()
     try:
         found = re.search(r"MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"))
         available = int(found[1]) * 1024 if found else None
-    except OSError:  # no Linux: take all there is, the best that can be asked for
+    except OSError:  # not Linux: use the total, the best that is available
         available = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     return available
 
@@ -46,7 +46,7 @@ def _windows_available() -> int | None:
 
 
 def require_memory(needed: int, limit: int | None, advice: str) -> None:
-    """Raise MemoryLimitError if `needed` bytes are over `limit`, or over the memory at hand if it is None."""
+    """Raise MemoryLimitError if `needed` bytes exceed `limit`, or the available memory if it is None."""
     allowed = available_memory() if limit is None else limit
     if allowed is not None and needed > allowed:
         whose = "is at hand" if limit is None else "is allowed"

@@ -1,4 +1,4 @@
-"""Rows of different lengths laid end to end, some rows at a time: what loops over boxes are made of."""
+"""Rows of different lengths laid end to end, some rows at a time: the basis of loops over boxes."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 def spread(
     counts: NDArray[np.integer], most: int | None = None
 ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Yield (row, place): row i stands `counts[i]` times, with places 0, 1, 2 … in it.
+    """Yield (row, place): row i occurs `counts[i]` times, with places 0, 1, 2 … in it.
 
     Parameters
     ----------
     counts : (N,) int
         Length of each row.
     most : int, optional
-        Entries to yield at a time, about: a single row is never split.
+        Approximate number of entries to yield at a time; a single row is never split.
 
     >>> [(row.tolist(), place.tolist()) for row, place in spread(np.array([2, 0, 1]))]
     [([0, 0, 2], [0, 1, 0])]

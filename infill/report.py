@@ -1,7 +1,7 @@
-"""The report that every product answers with: the same sections, keys, types and units. docs/report.md lists each key.
+"""The report that every product returns: the same sections, keys, types and units. docs/report.md lists each key.
 
-Plain numbers, strings, lists and dicts, so that it is what ``--json`` prints. Lengths are mm, areas mm², volumes mm³,
-angles degrees.
+It holds plain numbers, strings, lists and dicts, so that it is what ``--json`` prints. Lengths are in mm, areas in
+mm², volumes in mm³, angles in degrees.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from infill.inspection.changes import Changes, Counts
 from infill.surface import Surface
 from infill.version import __version__
 
-FORM = 1  # goes up when a key is renamed, or changes its type or meaning; new keys leave it as it is
+FORM = 1  # increases when a key is renamed or changes its type or meaning; new keys leave it unchanged
 
 
 def report_of(
@@ -38,26 +38,26 @@ def report_of(
     ----------
     product : {"make", "smooth"}
     surface : Surface
-        What is handed over.
+        The final surface.
     request : mapping
-        What was asked for.
+        The request.
     grid : mapping
         Its `shape`, `spacing`, `origin` and `space`.
     solid : mapping
-        `data`, the volume before smoothing, mm³, `level`, and what else is known of the volume.
+        `data`, the volume before smoothing, mm³, `level`, and whatever else is known about the volume.
     data, result : Counts
-        How the solid hangs together before and after smoothing.
+        How the solid is connected before and after smoothing.
     changes : Changes
     walls : mapping
-        How thick they are.
+        How thick the walls are.
     problems : sequence of str
         What is wrong, one phrase each.
     seconds : mapping
-        By stage.
+        Seconds spent, by stage.
     simplified : mapping, optional
-        What simplifying cost.
+        What simplification cost.
     **more
-        Sections that this product has beside those of all.
+        Sections that this product has in addition to the common ones.
     """
     bounds = surface.bounds
     mesh = {

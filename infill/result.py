@@ -1,4 +1,4 @@
-"""What every product answers with: named surfaces, a report, and the stages they came from."""
+"""What every product returns: named surfaces, a report, and the stages they came from."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Result(Generic[Stages]):
     Parameters
     ----------
     surfaces : mapping of str to Surface
-        The meshes as plain arrays, mm, the main one first. `make` calls its own "block", `smooth` "solid".
+        The meshes as plain arrays, mm, the main one first. `make` names its surface "block", `smooth` "solid".
     report : dict
         Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
     stages : frozen dataclass
@@ -63,13 +63,13 @@ class Clock:
 
     @contextmanager
     def stage(self, name: str, share: float) -> Iterator[None]:
-        """Time what is done inside; `share` is how much of the whole is done when it begins."""
+        """Time the enclosed code; `share` is how much of the whole is done when it begins."""
         self.tell(name, share)
         begin = time.perf_counter()
         yield
         self.seconds[name] = time.perf_counter() - begin
 
     def tell(self, name: str, share: float) -> None:
-        """Tell whoever watches how much of the whole is done."""
+        """Report to any listener how much of the whole is done."""
         if self._progress is not None:
             self._progress(name, share)

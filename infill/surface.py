@@ -1,4 +1,4 @@
-"""A surface: triangles as plain arrays, and what can be said of them."""
+"""A surface: triangles as plain arrays, and the quantities derived from them."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ AT_ONCE = 50_000  # faces measured at a time, so that they stay in the cache
 
 @dataclass(frozen=True, kw_only=True)
 class Edges:
-    """The edges of triangles, each once, in the order of their vertices; sides without length are left out.
+    """The edges of triangles, each once, in the order of their vertices; sides of zero length are left out.
 
     Parameters
     ----------
     ends : (E, 2) int64
         Two vertices, the lower one first.
     ahead, back : (E,) int64
-        How many faces run along it from the lower vertex to the higher, and how many the other way.
+        How many faces run along the edge from the lower vertex to the higher one, and how many the other way.
     """
 
     ends: NDArray[np.int64]
@@ -53,20 +53,20 @@ class Edges:
 
     @property
     def surplus(self) -> NDArray[np.int64]:
-        """How many more faces run along it ahead than back: none, in what is closed as a sum."""
+        """How many more faces run along an edge forwards than backwards: none, where the surface is closed as a sum."""
         return self.ahead - self.back
 
 
 @dataclass(frozen=True, kw_only=True)
 class Surface:
-    """Triangles as plain arrays, so that the way to a file needs no mesh library.
+    """Triangles as plain arrays, so that writing a file needs no mesh library.
 
     Parameters
     ----------
     vertices : (V, 3) float, mm
     faces : (F, 3) int, counter-clockwise seen from outside
     space : str
-        Name of the axes, if they have one: "LPS" for medical images.
+        Name of the coordinate system, if it has one: "LPS" for medical images.
     """
 
     vertices: NDArray[np.floating]
@@ -83,7 +83,7 @@ class Surface:
 
     @cached_property
     def _volume_and_area(self) -> tuple[float, float]:
-        # Seen from the middle, so that far from the origin no digits are lost.
+        # Relative to the mean vertex, so that no digits are lost far from the origin.
         vertices = self.vertices - self.vertices.mean(axis=0, dtype=np.float64)
         sixfold = doubled = 0.0
         for low in range(0, len(self.faces), AT_ONCE):
@@ -106,7 +106,7 @@ class Surface:
 
     @cached_property
     def euler_number(self) -> int:
-        """V - E + F of a closed surface, in which every face has one and a half edges of its own."""
+        """V - E + F of a closed surface, in which there are one and a half edges for every face."""
         return len(self.vertices) - len(self.faces) // 2
 
     @property
@@ -115,9 +115,9 @@ class Surface:
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=np.float64)
 
     def moved(self, vertices: NDArray[np.floating], *, space: str = "", mirrored: bool = False) -> Surface:
-        """Return the same faces with other vertices (V, 3), turned over if those are mirrored.
+        """Return the same faces with other vertices (V, 3), faces reversed if those are mirrored.
 
-        What is known of how the faces hang together stays known.
+        What is already known about the connectivity of the faces is kept.
         """
         faces = self.faces[:, ::-1] if mirrored else self.faces
         other = Surface(vertices=vertices, faces=faces, space=space)
@@ -135,9 +135,9 @@ class Surface:
 def _sides(faces: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return the sides of all faces as numbers (3 F,), sorted.
 
-    From vertex i to j > i it is 2 (i n + j), with n the number of vertices, and from j to i one more. So sides of
-    one edge stand together, those from its lower vertex first, and those of a closed surface come in pairs: an
-    even number and the next one.
+    The side from vertex i to j > i gets 2 (i n + j), with n the number of vertices, and the side from j to i one more.
+    So the sides of one edge are adjacent, those from its lower vertex first, and those of a closed surface come in
+    pairs: an even number and the next one.
     """
     count = int(faces.max()) + 1
     found = np.empty((3, len(faces)), dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The version, in one place that every room may look at."""
+"""The version, in one place that every module may import."""
 
 from __future__ import annotations
 

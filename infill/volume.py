@@ -1,4 +1,4 @@
-"""A volume: numbers on cells, and where in the world those cells lie."""
+"""A volume: numbers on cells, and where those cells lie in space."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from infill.errors import ParameterError
 from infill.grid import spacing_of
 
 AXES = 3
-SKEW = 1e-4  # what a stored direction may be off from a turn: files keep few digits
+SKEW = 1e-4  # how far a stored direction may deviate from a rotation: files keep few digits
 
 
 @dataclass(frozen=True, kw_only=True)
 class Volume:
-    """Values on a grid that may be turned and mirrored in space.
+    """Values on a grid that may be rotated and mirrored in space.
 
     Parameters
     ----------
@@ -30,12 +30,12 @@ class Volume:
     direction : (3, 3) float
         Column i is the direction in space of axis i of the grid.
     space : str
-        Name of the axes of space: "LPS" (left, posterior, superior) for medical images, else empty.
+        Name of the coordinate system of space: "LPS" (left, posterior, superior) for medical images, else empty.
 
     Raises
     ------
     ParameterError
-        If there are not three axes with cells, or sizes and directions are none.
+        If there are not three axes with cells, or sizes or directions are invalid.
 
     >>> Volume(values=np.ones((2, 2, 2)), spacing=0.5).place(np.array([[0.0, 0.0, 4.0]])).tolist()
     [[0.0, 0.0, 4.0]]
@@ -79,11 +79,11 @@ class Volume:
 
     @property
     def mirrored(self) -> bool:
-        """True if the axes of the grid are left-handed, so that a surface placed in space turns inside out."""
+        """True if the axes of the grid are left-handed, so that a surface placed in space is turned inside out."""
         return bool(np.linalg.det(np.asarray(self.direction)) < 0)
 
     def place(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Return where in space points (N, 3) lie that are given in mm along the grid's axes from its lower corner."""
+        """Return where points (N, 3) lie in space, given in mm along the grid's axes from its lower corner."""
         turn = np.asarray(self.direction)
         turned = points if (turn == np.eye(AXES)).all() else points @ turn.T
         placed: NDArray[np.float64] = turned + np.array(self.origin)

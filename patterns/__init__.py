@@ -1,7 +1,7 @@
 """Infill patterns: lines in a plane at height z, or level sets in space, in millimetres.
 
-Needs numpy and shapely, and loads them only when lines are asked for; a name is loaded when it is first
-asked for, so that the help of a command does not wait for a catalogue. Knows no grid.
+Needs numpy and shapely, and loads them only when lines are requested; names are loaded on first use,
+so that the help of a command does not wait for a catalogue. Knows nothing of grids.
 
 >>> from patterns import PATTERNS
 >>> sorted(PATTERNS.built_in)

@@ -1,18 +1,18 @@
 r"""Where a level set is zero at one height: marching squares, with every corner on the zero set itself.
 
-Step 1. The signs at the nodes of a grid. An edge between two nodes of different sign holds a zero.
-Step 2. That zero, by halving the edge: on the function itself, so no grid shows in it.
-Step 3. In every cell, zeros are joined in pairs::
+Step 1. Take the signs at the nodes of a grid. An edge between two nodes of different sign contains a zero.
+Step 2. Find that zero by halving the edge, on the function itself, so that no grid shows in it.
+Step 3. In every cell, join the zeros in pairs::
 
-        + --o-- -          Two edges: one piece. Four edges (a saddle): the sign where the corners, interpolated,
-        |    \  |          have their saddle says which corners hang together.
+        + --o-- -          Two edges: one piece. Four edges (a saddle): the sign at the saddle of the
+        |    \  |          bilinear interpolation of the corners says which of them are connected.
         |     `-o
         + ----- +
 
-Step 4. Pieces that share a zero become one line.
+Step 4. Join pieces that share a zero into one line.
 
 A feature smaller than a step of the grid may be missed; between zeros a line is a chord, at most
-step² / 8 R away from a curve of radius R: for 32 steps a spacing s and R = s / 4, s / 2000.
+step² / 8 R away from a curve of radius R: for 32 steps per spacing s and R = s / 4, s / 2000.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ Signs = NDArray[np.bool_]
 Function = Callable[[Floats, Floats, Floats], Floats]
 
 STEPS_PER_SPACING = 32
-# Nodes stand beside the multiples of the step, where straight patterns are zero and rounding has the sign.
+# Nodes are offset from the multiples of the step, where straight patterns are zero and rounding decides the sign.
 OFFSET = (math.sqrt(5) - 2, math.sqrt(2) - 1)
-HALVINGS = 26  # of a step: 1e-8 of it
+HALVINGS = 26  # of a step: to 1e-8 of it
 NODES_AT_ONCE = 1_000_000
 
 
@@ -45,13 +45,13 @@ def zero_lines(
     Parameters
     ----------
     function : callable
-        Of x, y and z, three arrays of one shape in mm; continuous.
+        Takes x, y and z, three arrays of the same shape in mm; continuous.
     bounds : (x0, y0, x1, y1)
-        mm. Lines cover this box and may reach a step beyond it.
+        mm. Lines cover this box and may extend a step beyond it.
     z : float
         mm.
     spacing : float
-        Distance between neighbouring lines, mm, of which a step of the grid is a 32nd.
+        Distance between neighbouring lines, mm; a step of the grid is a 32nd of it.
 
     >>> (circle,) = zero_lines(lambda x, y, z: 1 - np.hypot(x, y), (-2, -2, 2, 2), 0.0, 1.0)
     >>> circle.is_ring, float(np.abs(np.hypot(*circle.coords.xy) - 1).max()) < 1e-8
@@ -72,14 +72,14 @@ def zero_lines(
     positive = _signs(x, y, value)
     zeros, pairs = _pieces(x, y, positive, value)
     ends = zeros[pairs]
-    long = (ends[:, 0] != ends[:, 1]).any(axis=-1)  # two edges may hold one zero, at the node between them
+    long = (ends[:, 0] != ends[:, 1]).any(axis=-1)  # two edges may contain the same zero, at the node between them
     pieces = shapely.multilinestrings(shapely.linestrings(ends[long]))
     lines: NDArray[np.object_] = shapely.get_parts(shapely.line_merge(pieces))
     return lines
 
 
 def _nodes(low: float, high: float, step: float, offset: float) -> Floats:
-    """Return nodes from below `low` to above `high`, the same ones for whatever box."""
+    """Return nodes from below `low` to above `high`, the same ones whatever the box."""
     number = np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 1, dtype=np.float64)
     return (number + offset) * step
 
@@ -97,7 +97,7 @@ def _signs(x: Floats, y: Floats, value: Callable[[Floats, Floats], Floats]) -> S
 def _pieces(
     x: Floats, y: Floats, positive: Signs, value: Callable[[Floats, Floats], Floats]
 ) -> tuple[Floats, NDArray[np.intp]]:
-    """Return the zeros on edges, (N, 2) float64, and the numbers of those that a piece of line joins, (M, 2)."""
+    """Return the zeros on edges, (N, 2) float64, and the numbers of those joined by a piece of line, (M, 2)."""
     columns, rows = positive.shape
     # Edges along x are numbered like the nodes they start from, edges along y after all of those.
     on_x = np.flatnonzero(positive[1:] != positive[:-1])
@@ -123,8 +123,8 @@ def _pieces(
     pairs = [place[~saddle][crossed[~saddle]].reshape(-1, 2)]
     i, j, four = i[saddle], j[saddle], place[saddle]
     here, right, above, opposite = (value(x[i + m], y[j + n]) for m, n in ((0, 0), (1, 0), (0, 1), (1, 1)))
-    # Is the saddle of the corners, interpolated, like the lower left one? Then lines cut off the lower right and
-    # the upper left one.
+    # Does the saddle of the interpolated corners have the sign of the lower left corner? If so, lines cut off the lower
+    # right and the upper left one.
     like = (here * opposite > right * above)[:, None]
     pairs += [np.where(like, four[:, [0, 1]], four[:, [0, 3]]), np.where(like, four[:, [2, 3]], four[:, [1, 2]])]
     return zeros, np.concatenate(pairs)
@@ -138,7 +138,7 @@ def _zeros(
     positive: Signs,
     value: Callable[[Floats, Floats], Floats],
 ) -> Floats:
-    """Return a zero between each point (x0, y0), where `positive` says the sign, and (x1, y1): (N, 2)."""
+    """Return a zero between each point (x0, y0), where the sign is `positive`, and (x1, y1): (N, 2)."""
     low, high = np.zeros(len(x0)), np.ones(len(x0))
     for _ in range(HALVINGS if len(x0) else 0):
         middle = (low + high) / 2

@@ -1,7 +1,7 @@
 """The parameters of a pattern: what each means, its unit and its range, and the check of it.
 
 A pattern is a frozen, keyword-only dataclass whose fields are its parameters. Fields made with
-`parameter` are offered to people, with their range and unit; patterns.given reads what people give.
+`parameter` are offered to users, with their range and unit; patterns.given reads what users enter.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from patterns.errors import PatternError
 Unit = Literal["mm", "rad", ""]
 UNITS = get_args(Unit)
 SHOWN_UNITS = {"mm": " mm", "rad": " degrees", "": ""}
-TURN_SLACK = 1e-10  # rad: an end of a range in degrees, in ten digits, and back is off by a rounding
+TURN_SLACK = 1e-10  # rad: converting the end of a range to degrees with ten digits and back is off by rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,15 +28,15 @@ class Parameter:
     Attributes
     ----------
     help : str
-        One phrase for people.
+        One phrase for users.
     unit : {"mm", "rad", ""}
-        Lengths are millimetres; angles are radians here and degrees wherever people give or read them.
+        Lengths are in millimetres; angles are in radians here, and in degrees wherever users enter or read them.
     low, high : float
         Both ends belong to the range.
     whole : bool
         True for whole numbers.
     replaces : str
-        The parameter that counts for nothing once this one is given.
+        The parameter that is ignored once this one is given.
     """
 
     help: str
@@ -48,12 +48,12 @@ class Parameter:
 
     @property
     def shown_unit(self) -> str:
-        """The unit as people read it: mm, degrees, or nothing."""
+        """The unit as users read it: mm, degrees, or nothing."""
         return SHOWN_UNITS[self.unit].strip()
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Both ends of the range as people read them, angles in degrees."""
+        """Both ends of the range as users read them, angles in degrees."""
         if self.unit != "rad":
             return self.low, self.high
         return round(math.degrees(self.low), 9), round(math.degrees(self.high), 9)
@@ -91,7 +91,7 @@ def parameter(
     Raises
     ------
     PatternError
-        For a unit or a default that could not be offered to people.
+        If the unit or the default could not be offered to users.
     """
     numbers = default if isinstance(default, tuple) else (default,)
     if (
@@ -122,13 +122,13 @@ def parameters(pattern: object) -> dict[str, Described]:
 
 
 class Named(Protocol):
-    """What messages can call by its name."""
+    """Anything that messages can refer to by name."""
 
     name: ClassVar[str]
 
 
 def wanted(default: object, described: Parameter) -> str:
-    """Return in words what a parameter may be, with its range and unit.
+    """Return in words what values a parameter may have, with its range and unit.
 
     >>> wanted(None, Parameter(help="", unit="", low=1, high=9, whole=True))
     'a whole number from 1 to 9, or none'
@@ -150,7 +150,7 @@ def check_parameters(pattern: Named) -> None:
 
 
 def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: ANN401 - of the kind of the field
-    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot be it.
+    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
 
 
 def _numbers(value: object, described: Parameter, count: int) -> tuple[float, ...] | None:
-    """Return `count` plain numbers, or None if the parameter cannot be them."""
+    """Return `count` plain numbers, or None if the parameter cannot have them."""
     if not isinstance(value, Sequence) and not hasattr(value, "tolist"):
         return None
     several = value if isinstance(value, Sequence) else value.tolist()
@@ -190,7 +190,7 @@ def _numbers(value: object, described: Parameter, count: int) -> tuple[float, ..
 
 
 def _number(value: object, described: Parameter) -> float | None:
-    """Return a number as a plain int or float, or None if the parameter cannot be it."""
+    """Return a number as a plain int or float, or None if the parameter cannot have it."""
     if isinstance(value, bool) or not isinstance(value, Real):
         return None
     number = float(value)
@@ -203,7 +203,7 @@ def _number(value: object, described: Parameter) -> float | None:
 
 
 def shown(value: object, described: Parameter) -> str:
-    """Return a value as people give it: angles in degrees, numbers with commas between; and its unit."""
+    """Return a value as users enter it, with its unit: angles in degrees, several numbers separated by commas."""
     several = value if isinstance(value, (tuple, list)) else (value,)
     if not several or not all(isinstance(each, Real) and not isinstance(each, bool) for each in several):
         return repr(value)

@@ -1,6 +1,6 @@
 """The one error of this package.
 
-PatternError(ValueError)    a parameter, a region or a name that no pattern can be made of
+PatternError(ValueError)    a parameter, a region or a name from which no pattern can be made
 """
 
 

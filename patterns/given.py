@@ -1,4 +1,4 @@
-"""Parameters as people give and read them: words or plain values, angles in degrees."""
+"""Parameters as users enter and read them: words or plain values, angles in degrees."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NONE = "none"
 
 
 def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> str:
-    """Return advice for a name that is not known: the nearest one, of `others` as well, or all that are known.
+    """Return advice for an unknown name: the nearest known one, including `others`, or a list of all known names.
 
     >>> nearest("wavs", ["cell", "waves"]), nearest("qq", ["cell"]), nearest("qq", [])
     ("did you mean 'waves'?", 'it has cell', 'it has none')
@@ -30,8 +30,8 @@ def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> s
 def assigned(kind: type[Pattern], text: str) -> tuple[str, Any]:
     """Return the name and the value in a text such as ``waves=7.5``, or raise PatternError.
 
-    Dashes and underscores are alike; several numbers have commas between them; a flag is true, yes, on, 1,
-    false, no, off or 0. An angle is given and returned in degrees.
+    Dashes and underscores are equivalent; several numbers are separated by commas; a flag is true, yes, on, 1,
+    false, no, off or 0. Angles are given and returned in degrees.
 
     >>> from patterns import Zigzag
     >>> assigned(Zigzag, "phase=1,2"), assigned(Zigzag, "waves=none"), assigned(Zigzag, "frame=off")
@@ -48,9 +48,9 @@ def assigned(kind: type[Pattern], text: str) -> tuple[str, Any]:
 
 
 def value_of(kind: type[Pattern], name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
-    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot be it.
+    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it.
 
-    An angle is given and returned in degrees.
+    Angles are given and returned in degrees.
     """
     field, described = parameters(kind)[name]
     if described.unit == "rad" and _is_number(value):
@@ -60,7 +60,7 @@ def value_of(kind: type[Pattern], name: str, value: object) -> Any:  # noqa: ANN
 
 
 def from_degrees(kind: type[Pattern], values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return parameters as a pattern takes them: what `value_of` returns, angles in radians."""
+    """Return parameters as a pattern takes them: like `value_of`, but with angles in radians."""
     turn = {name for name, (_, described) in parameters(kind).items() if described.unit == "rad"}
     return {
         name: math.radians(value) if name in turn and _is_number(value) else value for name, value in values.items()
@@ -68,7 +68,7 @@ def from_degrees(kind: type[Pattern], values: Mapping[str, Any]) -> dict[str, An
 
 
 def in_degrees(pattern: Pattern) -> dict[str, Any]:
-    """Return the parameters of a pattern that count, by name, angles in degrees."""
+    """Return the parameters of a pattern that are not overridden, by name, angles in degrees."""
     found = parameters(pattern)
     values = {name: getattr(pattern, name) for name in found}
     replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
@@ -81,7 +81,7 @@ def in_degrees(pattern: Pattern) -> dict[str, Any]:
 
 
 def descriptions(kind: type[Pattern]) -> dict[str, dict[str, Any]]:
-    """Return the parameters of a pattern by name as plain values: help, unit, default, and the ends low and high.
+    """Return the parameters of a pattern by name, as plain values: help, unit, default, and the limits low and high.
 
     Angles are in degrees.
     """
@@ -100,7 +100,7 @@ def descriptions(kind: type[Pattern]) -> dict[str, dict[str, Any]]:
 
 
 def default_text(described: Described) -> str:
-    """Return the default of a parameter as people give it, with its unit: "6 mm", "0,0 mm", "true", "none"."""
+    """Return the default of a parameter as users enter it, with its unit: "6 mm", "0,0 mm", "true", "none"."""
     default = described[0].default
     if default is None or isinstance(default, bool):
         return str(default).lower()
@@ -108,7 +108,7 @@ def default_text(described: Described) -> str:
 
 
 def _plain(text: str, default: object) -> object:
-    """Return the value that a text stands for, or the text if it stands for none of the kind of `default`."""
+    """Return the value that a text stands for, or the text itself if it stands for none of the type of `default`."""
     word = text.lower()
     if default is None and word == NONE:
         return None
@@ -127,5 +127,5 @@ def _is_number(value: object) -> bool:
 
 
 def _listed(value: object) -> object:
-    """Return a list for a tuple: what JSON and TOML give back."""
+    """Return a list for a tuple, as JSON and TOML give back."""
     return list(value) if isinstance(value, tuple) else value

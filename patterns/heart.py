@@ -1,4 +1,4 @@
-"""Concentric hearts: nested copies of one outline about a common centre."""
+"""Concentric hearts: nested copies of one outline around a common centre."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ARC_POINTS = 257  # odd, so that the tip of a lobe is a point
 def outline() -> NDArray[np.float64]:
     r"""Return the closed outline of a heart on the square 0 <= x, y <= 1: (N, 2), first = last.
 
-    Straight sides on the axes, half discs of radius 1/2 on the right and on the top side, the tip
+    The straight sides lie on the axes, half discs of radius 1/2 on the right and top sides, the tip
     at (0, 0). As in the paper, one half is given as points and mirrored about y = x.
 
             .--.
@@ -44,12 +44,12 @@ def outline() -> NDArray[np.float64]:
 
 @dataclass(frozen=True, kw_only=True)
 class ConcentricHeart(Pattern):
-    """Hearts inside one another, as large as the region allows, tip at the lower left.
+    """Hearts inside one another, as large as the region allows, with the tip at the lower left.
 
-    Copies are scaled about the middle of the square they stand on, in even steps. The gap between
-    neighbours is `cell` at the straight sides and at the notch and twice that at the tips of the
-    lobes; no other centre makes it more even. A region that is not square carries the hearts in
-    its middle; what a phase shifts out of the region is cut off. Source: Wang et al. 2020, Fig. 17(a).
+    Copies are scaled about the middle of the square they occupy, in even steps. The gap between
+    neighbours is `cell` at the straight sides and at the notch, and twice that at the tips of the
+    lobes; no other centre makes it more even. In a region that is not square, the hearts lie in
+    its middle; what `phase` shifts out of the region is cut off. Source: Wang et al. 2020, Fig. 17(a).
     """
 
     name: ClassVar[str] = "concentric-heart"
@@ -71,7 +71,7 @@ class ConcentricHeart(Pattern):
         from patterns.linework import clip, framed, middle, turn
 
         largest, gap = self._side(region), self.line_spacing(region)
-        # A heart is left out once its own inside would be narrower than a gap.
+        # A heart is left out once its own interior would be narrower than a gap.
         count = self.hearts or max(1, math.floor((largest - gap) / (2 * gap)) + 1)
         sides = largest - 2 * gap * np.arange(count)
         hearts = turn(sides[:, None, None] * (outline() - 0.5), self.angle)

@@ -1,4 +1,4 @@
-"""Honeycomb: a regular hexagon about (0, 0), tessellated."""
+"""Honeycomb: a tessellation of regular hexagons, one of them centred on (0, 0)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Honeycomb(Pattern):
     """Regular hexagons, each wall shared by two cells, in a frame.
 
-    Two sides of every hexagon are vertical at angle 0. A wall length of 2 / `cell` lies on every
+    Two sides of every hexagon are vertical at angle 0. There are 2 / `cell` mm of wall per
     square millimetre. Source: Wang et al. 2020, Fig. 17(c).
 
     >>> from shapely import box

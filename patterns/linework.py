@@ -1,4 +1,4 @@
-"""Geometry that patterns share: turn, clip, frame, sample."""
+"""Geometry that patterns share: turning, clipping, framing, sampling."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 def local(
     x: NDArray[np.float64], y: NDArray[np.float64], *, angle: float, phase: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return where points lie in a pattern that is turned by `angle` radians and then shifted by `phase`, mm.
+    """Return the coordinates of points in a pattern that is turned by `angle` radians and then shifted by `phase`, mm.
 
-    A level set of these places is the pattern turned and shifted.
+    A level set of these coordinates is the pattern turned and shifted.
 
     >>> x, y = local(np.array(1.0), np.array(2.0), angle=math.pi / 2, phase=(1.0, 0.0))
     >>> round(float(x), 12), round(float(y), 12)
@@ -40,19 +40,19 @@ def local(
 
 
 def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
-    """Return the parts of `lines` inside `region`; touching points are dropped."""
+    """Return the parts of `lines` inside `region`; parts that merely touch it in a point are dropped."""
     shapely.prepare(region)
     candidates = np.asarray(lines, dtype=object)
     candidates = candidates[shapely.intersects(candidates, region)]
     inside = shapely.contains(region, candidates)
     cut = shapely.get_parts(shapely.intersection(candidates[~inside], region))
-    cut = shapely.get_parts(cut)  # a GeometryCollection nests once
+    cut = shapely.get_parts(cut)  # a GeometryCollection is nested once
     kept = np.concatenate([candidates[inside], cut[(shapely.get_type_id(cut) == 1) & (shapely.length(cut) > 0)]])
     return MultiLineString(list(kept))
 
 
 def joined(lines: MultiLineString) -> MultiLineString:
-    """Return `lines`, those that share an end in pairs as one: clipping cuts a ring where it begins as well.
+    """Return `lines` with those that share an end in pairs joined: clipping also cuts a ring where it begins.
 
     >>> len(joined(MultiLineString([[(0, 0), (1, 0)], [(1, 0), (2, 0)], [(5, 5), (6, 6)]])).geoms)
     2
@@ -84,7 +84,7 @@ def middle(region: Polygon | MultiPolygon) -> NDArray[np.float64]:
 
 
 def bodies(lines: MultiLineString, *, tolerance: float = 1e-6) -> NDArray[np.intp]:
-    """Return for every line the number, from 0, of the connected body of lines it belongs to.
+    """Return, for every line, the number (from 0) of the connected body of lines it belongs to.
 
     >>> bodies(MultiLineString([[(0, 0), (2, 0)], [(1, -1), (1, 1)], [(5, 5), (6, 6)]])).tolist()
     [0, 0, 1]

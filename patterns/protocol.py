@@ -19,14 +19,14 @@ LINES, LEVEL_SET = "lines", "level set"
 class Pattern(Protocol):
     """Lines in a plane at height z, or the zero set of a function of x, y and z; millimetres.
 
-    Subclass it (a frozen, keyword-only dataclass is best), give `name`, `summary`, `line_spacing`, and
-    `lines` or `level_set` or both. `points`, the lines of a level set and the range check of the
-    parameters come for free.
+    To write a pattern, subclass it (best as a frozen, keyword-only dataclass) and provide `name`, `summary`,
+    `line_spacing`, and `lines` or `level_set` or both. `points`, the lines of a level set and the range
+    check of the parameters come for free.
 
     Attributes
     ----------
     name : str
-        The word at the command line.
+        The name to type on the command line.
     summary : str
         What the pattern is for, in one phrase.
     prismatic : bool
@@ -34,9 +34,9 @@ class Pattern(Protocol):
 
     Notes
     -----
-    Lines are for what is drawn: strokes, tiles, curves; ends and corners stay as they are given. A level
-    set (see `LevelSet`) is for what is a formula: waves, gyroids; its lines have no ends inside the
-    region and never cross. A pattern that gives both says the same with both.
+    Lines suit whatever is drawn: strokes, tiles, curves; ends and corners stay as they are given. A level
+    set (see `LevelSet`) suits whatever is a formula: waves, gyroids; its lines have no ends inside the
+    region and never cross. A pattern that provides both describes the same shape with both.
     """
 
     name: ClassVar[str]
@@ -46,7 +46,7 @@ class Pattern(Protocol):
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
         """Return the centre lines of the walls at height `z`, clipped to `region`.
 
-        A pattern that gives a level set need not write this: the lines are where the level set is zero,
+        A pattern with a level set need not define this: the lines are then where the level set is zero,
         found on a grid of a 32nd of `line_spacing`, with every corner put onto the zero set itself. The
         outline of the region is added if the pattern has a parameter `frame` that is True.
 
@@ -55,13 +55,13 @@ class Pattern(Protocol):
         region : Polygon or MultiPolygon
             Where lines may lie, mm. Walls reach half a line width beyond it.
         z : float
-            Height, mm; a prismatic pattern does not look at it.
+            Height, mm; a prismatic pattern ignores it.
 
         Returns
         -------
         MultiLineString
-            mm. Each line becomes a wall of `line width` about it; lines that end or meet, end or meet so in
-            the print.
+            mm. Each line becomes a wall of `line width` centred on it; lines that end or meet do so in
+            the print as well.
         """
         from patterns.contours import zero_lines
         from patterns.linework import clip, framed, joined
@@ -72,7 +72,7 @@ class Pattern(Protocol):
         return framed(lines, region) if getattr(self, "frame", False) else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
-        """Return the distance, mm, at which neighbouring lines are designed to lie in `region`."""
+        """Return the distance, mm, between neighbouring lines in `region` for which the pattern is designed."""
         ...
 
     def points(self, region: Polygon | MultiPolygon, spacing: float, z: float = 0.0) -> NDArray[np.float64]:
@@ -103,7 +103,7 @@ class Pattern(Protocol):
 
 @runtime_checkable
 class LevelSet(Protocol):
-    """What a pattern offers that is a formula; a pattern has it beside `Pattern`, or in place of lines."""
+    """What a pattern defined by a formula provides, in addition to `Pattern` or in place of its lines."""
 
     def level_set(self, x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the value of a continuous function at points in space.
@@ -116,15 +116,15 @@ class LevelSet(Protocol):
         Returns
         -------
         float64, of that shape
-            Above 0 in one colour of the pattern (the solid, where it is one), below 0 in the other. Where it
-            is 0 lie the walls or the paths. Only the sign and where it changes count, no unit: a distance
+            Above 0 in one phase of the pattern (the solid, where it is one), below 0 in the other. Where it
+            is 0, there are walls or paths. Only the sign and where it changes matter, not the unit: a distance
             in mm is as good as a sum of sines.
         """
         ...
 
 
 def lines_of(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
-    """Return the lines of a pattern, or raise PatternError that names it: the code of a plug-in may do anything."""
+    """Return the lines of a pattern, or raise PatternError that names it: a plug-in's code may do anything."""
     try:
         return pattern.lines(region, z)
     except Exception as error:
@@ -135,7 +135,7 @@ def lines_of(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -
 
 
 def gives(pattern: object) -> tuple[str, ...]:
-    """Return what a pattern, or a class of patterns, gives of itself: "lines", "level set", or both.
+    """Return what a pattern, or a class of patterns, itself provides: "lines", "level set", or both.
 
     >>> from patterns import Honeycomb
     >>> gives(Honeycomb)
@@ -147,7 +147,7 @@ def gives(pattern: object) -> tuple[str, ...]:
 
 
 def lacking(pattern: object) -> list[str]:
-    """Return what a pattern, or a class of patterns, would need and does not have.
+    """Return what a pattern, or a class of patterns, is required to have but lacks.
 
     >>> lacking("honeycomb")[:2]
     ['name', 'summary']

@@ -1,4 +1,4 @@
-"""The patterns by name: the built-in ones and those of installed plug-ins.
+"""Patterns by name: the built-in ones and those of installed plug-ins.
 
 A third party adds a pattern with the entry-point group ``infill.patterns``::
 
@@ -34,10 +34,10 @@ def installed_plugins() -> list[EntryPoint]:
 
 
 class Registry(Mapping[str, type[Pattern]]):
-    """Patterns by name; plug-ins are looked for once, when the registry is first read.
+    """Patterns by name; plug-ins are searched for once, when the registry is first read.
 
-    A plug-in that cannot be imported or made without arguments, is not a pattern, or takes a name that is
-    in use, is one `PatternWarning` that names it.
+    A plug-in that cannot be imported, cannot be made without arguments, is not a pattern, or takes a name that is
+    already in use causes one `PatternWarning` that names it.
     """
 
     def __init__(
@@ -70,7 +70,7 @@ class Registry(Mapping[str, type[Pattern]]):
         return len(self._loaded())
 
     def find(self, name: str) -> type[Pattern]:
-        """Return the pattern called `name`, or raise PatternError that names the nearest."""
+        """Return the pattern called `name`, or raise PatternError suggesting the nearest name."""
         if name in self:
             return self[name]
         near = difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
@@ -96,7 +96,7 @@ def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern
 
 
 def _check_class(pattern: Any, name: str) -> None:  # noqa: ANN401 - whatever a plug-in offers
-    """Raise PatternError if `pattern` is not a pattern class that can go by `name`."""
+    """Raise PatternError if `pattern` is not a pattern class that can be called `name`."""
     missing = lacking(pattern)
     if not isinstance(pattern, type) or missing:
         raise PatternError(f"it is not a pattern class ({', '.join(missing) or 'no class'} missing)")

@@ -7,7 +7,7 @@
         phase: tuple[float, float] = phase_parameter()
         frame: bool = frame_parameter(default=True)
 
-They are flags of the command line. A pattern has those that mean something to it.
+They are flags on the command line. A pattern has those that make sense for it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def cell_parameter(default: float = 6.0) -> Any:  # noqa: ANN401 - a field of ty
 
 
 def angle_parameter(default: float = 0.0) -> Any:  # noqa: ANN401 - a field of type float
-    """Return the field for the angle that a pattern is turned by, radians."""
+    """Return the field for the angle by which a pattern is turned, radians."""
     return parameter(default, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
 
 

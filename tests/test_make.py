@@ -440,3 +440,28 @@ def test_figure_4_epsilon_sets_the_width_of_the_interface() -> None:
     assert widths[0] == pytest.approx(16, abs=1)
     assert widths[1] == pytest.approx(4, abs=1)
     assert widths[2] == 0
+
+
+def test_the_lines_of_a_pattern_are_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn, lines = [], Honeycomb.lines
+
+    def counted(self: Honeycomb, *arguments: Any) -> Any:
+        drawn.append(1)
+        return lines(self, *arguments)
+
+    monkeypatch.setattr(Honeycomb, "lines", counted)
+    result = make("honeycomb", size=20, height=3)
+    assert len(drawn) == 1
+    assert np.array_equal(result.stages.points, Honeycomb().points(plan_of("honeycomb", (20, 20), 6).region, 0.075))
+
+
+def test_points_that_a_pattern_finds_itself_are_taken() -> None:
+    class Corners(Honeycomb):
+        """A honeycomb of dots: its points are the ends of its lines only."""
+
+        def points(self, region: Any, spacing: float, z: float = 0.0) -> Any:
+            return shapely.get_coordinates(self.lines(region, z))
+
+    result = make(Corners(), size=20, height=3, allow_broken=True)
+    assert len(result.stages.points) < 200
+    assert result.report["components"] > 10

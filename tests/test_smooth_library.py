@@ -848,3 +848,17 @@ def test_nobody_waits_for_a_compiler_untold(
     function(solid, smoothing=Smoothing(steps=1), progress=progress)
     assert len(caplog.messages) == 1
     assert caplog.messages[0].startswith("compiling ")
+
+
+def test_how_far_edges_may_draw_back_goes_with_the_diffusion() -> None:
+    """Four steps of a quarter of the length blur as one does: the same wall is lost, wherever it begins to count."""
+    fin = np.zeros((40, 60, 40), dtype=bool)
+    fin[5:35, 5:25, 5:35] = True
+    fin[19:21, 25:33, 5:35] = True  # two cells thick, eight long
+    lost = [
+        smooth_volume(fin, smoothing=smoothing, allow_broken=True).report["walls"]["lost"]
+        for smoothing in (Smoothing(steps=20), Smoothing(steps=80, alpha=1 / 28))
+    ]
+    assert lost[0] == lost[1]
+    assert [piece["voxels"] for piece in lost[0]] == [60]
+    assert Smoothing(steps=20).blur == pytest.approx(Smoothing(steps=80, alpha=1 / 28).blur)

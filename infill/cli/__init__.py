@@ -1,6 +1,6 @@
-"""The command line: parses, calls the library, reports.
+"""The command line: parses arguments, calls the library, reports.
 
-`main` is the console script. It loads nothing before it can be interrupted cleanly.
+`main` is the console script. It loads nothing until it can be interrupted cleanly.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ INTERRUPTED, TERMINATED = 130, 143
 
 
 def main() -> None:
-    """Run the command line: exit 0 when done, 1 for our errors, 2 for usage, 130 when interrupted."""
+    """Run the command line: exit 0 on success, 1 for our errors, 2 for usage errors, 130 when interrupted."""
     for name in ("SIGTERM", "SIGHUP"):
         with contextlib.suppress(AttributeError, ValueError):  # no such signal here, or not the main thread
             signal.signal(getattr(signal, name), _terminate)
@@ -35,13 +35,13 @@ def main() -> None:
     except OSError as error:  # stdout or stderr is full or gone; files have errors of their own
         with contextlib.suppress(OSError):
             sys.stderr.write(f"error: cannot write the report: {error.strerror or error}\n")
-        # What is still held back for stdout would fail again when Python ends.
+        # Whatever is still buffered for stdout would fail again when Python exits.
         sys.stdout = None
         sys.exit(1)
 
 
 def _leave(code: int) -> None:
-    """End at once. Files are removed by now; a thread may wait for ever for a lock that the interrupt left taken."""
+    """Exit at once. Files are removed by now; a thread may wait for ever for a lock that the interrupt left held."""
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError, ValueError):
             stream.flush()
@@ -63,5 +63,5 @@ def _run() -> None:
 
 
 def _terminate(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 - the signature of a handler
-    """End as after an error, so that half-written files are removed."""
+    """Exit as after an error, so that half-written files are removed."""
     raise SystemExit(TERMINATED)

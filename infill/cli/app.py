@@ -1,6 +1,6 @@
 """The app: its commands live in modules of their own.
 
-Parameters of patterns go by ``--set name=value``, so a new pattern needs no line here and no place in a help.
+Pattern parameters are given as ``--set name=value``, so a new pattern needs no line here and no entry in a help text.
 """
 
 from __future__ import annotations

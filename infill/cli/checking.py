@@ -1,4 +1,4 @@
-"""``infill check``: is a mesh printable."""
+"""``infill check``: whether a mesh is printable."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a shell offers for a word that is begun; the catalogue is loaded only when it asks."""
+"""What a shell offers to complete a word with; the catalogue is loaded only when it asks."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ import typer
 
 
 def pattern_names(incomplete: str) -> list[tuple[str, str]]:
-    """Return the patterns whose names begin so, each with its summary."""
+    """Return the patterns whose names begin with the word, each with its summary."""
     from patterns import PATTERNS
 
     return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete)]
 
 
 def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
-    """Return ``name=`` for the parameters of the pattern that was typed, then ``name=value`` for a flag among them."""
+    """Return ``name=`` for the parameters of the pattern typed, then ``name=value`` for a flag among them."""
     from patterns import PATTERNS, parameters
 
-    # While --set waits for its value, arguments are not told from what is left over.
+    # While --set is waiting for its value, positional arguments cannot be distinguished from leftovers.
     pattern = next((word for word in (context.params.get("pattern"), *context.args) if word in PATTERNS), None)
     if pattern is None:
         return []

@@ -1,4 +1,4 @@
-"""What every command shares: one line for an error, a bar for progress, tables of plain text."""
+"""What every command shares: one-line errors, a progress bar, plain-text tables."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ UNITS = ("B", "kB", "MB", "GB")
 
 
 def say(text: str) -> None:
-    """Print talk to stderr."""
+    """Print a message to stderr."""
     typer.echo(text, err=True)
 
 
@@ -37,7 +37,7 @@ def warn(
 
 
 def reports_errors(command: Function) -> Function:
-    """Make a command end with one line and exit 1 for errors of ours."""
+    """Make a command end with one line and exit code 1 for errors of ours."""
 
     @functools.wraps(command)
     def run(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - whatever the command takes
@@ -54,7 +54,7 @@ def reports_errors(command: Function) -> Function:
 
 @contextlib.contextmanager
 def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None]:
-    """Yield a function (stage, share done) that moves a bar on stderr; None where nobody sees it."""
+    """Yield a function (stage, share done) that moves a bar on stderr, or None where nobody sees it."""
     if not shown or not sys.stderr.isatty():
         yield None
         return
@@ -69,7 +69,7 @@ def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None
 
 @contextlib.contextmanager
 def log_said(*, shown: bool) -> Iterator[None]:
-    """Say what the library tells its log, or nothing of it."""
+    """Print what the library logs, or nothing."""
     log = logging.getLogger("infill")
     told = _Said() if shown else logging.NullHandler()
     spreads = log.propagate
@@ -83,22 +83,22 @@ def log_said(*, shown: bool) -> Iterator[None]:
 
 
 class _Said(logging.Handler):
-    """A handler that says every record on stderr."""
+    """A handler that prints every record on stderr."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Say one record."""
+        """Print one record."""
         say(record.getMessage())
 
 
 def table(rows: Mapping[str, str], title: str = "") -> str:
-    """Return rows of a name and a text, the texts below each other."""
+    """Return rows of a name and a text, with the texts aligned below each other."""
     width = max(len(name) for name in rows)
     lines = [f"  {name:<{width}}  {text}" for name, text in rows.items()]
     return "\n".join([title, *lines] if title else lines)
 
 
 def can_show(text: str) -> bool:
-    """Say whether stdout has the characters of a text."""
+    """Return whether stdout can show the characters of a text."""
     try:
         text.encode(sys.stdout.encoding or "ascii")
     except (UnicodeEncodeError, LookupError):
@@ -112,7 +112,7 @@ def print_json(value: Mapping[str, Any]) -> None:
 
 
 def as_bytes(count: float) -> str:
-    """Return a number of bytes for people.
+    """Return a number of bytes in readable form.
 
     >>> as_bytes(10_625_284)
     '10.6 MB'

@@ -1,4 +1,4 @@
-"""``infill list``: the patterns and what each is for; one of them with its parameters and a picture."""
+"""``infill list``: the patterns and what each is for, or one of them with its parameters and a picture."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
 
 
 def _described(kind: type[Pattern]) -> dict[str, Any]:
-    """Return what a pattern is for, what it gives, and its parameters, angles in degrees."""
+    """Return what a pattern is for, what it provides, and its parameters, angles in degrees."""
     from patterns import gives
     from patterns.given import descriptions
 
@@ -70,7 +70,7 @@ def _described(kind: type[Pattern]) -> dict[str, Any]:
 
 
 def _shown(kind: type[Pattern]) -> str:
-    """Return a pattern for a terminal: what it is, its parameters, a picture."""
+    """Return a pattern in a form for the terminal: what it is, its parameters, a picture."""
     from infill.pictures.drawing import text_drawing
     from patterns import gives, parameters
     from patterns.declared import wanted

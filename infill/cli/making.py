@@ -174,7 +174,7 @@ def make(
         if outputs or preview or as_json:
             result = settings.make(allow_broken=allow_broken, max_memory=limit, progress=progress)
         else:
-            settings.plan()  # what is saved shall be right
+            settings.plan()  # what is saved must be valid
         if progress is not None:
             progress("write", 0.8)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -193,7 +193,7 @@ def make(
 
 
 def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa: ANN401 - Block, not imported for --help
-    block.require_grid_memory(limit)  # else the lines alone might fill it
+    block.require_grid_memory(limit)  # else the lines alone might fill the memory
     if limit is not None:
         block.require_memory(limit)
     facts = block.facts()
@@ -210,7 +210,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
 
 
 def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
-    """Return the short table on stderr."""
+    """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
     size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))

@@ -227,7 +227,7 @@ def smooth(
 
 
 def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbose: bool) -> str:
-    """Return the short table on stderr."""
+    """Return the short table for stderr."""
     report: dict[str, Any] = result.report
     request, grid, level, change = report["request"], report["grid"], report["solid"]["level"], report["changes"]
     now, was = report["topology"]["result"], report["topology"]["data"]

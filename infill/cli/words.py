@@ -1,4 +1,4 @@
-"""Words of the command line that stand for numbers."""
+"""Words on the command line that stand for numbers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def parse_bytes(text: str) -> int:
 
 
 def parse_numbers(name: str, text: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """Return the numbers in a text such as "0.9,0.9,1.5", or raise ParameterError if there are not as many.
+    """Return the numbers in a text such as "0.9,0.9,1.5", or raise ParameterError if their count is not in `counts`.
 
     >>> parse_numbers("range", "200, 900", (2,))
     (200.0, 900.0)

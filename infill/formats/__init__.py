@@ -1,1 +1,1 @@
-"""Files in and out, one format a module, reader beside writer; files appear whole or not at all."""
+"""Reading and writing files: one format per module, reader next to writer; files appear whole or not at all."""

@@ -15,18 +15,18 @@ from infill.formats.broken import SMALLER, checked_volume, told_broken
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-PLACE = {"spacing", "spacing_zyx_mm", "origin", "direction", "space"}  # what an .npz may hold beside its values
+PLACE = {"spacing", "spacing_zyx_mm", "origin", "direction", "space"}  # what an .npz may hold besides its values
 
 
 def read_npy(path: Path) -> Volume:
-    """Return an array [x, y, z], mapped and not loaded."""
+    """Return an array [x, y, z], memory-mapped rather than loaded."""
     with told_broken(path):
         values = npy_format.open_memmap(path, mode="r")
     return checked_volume(path, values)
 
 
 def read_npz(path: Path, name: str | None = None) -> Volume:
-    """Return the one array with three axes, or the one of that name, with its place if the file says it."""
+    """Return the only array with three axes, or the one with the given name, placed in space if the file says where."""
     with told_broken(path), zipfile.ZipFile(path) as archive:
         members = {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
         volumes = [key for key, member in members.items() if _axes(archive, member) >= AXES and key not in PLACE]

@@ -1,4 +1,4 @@
-"""What all readers say of a file that is missing, broken, or holds something else than it should."""
+"""How all readers report a file that is missing, broken, or holds something other than it should."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterE
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"
-# What the libraries that read for us raise for files that hold something else than they should.
+# The errors raised by the libraries we read with when a file holds something other than it should.
 BROKEN = (
     ValueError,
     LookupError,
@@ -40,13 +40,13 @@ BROKEN = (
     zipfile.BadZipFile,
     ElementTree.ParseError,
 )
-# Of these, what our own lines raise for such files: numbers that are none or infinite, and files that end too early.
+# Of these, the errors our own code raises for such files: values that are not finite numbers, and truncated files.
 BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
 COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
 def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
-    """Return the path of a file that is there and has one of the suffixes, or raise FormatError."""
+    """Return the path of a file that exists and has one of the suffixes, or raise FormatError."""
     source = Path(path)
     if source.suffix.lower() not in suffixes:
         raise FormatError(f"cannot tell {what} from {source.name!r}; use one of {', '.join(suffixes)}")
@@ -57,13 +57,13 @@ def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -
 
 @contextlib.contextmanager
 def told_broken(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
-    """Turn what a reader says of a broken file into an error of ours; an error in our own lines stays what it is.
+    """Turn a reader's complaint about a broken file into an error of ours; errors in our own code are left as they are.
 
     Parameters
     ----------
     path : Path
     what : str, optional
-        What to say of it, such as "is broken".
+        What to say about it, such as "is broken".
     advice : str
     """
     try:
@@ -80,21 +80,21 @@ def told_broken(path: Path, what: str | None = None, advice: str = "save it agai
 
 
 def is_ours(error: BaseException) -> bool:
-    """Return whether an error was raised by a line of this package, and not by a library that it calls."""
+    """Return whether an error was raised by this package, and not by a library that it calls."""
     names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
     return bool(names) and names[-1].split(".")[0] == __name__.split(".")[0]
 
 
 def one_line(error: Exception) -> str:
-    """Return what an error says, in one line that is not too long."""
+    """Return the text of an error on one line, truncated if too long."""
     words = " ".join(str(error).split())
-    if isinstance(error, LookupError) or not words:  # whose words are but a key
+    if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return words if len(words) <= 200 else words[:200] + "…"
 
 
 def checked_volume(path: Path, values: NDArray[Any], **place: Any) -> Volume:  # noqa: ANN401 - hands on
-    """Return the checked volume of values [x, y, z]."""
+    """Return the checked volume with values [x, y, z]."""
     if values.dtype.kind == "c":
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     if values.dtype.kind not in "biuf":

@@ -14,12 +14,12 @@ TEXT_FORMATS = {".obj", ".off"}
 
 
 def read_by_trimesh(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
-    """Return vertices and faces as they stand in the file."""
+    """Return vertices and faces as they are in the file."""
     import trimesh
 
     with told_broken(path, "is broken", "export the mesh again"):
         if path.suffix.lower() in TEXT_FORMATS:
-            # Only comments and names can hold what is not ASCII; their encoding does not matter.
+            # Only comments and names can contain non-ASCII characters; their encoding does not matter.
             text = path.read_bytes().decode("ascii", errors="replace")
             mesh = trimesh.load_mesh(io.StringIO(text), file_type=path.suffix.lower()[1:], process=False)
         else:

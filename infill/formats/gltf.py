@@ -1,7 +1,7 @@
 """Binary glTF 2.0: a JSON chunk that describes one mesh, and a chunk of its numbers.
 
-glTF is in metres. Vertices are written in millimetres, which 32 bits keep as they do in all other formats, and a node
-that is scaled by 1/1000 makes metres of them.
+glTF is in metres. Vertices are written in millimetres, which 32 bits preserve as in all other formats, and a node
+scaled by 1/1000 converts them to metres.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MILLIMETRE = 0.001  # of a metre
 
 
 def read_glb(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
-    """Return vertices in mm and faces, every mesh in each of its places in the scene."""
+    """Return vertices in mm and faces, with every mesh in each of its places in the scene."""
     import trimesh
 
     with told_broken(path, "is broken", "export the mesh again"):
@@ -36,7 +36,7 @@ def read_glb(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
             continue
         matrix = np.asarray(place, dtype=np.float64)[:3] / MILLIMETRE
         vertices.append(np.asarray(mesh.vertices, dtype=np.float64) @ matrix[:, :3].T + matrix[:, 3])
-        # A mirrored part would face inwards: its corners are taken in the other order.
+        # A mirrored part would face inwards: its corners are taken in reverse order.
         faces.append(np.asarray(mesh.faces)[:, :: -1 if np.linalg.det(matrix[:, :3]) < 0 else 1] + count)
         count += len(mesh.vertices)
     return np.concatenate(vertices), np.concatenate(faces)

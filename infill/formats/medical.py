@@ -20,11 +20,11 @@ from infill.machine import require_memory
 from infill.version import __version__
 from infill.volume import AXES, Volume
 
-UNEVEN = 0.05  # of a slice: how far DICOM slices may lie from even steps
+UNEVEN = 0.05  # of a slice: how far DICOM slices may deviate from even spacing
 POSITION = "0020|0032"
-HEAD = 1024  # bytes in which the storage class stands
-STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian as all of that header is
-USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # of the headers that SimpleITK tells
+HEAD = 1024  # bytes that contain the storage class
+STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian like the rest of that header
+USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # among the headers that SimpleITK reports
 NRRD_TYPES = {
     "b1": "uint8",
     "i1": "int8",
@@ -42,7 +42,7 @@ NRRD_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior
 
 
 class _Kept:
-    """An image of SimpleITK as an array, kept alive for as long as the array is, so that nothing is copied."""
+    """A SimpleITK image as an array; the image is kept alive as long as the array, so that nothing is copied."""
 
     def __init__(self, sitk: ModuleType, image: Any) -> None:  # noqa: ANN401 - SimpleITK.Image
         self.image = image
@@ -59,7 +59,7 @@ def _simpleitk(what: str) -> ModuleType:
 
 @contextlib.contextmanager
 def _quiet(sitk: ModuleType, path: Path) -> Iterator[None]:
-    """Turn errors of SimpleITK into ours, and keep its warnings off the terminal."""
+    """Turn SimpleITK errors into ours, and keep its warnings off the terminal."""
     shown = sitk.ProcessObject.GetGlobalWarningDisplay()
     sitk.ProcessObject.SetGlobalWarningDisplay(False)
     try:
@@ -94,13 +94,13 @@ def read_medical(path: Path) -> Volume:
     require_memory(math.prod(size) * _cell_bytes(kind), None, SMALLER)
     with _quiet(sitk, path):
         image = reader.Execute()
-    # An NRRD may lie in a space without a name; the readers of all others turn theirs into LPS.
+    # An NRRD may lie in a space without a name; for all other formats, the readers convert theirs to LPS.
     named = not path.name.lower().endswith((".nrrd", ".nhdr")) or known.get("NRRD_space") == "left-posterior-superior"
     return _placed(sitk, path, image, "LPS" if named else "")
 
 
 def _placed(sitk: ModuleType, path: Path, image: Any, space: str) -> Volume:  # noqa: ANN401 - SimpleITK.Image
-    """Return an image as a volume: [x, y, z], its origin the lower corner of the first cell."""
+    """Return an image as a volume [x, y, z], with its origin at the lower corner of the first cell."""
     axes = image.GetDimension()
     values = np.asarray(_Kept(sitk, image))
     values = values.reshape(values.shape[-AXES:]).T  # axes beyond three have one cell
@@ -122,7 +122,7 @@ def _cell_bytes(kind: str) -> int:
 
 
 def _require_whole_nifti(path: Path, size: tuple[int, ...], known: dict[str, str]) -> None:
-    """Raise FormatError for a NIfTI that is cut off: its reader would fill the rest with zeros and say nothing."""
+    """Raise FormatError for a truncated NIfTI: its reader would silently fill the rest with zeros."""
     with told_broken(path):
         needed = int(float(known["vox_offset"])) + math.prod(size) * int(known["bitpix"]) // 8
     if path.suffix.lower() != ".gz":
@@ -130,7 +130,7 @@ def _require_whole_nifti(path: Path, size: tuple[int, ...], known: dict[str, str
     else:
         with path.open("rb") as file:
             file.seek(-min(4, path.stat().st_size), os.SEEK_END)
-            announced = int.from_bytes(file.read(4), "little")  # of the last part, modulo 4 GiB
+            announced = int.from_bytes(file.read(4), "little")  # size of the last part, modulo 4 GiB
         held = needed if announced == needed % 2**32 else _unpacked_bytes(path)
     if held < needed:
         raise FormatError(f"{path} is cut off: it holds {held} bytes of {needed}; copy or save it again")
@@ -145,7 +145,7 @@ def _unpacked_bytes(path: Path) -> int:
 
 
 def read_dicom(folder: Path, series: str | None) -> Volume:
-    """Return the one series of a folder, or the one of that UID."""
+    """Return the only series in a folder, or the one with the given UID."""
     sitk = _simpleitk("a DICOM folder")
     reader = sitk.ImageSeriesReader()
     with _quiet(sitk, folder):
@@ -180,9 +180,9 @@ def read_dicom(folder: Path, series: str | None) -> Volume:
 
 
 def _require_whole_slices(folder: Path, listed: set[str]) -> None:
-    """Raise FormatError for slices that the search for series left out without a word, as it does if they are cut off.
+    """Raise FormatError for slices that the search for series silently left out, as it does if they are truncated.
 
-    Told from reports, plans and other objects without pixels, which may lie beside them, by their storage class.
+    The storage class tells them apart from reports, plans and other objects without pixels, which may lie next to them.
     """
     kinds = {_storage_class(Path(name)) for name in listed} - {b""}
     names = {Path(name).name for name in listed}
@@ -192,7 +192,7 @@ def _require_whole_slices(folder: Path, listed: set[str]) -> None:
 
 
 def _storage_class(path: Path) -> bytes:
-    """Return the UID that says what a DICOM file holds, CT slices or a report; nothing for other files."""
+    """Return the UID that says what a DICOM file holds, such as CT slices or a report; empty for other files."""
     with path.open("rb") as file:
         head = file.read(HEAD)
     at = head.find(STORAGE_CLASS)
@@ -212,7 +212,7 @@ def _series_bytes(sitk: ModuleType, names: tuple[str, ...]) -> int:
 
 
 def _require_even(folder: Path, image: Any, places: list[str]) -> None:  # noqa: ANN401 - SimpleITK.Image
-    """Raise FormatError if slices are missing, doubled, or sheared by a tilted scanner: the part would be bent."""
+    """Raise FormatError if slices are missing, duplicated, or sheared by a tilted scanner: the part would be bent."""
     with told_broken(folder):
         lie = np.array([[float(number) for number in place.split("\\")] for place in places])
     even = np.array([image.TransformIndexToPhysicalPoint((0, 0, k)) for k in range(len(places))])
@@ -225,10 +225,10 @@ def _require_even(folder: Path, image: Any, places: list[str]) -> None:  # noqa:
 
 
 def write_nrrd(volume: Volume, file: BinaryIO) -> None:
-    """Write NRRD: a header of text and the values, packed by gzip; `space origin` is the centre of the first cell.
+    """Write NRRD: a text header and the values, compressed by gzip; `space origin` is the centre of the first cell.
 
-    Booleans become 0 and 1, and numbers of 16 bits after the point get 32. A space without a name stays
-    without one, so that no program turns its axes. Source: "Definition of NRRD File Format", Teem.
+    Booleans become 0 and 1, and 16-bit floating-point numbers become 32-bit. A space without a name stays
+    without one, so that no program reorients its axes. Source: "Definition of NRRD File Format", Teem.
     """
     kind = _stored(volume.values.dtype)
     axes = np.asarray(volume.direction) * volume.cell_size  # column i: one cell along axis i

@@ -33,10 +33,10 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
     ----------
     mesh : trimesh.Trimesh or Surface, mm
     path : str or Path
-        .stl, .3mf, .obj, .ply or .glb. A .3mf says that it is in millimetres; a .glb is in metres, as glTF means
-        it; the others say no unit and hold millimetres.
+        .stl, .3mf, .obj, .ply or .glb. A .3mf states that it is in millimetres; a .glb is in metres, as glTF requires;
+        the others state no unit and hold millimetres.
     ascii : bool
-        Text instead of binary; STL only.
+        Write text instead of binary; STL only.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
     Raises
     ------
     FormatError
-        For an unknown suffix, or ascii in another format than STL.
+        For an unknown suffix, or ascii in a format other than STL.
     GeometryError
         For a mesh without faces, or with corners that are not finite.
     OutputError
@@ -60,7 +60,7 @@ def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii
 
 
 def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Callable[[Surface, BinaryIO], None]:  # noqa: A002
-    """Return the function that writes the format of `path`, or raise FormatError, which names `more` suffixes too."""
+    """Return the function that writes the format of `path`, or raise FormatError listing `more` suffixes too."""
     suffix = path.suffix.lower()
     if suffix not in WRITERS:
         given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
@@ -73,14 +73,14 @@ def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Ca
 def read_mesh(path: str | os.PathLike[str]) -> Surface:
     """Return the triangles of a file.
 
-    Equal vertices are merged, but for a mesh that is closed as it stands: there the file says on purpose
-    which of two equal vertices a triangle has. Triangles with two equal corners are kept.
+    Equal vertices are merged, unless the mesh is closed as it stands: in that case, the file specifies on purpose
+    which of two equal vertices a triangle uses. Triangles with two equal corners are kept.
 
     Parameters
     ----------
     path : str or Path
-        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF says its unit and glTF is in metres: they come
-        out in millimetres. The others say no unit and are taken as they are.
+        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF states its unit and glTF is in metres: these are
+        converted to millimetres. The others state no unit and are taken as they are.
 
     Returns
     -------

@@ -38,7 +38,7 @@ PLY_TYPES = {
     "float64": "f8",
 }
 PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
-PLY_HEAD = 2**16  # bytes in which a header ends
+PLY_HEAD = 2**16  # bytes within which a header ends
 NAMES = ({"x", "points:0", "x coordinate"}, {"y", "points:1", "y coordinate"}, {"z", "points:2", "z coordinate"})
 
 
@@ -48,15 +48,15 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
     Parameters
     ----------
     path : str or Path
-        .xyz, .txt, .pts or .csv: a point per line, in columns parted by blanks, commas or semicolons; after #
-        comes a comment. A line of names may come first, and says which columns are x, y and z; else they
-        are the first three. A first line with one number says how many points follow. .npy: an array
+        .xyz, .txt, .pts or .csv: one point per line, in columns separated by blanks, commas or semicolons; a #
+        begins a comment. A line of names may come first and say which columns are x, y and z; otherwise they
+        are the first three. A first line with one number gives the number of points that follow. .npy: an array
         (N, 3) or wider. .ply: the vertices, text or binary.
 
     Returns
     -------
     (N, 3) float64
-        x, y, z as they stand: no such file says its unit.
+        x, y, z unchanged: none of these files states its unit.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
         raise FormatError(f"{source} has the shape {points.shape}; save points as (N, 3)")
     if len(points) == 0:
         raise FormatError(f"{source} holds no points; export them again")
-    # Off a mapped file, and free of its other columns.
+    # A copy, detached from a mapped file and from its other columns.
     coordinates: NDArray[np.float64] = np.array(points[:, :AXES], dtype=np.float64)
     broken = np.flatnonzero(~np.isfinite(coordinates).all(axis=1))
     if broken.size:
@@ -84,7 +84,7 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
 
 
 def _told(path: Path) -> AbstractContextManager[None]:
-    """Turn what NumPy says of a broken file into an error of ours."""
+    """Turn what NumPy reports about a broken file into an error of ours."""
     return told_broken(path, "is broken or holds no points", "export them again")
 
 
@@ -92,7 +92,7 @@ def _told(path: Path) -> AbstractContextManager[None]:
 
 
 def _read_text(path: Path) -> NDArray[np.floating]:
-    # Only comments and names can hold what is not ASCII; their encoding does not matter.
+    # Only comments and names can contain non-ASCII characters; their encoding does not matter.
     with _told(path), path.open(encoding="utf-8-sig", errors="replace") as file:
         lines = (line for line in file if line.partition("#")[0].strip(" \t\r\n,;"))
         first = next(lines, "")
@@ -134,7 +134,7 @@ def _is_number(text: str) -> bool:
 
 
 def _columns(names: list[str]) -> tuple[int, ...]:
-    """Return where x, y and z stand: by their whole name, by its first word ("x_mm", "X [mm]"), or in front."""
+    """Return which columns hold x, y and z: by whole name, by its first word ("x_mm", "X [mm]"), or the first three."""
     plain = [name.strip("\"' ").lower() for name in names]
     words = [re.split(r"[\s_(\[/]", name)[0] for name in plain]
     for each in (plain, words):
@@ -207,7 +207,7 @@ def _ply_vertices(path: Path, file: BinaryIO, order: str, count: int, properties
 
 
 def _ply_rows(file: BinaryIO, order: str, count: int, properties: Properties) -> NDArray[Any]:
-    """Return the rows of an element: a structured array of binary ones, columns of text ones."""
+    """Return the rows of an element: a structured array if binary, columns if text."""
     if count < 0:
         raise ValueError(f"{count} rows")
     if order:

@@ -1,4 +1,4 @@
-"""Stacks of pictures: a TIFF of pages, or a folder of .tif or .png slices; pages are z, rows y, columns x."""
+"""Stacks of images: a multi-page TIFF, or a folder of .tif or .png slices; pages are z, rows y, columns x."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ MILLIMETRES = {
 
 @contextlib.contextmanager
 def _no_complaints(path: Path) -> Iterator[None]:
-    """Raise FormatError for what tifffile only logs, such as pages that a truncated file lacks."""
+    """Raise FormatError for problems that tifffile only logs, such as pages missing from a truncated file."""
     complaints: list[str] = []
 
     def keep(record: logging.LogRecord) -> bool:
@@ -60,7 +60,7 @@ def _no_complaints(path: Path) -> Iterator[None]:
 
 
 def read_tiff(path: Path) -> Volume:
-    """Return a stack of pages as a volume, with the cell size that ImageJ or OME wrote."""
+    """Return a stack of pages as a volume, with the cell size written by ImageJ or OME."""
     pages, spacing = _tiff_pages(path)
     return checked_volume(path, pages.T, spacing=spacing)
 
@@ -88,9 +88,9 @@ def _tiff_pages(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
 
 
 def _tiff_spacing(tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.TiffFile
-    """Return the cell size along x, y, z in mm, as ImageJ or OME wrote it; 1 where they did not."""
+    """Return the cell size along x, y, z in mm, as written by ImageJ or OME; 1 where it is missing."""
     if tiff.ome_metadata:
-        # Only attributes are looked at, and the standard parser fetches nothing from outside.
+        # Only attributes are read, and the standard parser fetches nothing from outside.
         pixels = ElementTree.fromstring(tiff.ome_metadata).find(".//{*}Pixels")  # noqa: S314
         if pixels is None or pixels.get("PhysicalSizeX") is None:
             return (1.0,) * AXES
@@ -106,7 +106,7 @@ def _tiff_spacing(tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.Ti
 
 
 def read_slices(folder: Path, names: list[Path]) -> Volume:
-    """Return one file a slice, in the order of the names."""
+    """Return a volume with one file per slice, in the order of the names."""
     pages: NDArray[Any] | None = None
     spacing = (1.0,) * AXES
     for number, name in enumerate(names):
@@ -139,6 +139,6 @@ def _read_png(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
 
 
 def natural(path: Path) -> list[tuple[int, str]]:
-    """Return a key by which slice 9 comes before slice 10."""
+    """Return a sort key by which slice 9 comes before slice 10."""
     parts = re.split(r"([0-9]+)", path.name.lower())
     return [(int(part), "") if number % 2 else (0, part) for number, part in enumerate(parts)]

@@ -1,4 +1,4 @@
-"""STL, binary and as text: triangles, each with its own corners, without a unit."""
+"""STL, binary and text: triangles, each with its own corners, without a unit."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _text_corners(path: Path, data: bytes) -> NDArray[np.floating]:
 
 
 def write_stl(surface: Surface, file: BinaryIO) -> None:
-    """Write binary STL: 50 bytes a triangle, 32-bit coordinates."""
+    """Write binary STL: 50 bytes per triangle, 32-bit coordinates."""
     space = f" SPACE={surface.space}" if surface.space else ""  # as 3D Slicer writes and reads it
     file.write(f"phasefill {__version__} UNITS=mm{space}".encode().ljust(80))
     file.write(np.uint32(len(surface.faces)).astype("<u4").tobytes())

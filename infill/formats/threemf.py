@@ -1,4 +1,4 @@
-"""3MF: a zip of XML that says its unit; core specification only."""
+"""3MF: zipped XML that states its unit; core specification only."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ TAIL = """</triangles></mesh></object></resources>
 
 def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     """Read the build of a 3MF: objects, components and their transforms; core specification."""
-    # The standard parser fetches nothing from outside, and what it makes is only counted and multiplied.
+    # The standard parser fetches nothing from outside, and its output is only counted and multiplied.
     with told_broken(path, "is no 3MF file", AGAIN), zipfile.ZipFile(path) as package:
         models = [name for name in package.namelist() if name.lower().endswith(".model")]
         roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
@@ -75,7 +75,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
         if triangles:
             if max(map(max, triangles)) >= len(corners) or min(map(min, triangles)) < 0:
                 raise FormatError(f"{path} has triangles with corners that do not exist; {AGAIN}")
-            # A mirrored part would face inwards: its corners are taken in the other order.
+            # A mirrored part would face inwards: its corners are taken in reverse order.
             ordered = np.array(triangles)[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
             faces.append(ordered + sum(len(some) for some in vertices))
             vertices.append(np.array(corners) @ outer[:3] + outer[3])
@@ -95,7 +95,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
 
 
 def _start_part(package: zipfile.ZipFile) -> str:
-    """Return the part that the package says to begin with, or nothing."""
+    """Return the part that the package says to start with, or an empty string."""
     if "_rels/.rels" not in package.namelist():
         return ""
     relations = ElementTree.fromstring(package.read("_rels/.rels"))  # noqa: S314 - as the models
@@ -104,7 +104,7 @@ def _start_part(package: zipfile.ZipFile) -> str:
 
 
 def _path(element: ElementTree.Element, part: str) -> str:
-    """Return the part in which the object of a component or an item stands."""
+    """Return the part that contains the object of a component or an item."""
     return next((value for key, value in element.items() if key.endswith("}path")), part)
 
 

@@ -1,11 +1,11 @@
 """`read_volume` and `write_field`: a volume from a file and back.
 
     .npy .npz           [x, y, z], or [z, y, x] where the file says so
-    .tif .tiff          pages are z, rows y, columns x; so is a folder of .tif or .png slices
+    .tif .tiff          pages are z, rows y, columns x; likewise a folder of .tif or .png slices
     .nrrd .nii .mha …   by SimpleITK (extra `medical`), with their place in space
-    a DICOM folder      the one series in it, or the one that is named
+    a DICOM folder      the only series in it, or the one that is named
 
-Values keep their type, and are copied once at most.
+Values keep their type, and are copied at most once.
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ def read_volume(path: str | os.PathLike[str], *, array: str | None = None, serie
         .npy, .npz, .tif, .tiff; with SimpleITK also .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, .dcm; a folder
         of .tif or .png slices, taken in the order of the numbers in their names; a folder of DICOM slices.
     array : str, optional
-        Name of the array to take, where an .npz holds several with three axes.
+        Name of the array to read, if an .npz holds several with three axes.
     series : str, optional
-        UID of the series to take, where a DICOM folder holds several.
+        UID of the series to read, if a DICOM folder holds several.
 
     Returns
     -------
     Volume
-        Values [x, y, z] of the type in the file. Its spacing and place are in mm: as the file says, else
-        cells of 1 at the origin. Medical images lie in LPS; their origin is turned from the centre of the
-        first cell, as files have it, into its lower corner. An .npy is mapped, not loaded.
+        Values [x, y, z] of the type in the file. Its spacing and place are in mm, as stated in the file, or else
+        cells of 1 at the origin. Medical images lie in LPS; their origin is converted from the centre of the
+        first cell, which files give, to its lower corner. An .npy is memory-mapped, not loaded.
 
     Raises
     ------
     FormatError
-        If there is no such file, it is of no known kind, is broken, or holds no grey volume.
+        If there is no such file, it is of an unknown kind, is broken, or holds no grey volume.
     MemoryLimitError
-        If the values need more memory than there is.
+        If the values need more memory than is available.
     ParameterError
         If `array` or `series` is given for a file that has none.
     """

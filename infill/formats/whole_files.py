@@ -24,7 +24,7 @@ REASONS = {
 
 
 def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -> None:
-    """Raise OutputError if a file could not be put at one of `paths`, or two of them are the same file."""
+    """Raise OutputError if one of `paths` cannot be written to, or two of them are the same file."""
     taken: set[Path] = set()
     for path in paths:
         place = check_target(path, overwrite=overwrite).resolve()
@@ -34,7 +34,7 @@ def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -
 
 
 def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
-    """Return `path`, or raise OutputError if a file could not be put there; called before the work."""
+    """Return `path`, or raise OutputError if a file cannot be put there; called before the work."""
     target = Path(path)
     with told(target):
         if target.is_dir():
@@ -50,7 +50,7 @@ def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
 
 @contextlib.contextmanager
 def told(target: Path) -> Iterator[None]:
-    """Turn what the system says of a file into an error of ours."""
+    """Turn what the system reports about a file into an error of ours."""
     try:
         yield
     except OutputError:
@@ -64,7 +64,7 @@ def told(target: Path) -> Iterator[None]:
 def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[BinaryIO]]:
     """Yield a file to write to for each path; they replace the paths at the end, once all are written.
 
-    If anything fails, an interrupt included, all paths are as they were.
+    If anything fails, or is interrupted, all paths are left as they were.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
             yield files
             for target, file in zip(targets, files, strict=True):
                 with told(target):
-                    file.close()  # the last bytes go out, or do not
+                    file.close()  # the last bytes are written, or fail to be
         _take_places(
             [(partial, target) for partial, target in zip(partials, targets, strict=True) if partial != target]
         )
@@ -106,7 +106,7 @@ def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
     Raises
     ------
     OutputError
-        If one of the files cannot be written; then none is.
+        If one of the files cannot be written; then none of them is.
     """
     paths = list(parts)
     if not paths:
@@ -119,7 +119,7 @@ def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
 
 
 def _take_places(moves: Sequence[tuple[Path, Path]]) -> None:
-    """Put each file in the place of its target; if one cannot take it, all targets are as they were."""
+    """Put each file in the place of its target; if one of them fails, all targets are restored."""
     old: list[tuple[Path, Path | None]] = []
     try:
         for partial, target in moves:
@@ -143,7 +143,7 @@ def _take_places(moves: Sequence[tuple[Path, Path]]) -> None:
 
 
 def _kept(target: Path) -> Path | None:
-    """Return a second name for what is at a target, or None if nothing is."""
+    """Return a second name for what exists at a target, or None if nothing does."""
     if not target.exists():
         return None
     kept = target.with_name(f".{secrets.token_hex(4)}.kept")
@@ -155,7 +155,7 @@ def _kept(target: Path) -> Path | None:
 
 
 def _partial(target: Path) -> Path:
-    """Return the name to write under: beside the target, but a device's own, which cannot be replaced."""
+    """Return the name to write under: next to the target, or the target itself if it is a device."""
     if target.exists() and not target.is_file() and not target.is_dir():
         return target
     return target.with_name(f".{secrets.token_hex(4)}.partial")

@@ -1,1 +1,1 @@
-"""What hangs together, how wide, how thick, what smoothing changed, is it printable."""
+"""How a result is connected, how wide and thick it is, what smoothing changed, and whether it is printable."""

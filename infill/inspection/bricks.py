@@ -1,12 +1,12 @@
-"""What smoothing did to a solid in bricks: how it hangs together before and after, and what was lost.
+"""What smoothing did to a solid in bricks: how it is connected before and after, and what was lost.
 
     data  ──▶  solid, void                        every cell above 0, and the rest
           ──▶  cores  ──▶  walls, sturdy solid    2 x 2 x 2 cells, all solid: what is more than one cell thick
     field ──▶  solid, void                        every cell above the level
-    surface ─▶ shells                             what is handed over
+    surface ─▶ shells                             the final surface
 
-What is one cell thick may go, as the equation takes it; what is thicker may not. So components are compared as they
-are, but walls by their cores, which a bridge of single cells does not join, and voids around the sturdy solid.
+What is one cell thick may go, because the equation removes it; what is thicker may not. So components are compared
+as they are, but walls by their cores, which a bridge of single cells does not join, and voids around the sturdy solid.
 """
 
 from __future__ import annotations
@@ -35,26 +35,26 @@ from infill.surfaces.components import (
 from infill.surfaces.levels import Levelled
 from infill.surfaces.sparse_marching import euler_number_of_bits
 
-LARGE = 100  # cells: two such components that run together are told
-SMALLEST_PART = 8  # cells: what comes off a component and is smaller is a crumb, not a part of it
-WALL = 16  # cells: a piece of wall more than one cell thick and smaller than this may go
-NAMED = 5  # of the lost walls are told of
-FAINT = -0.9  # a component that only so low a level holds would be gone at level 0
-ROUNDED = 2  # cells by which edges and corners draw back, beyond what the smoothing blurs
+LARGE = 100  # cells: if two components of this size or more run together, it is reported
+SMALLEST_PART = 8  # cells: anything smaller that comes off a component is a crumb, not a part of it
+WALL = 16  # cells: a piece of wall more than one cell thick but smaller than this may go
+NAMED = 5  # of the lost walls are listed
+FAINT = -0.9  # a component that needs a level as low as this would be gone at level 0
+ROUNDED = 2  # cells by which edges and corners recede, in addition to the blur of the smoothing
 
 Bits = NDArray[np.uint16]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Lost:
-    """A piece of wall that is gone.
+    """A piece of wall that was lost.
 
     Parameters
     ----------
     voxels : int
         Its size.
     at : (3,) float
-        The middle of it, mm along the axes of the grid from its lower corner.
+        Its middle, mm along the axes of the grid from its lower corner.
     """
 
     voxels: int
@@ -68,10 +68,10 @@ class Verdict:
     Parameters
     ----------
     data, result : Counts
-        How it hangs together before and after.
+        How the solid is connected before and after.
     changes : Changes
     lost : tuple of Lost
-        The largest pieces of wall that are gone.
+        The largest pieces of wall that were lost.
     """
 
     data: Counts
@@ -81,7 +81,7 @@ class Verdict:
 
     @property
     def problems(self) -> tuple[str, ...]:
-        """What was lost that was more than one cell thick, one phrase each."""
+        """Losses of anything more than one cell thick, one phrase each."""
         return tuple(
             what.format(f"{count} {words[count > 1]}") + " in smoothing"
             for name, what, words in PROBLEMS
@@ -132,9 +132,9 @@ def verdict(
         Of the data.
     spacing : (hx, hy, hz), mm
     blur : float
-        Standard deviation of the diffusion, cells: so far, and `ROUNDED` cells more, edges may draw back.
+        Standard deviation of the diffusion, cells: edges may recede this far, plus `ROUNDED` cells.
     levels : (b,) float64
-        Level of phi that each component has.
+        Level of phi of each component.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
@@ -172,7 +172,7 @@ def verdict(
 
 
 def _states(found: Levelled, before: Components, reach: int, threads: int | None) -> _States:
-    """Find all components that are compared, side by side."""
+    """Find all components to be compared, in parallel."""
     field = found.against
     raw, now = data_bits(field, threads=threads), solid_bits(field, level=found.height, threads=threads)
     core = cores(field, raw, threads=threads)
@@ -202,20 +202,20 @@ def _states(found: Levelled, before: Components, reach: int, threads: int | None
 
 
 def compared(before: Components, after: Components) -> Fate:
-    """Return what became of components on the same bricks; what is no more than one cell thick does not fuse."""
+    """Return what became of components on the same bricks; anything only one cell thick does not fuse them."""
     found: Overlaps = summed(shared_cells(before, after), before=before.count, after=after.count)
     counted = before.thick if len(before.thick) else None
     return fate(found, part=SMALLEST_PART, piece=LARGE, counted=counted)
 
 
 def _counts(solid: Components, void: Components, euler_number: int) -> Counts:
-    """Return the counts of a solid whose void has the outside for its first component."""
+    """Return the counts of a solid whose void has the outside as its first component."""
     cavities = void.count - 1
     return Counts.of(components=solid.count, cavities=cavities, tunnels=solid.count + cavities - euler_number // 2)
 
 
 def _of_surface(found: Levelled) -> Counts:
-    """Return the counts of the surface that is handed over."""
+    """Return the counts of the final surface."""
     shells = found.shells
     return Counts(
         components=shells.components,

@@ -1,4 +1,4 @@
-"""The words for what smoothing changed, the same for a block of infill and for a solid."""
+"""The terms for what smoothing changed, the same for a block of infill and for a solid."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from dataclasses import asdict, dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Counts:
-    """How a solid hangs together.
+    """How a solid is connected.
 
     Parameters
     ----------
     components, cavities, tunnels : int
-        Components of solid, components of void that it encloses, and holes that lead through.
+        Components of solid, components of void that it encloses, and holes that pass through it.
     euler_number : int
-        Of its surface: 2 (components + cavities - tunnels).
+        Euler number of its surface: 2 (components + cavities - tunnels).
     """
 
     components: int
@@ -24,7 +24,7 @@ class Counts:
 
     @classmethod
     def of(cls, *, components: int, cavities: int, tunnels: int) -> Counts:
-        """Return the counts with the Euler number that goes with them.
+        """Return the counts together with the matching Euler number.
 
         >>> Counts.of(components=1, cavities=0, tunnels=1).euler_number
         0
@@ -35,34 +35,34 @@ class Counts:
 
 @dataclass(frozen=True, kw_only=True)
 class Changes:
-    """What smoothing did to the components of solid and of void.
+    """What smoothing did to the components of solid and void.
 
     Parameters
     ----------
     vanished : int
-        Components of solid of which nothing is left; of a solid, those more than one cell thick.
+        Components of solid that disappeared entirely; for a solid, only those more than one cell thick.
     broken : int
-        Components of solid, or of a solid its walls more than one cell thick, that fell apart.
+        Components of solid that fell apart; for a solid, its walls more than one cell thick instead.
     fused : int
         Components of solid that ran together.
     appeared : int
-        Components of solid where there was none.
+        Components of solid where there was none before.
     voids_closed : int
-        Voids that are gone; of a solid, those more than one cell wide.
+        Voids that are gone; for a solid, only those more than one cell wide.
     voids_cut : int
-        Voids that walls which met across them cut in two.
+        Voids cut in two by walls that met across them.
     voids_joined : int
-        Voids that ran together, because the wall between them broke.
+        Voids that merged because the wall between them broke.
     walls_pierced : int
         Holes that broke through walls.
     walls_lost, faint, vanished_thin : int, optional
-        Of a solid: pieces of wall more than one cell thick that are gone, components that only a very low level
-        holds, and components no more than one cell thick of which nothing is left.
+        For a solid: pieces of wall more than one cell thick that were lost, components that exist only at a very low
+        level, and components only one cell thick that disappeared entirely.
     pinholes : int, optional
-        Of a block: voids that are gone or cut and so narrow that nothing could be printed in them. See
+        For a block: voids that were closed or cut where they were too narrow to print anything in. See
         `infill.inspection.layers`.
     pinhole_share : float, optional
-        Of a block: cells of those over the cells of all holes.
+        For a block: the cells of the pinholes over the cells of all holes.
     """
 
     vanished: int = 0
@@ -80,5 +80,5 @@ class Changes:
     pinhole_share: float | None = None
 
     def facts(self) -> dict[str, int | float]:
-        """Return what was measured, by name."""
+        """Return the measurements by name."""
         return {name: value for name, value in asdict(self).items() if value is not None}

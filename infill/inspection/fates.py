@@ -1,4 +1,4 @@
-"""What became of components: one comparison of two labellings of the same cells, whoever labelled them."""
+"""What became of components: one comparison of two labellings of the same cells, whatever made the labels."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-TABLE = 4  # times the cells: a table of pairs that is larger costs more than sorting the cells
+TABLE = 4  # times the number of cells: beyond this size, a table of pairs costs more than sorting the cells
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +19,7 @@ class Overlaps:
     before, after : int
         How many components there are.
     one, other : (n,) int
-        Pairs of a component before and one after that share cells, each pair once; numbered from 0.
+        Pairs of a component before and one after that share cells, each pair once; components are numbered from 0.
     cells : (n,) int
         How many cells they share.
     """
@@ -38,11 +38,11 @@ class Fate:
     Parameters
     ----------
     kept, known : (before,) and (after,) bool
-        Whether it shares a cell with any.
+        Whether the component shares a cell with any on the other side of the comparison.
     parts : (before,) int
-        Into how many parts it fell.
+        How many parts it broke into.
     pieces : (after,) int
-        Of how many it was put together.
+        How many components it was formed from.
     """
 
     kept: NDArray[np.bool_]
@@ -52,12 +52,12 @@ class Fate:
 
     @property
     def vanished(self) -> NDArray[np.integer]:
-        """Numbers of the components before of which no cell is left."""
+        """Numbers of the components before that have no cell left."""
         return np.flatnonzero(~self.kept)
 
     @property
     def appeared(self) -> NDArray[np.integer]:
-        """Numbers of the components after that lie where there was none."""
+        """Numbers of the components after that appeared where there was none."""
         return np.flatnonzero(~self.known)
 
     @property
@@ -67,22 +67,22 @@ class Fate:
 
     @property
     def fused(self) -> NDArray[np.integer]:
-        """Numbers of the components after that hold several from before."""
+        """Numbers of the components after that contain several from before."""
         return np.flatnonzero(self.pieces > 1)
 
     @property
     def breaks(self) -> int:
-        """How often one became one more."""
+        """How many parts more there are because components broke."""
         return int((self.parts - 1).clip(0).sum())
 
     @property
     def fusions(self) -> int:
-        """How often one more ran into another."""
+        """How many components fewer there are because components fused."""
         return int((self.pieces - 1).clip(0).sum())
 
 
 def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlaps:
-    """Return the overlaps of two arrays of the same shape, numbered from 1; 0 is no component."""
+    """Return the overlaps of two arrays of the same shape, whose components are numbered from 1; 0 means none."""
     rows, columns = int(before.max()) + 1, int(after.max()) + 1
     key = (before.astype(np.intp) * columns + after).ravel()
     if rows * columns <= TABLE * key.size:
@@ -97,7 +97,7 @@ def overlaps(before: NDArray[np.integer], after: NDArray[np.integer]) -> Overlap
 
 
 def summed(stretches: NDArray[np.integer], *, before: int, after: int) -> Overlaps:
-    """Return the overlaps of rows (n, 3) of a component before, one after and cells shared; pairs may come again."""
+    """Return the overlaps of rows (n, 3): component before, component after, cells shared; pairs may recur."""
     key, index = np.unique(stretches[:, 0] * max(after, 1) + stretches[:, 1], return_inverse=True)
     cells = np.bincount(index, weights=stretches[:, 2], minlength=len(key)).astype(np.int64)
     one, other = np.divmod(key, max(after, 1))
@@ -111,11 +111,11 @@ def fate(found: Overlaps, *, part: int = 1, piece: int = 1, counted: NDArray[np.
     ----------
     found : Overlaps
     part : int
-        Cells: what comes off a component and is smaller is a crumb, not a part of it.
+        Cells: anything smaller that comes off a component is a crumb, not a part of it.
     piece : int
-        Cells that a component must bring along to count where several run together.
+        Cells that a component must contribute to count where several run together.
     counted : (before,) bool, optional
-        Which components count where several run together; all if left out.
+        Which components count where several run together; by default, all of them.
     """
     brought = found.cells >= piece
     if counted is not None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from infill.ragged import spread
 
 PAIRS_AT_ONCE = 1_000_000
-ENTRIES_PER_TRIANGLE = 8  # cells that a triangle may lie in on average, before the cells are made larger
+ENTRIES_PER_TRIANGLE = 8  # cells that a triangle may occupy on average before the cells are made larger
 GROWTH = 1.5
 
 
@@ -24,8 +24,8 @@ def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer
 
     Notes
     -----
-    Pairs that share a vertex do not count, nor do triangles that only touch, or overlap in one plane.
-    Candidates come from a uniform grid; a pair counts if an edge of one crosses the inside of the other.
+    Pairs that share a vertex do not count, nor do triangles that only touch or that overlap in one plane.
+    Candidates come from a uniform grid; a pair counts if an edge of one crosses the interior of the other.
     """
     corners = vertices[faces].astype(np.float64)
     corners -= corners.reshape(-1, 3).mean(axis=0)
@@ -41,7 +41,7 @@ def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer
 def _candidates(
     low: NDArray[np.float64], high: NDArray[np.float64]
 ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Yield pairs (one, other) of triangles whose boxes meet, each pair once."""
+    """Yield pairs (one, other) of triangles whose bounding boxes meet, each pair once."""
     size = np.maximum(1.5 * (high - low).mean(axis=0), (high.max(axis=0) - low.min(axis=0)) / 1000) + 1e-300
     lower = low.min(axis=0)
     while True:
@@ -58,13 +58,13 @@ def _candidates(
     key = (cell[:, 0] * shape[1] + cell[:, 1]) * shape[2] + cell[:, 2]
     order = np.argsort(key, kind="stable")
     triangle, key, cell = triangle[order], key[order], cell[order]
-    # Entry i of a cell pairs with all entries after it in the same cell.
+    # An entry pairs with all later entries in the same cell.
     ends = np.searchsorted(key, key, side="right")
     after = ends - np.arange(len(key)) - 1
     for entry, place in spread(after, PAIRS_AT_ONCE):
         one, other = triangle[entry], triangle[entry + 1 + place]
         for axis in range(3):
-            # Two boxes may share many cells: the pair belongs to the lowest of them.
+            # Two boxes may share many cells: the pair belongs to the lowest one.
             lowest = np.maximum(first[one, axis], first[other, axis]) == cell[entry, axis]
             meets = (low[one, axis] <= high[other, axis]) & (low[other, axis] <= high[one, axis])
             kept = np.flatnonzero(lowest & meets)
@@ -73,7 +73,7 @@ def _candidates(
 
 
 def _pierces(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return whether an edge of `one` (n, 3, 3) crosses the inside of `other`, pair by pair."""
+    """Return whether an edge of `one` (n, 3, 3) crosses the interior of `other`, pair by pair."""
     a, b, c = other[:, 0], other[:, 1], other[:, 2]
     normal = np.cross(b - a, c - a)
     scale = np.abs(one - a[:, None]).max(axis=(1, 2)) * np.linalg.norm(normal, axis=1)

@@ -1,8 +1,8 @@
-"""What a layer hangs together like: components, holes, Euler number, and what smoothing did to them.
+"""How a layer is connected: components, holes, Euler number, and what smoothing did to them.
 
-Everything is decided as marching cubes decides it: the field is bilinear between cell centres, and
-two solid cells that touch at a corner are joined if the saddle between them is solid. So the Euler
-number of an extruded layer is twice the one found here.
+Everything is decided the way marching cubes decides it: the field is bilinear between cell centres, and
+two solid cells that touch at a corner are joined if the saddle between them is solid. The Euler number
+of an extruded layer is therefore twice the one found here.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from infill.inspection.changes import Changes, Counts
 from infill.inspection.fates import fate, overlaps
 from infill.surfaces.marching import TIE
 
-PINHOLE = 3  # cells: a void with no room for a square of so many is one that every cell of touches a wall
+PINHOLE = 3  # cells: in a void with no room for a square of this side, every cell touches a wall
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,18 +42,18 @@ class Topology:
 
     @property
     def extruded(self) -> Counts:
-        """How the extruded layer hangs together: holes become tunnels."""
+        """How the extruded layer is connected: holes become tunnels."""
         return Counts.of(components=self.components, cavities=0, tunnels=self.holes)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Regions:
-    """Every cell of a layer in a shell of void, numbered by the component it belongs to.
+    """Every cell of a layer, with a shell of void around it, numbered by the component it belongs to.
 
     Parameters
     ----------
     solid : (nx + 2, ny + 2) int
-        1, 2 … in the components of solid, 0 in the void.
+        1, 2 … in the components of solid, 0 in void.
     void : (nx + 2, ny + 2) int
         The same for the void; the outside is one of its components.
     """
@@ -68,7 +68,7 @@ class Regions:
 
 
 def regions(layer: NDArray[np.floating]) -> Regions:
-    """Return a layer (nx, ny) with its components of solid and of void numbered."""
+    """Return the components of solid and of void of a layer (nx, ny), numbered."""
     field = np.pad(layer, 1, constant_values=VOID)
     solid = field > 0
     joined, parted = _saddles(field, solid)
@@ -87,15 +87,15 @@ def topology(layer: NDArray[np.floating]) -> Topology:
 def changes(before: Regions, after: Regions, *, line_cells: int = PINHOLE) -> Changes:
     """Compare two states of the same layer, component by component.
 
-    A pinhole is a void that is gone, or a neck of one that is cut, with no room for a square of `PINHOLE` cells, or of
-    a line if that has fewer. Pinholes are left over where lines meet at an acute angle or run side by side, and nothing
-    could be printed in them.
+    A pinhole is a void that is gone, or a neck of one that is cut, with no room for a square of `PINHOLE` cells a side,
+    or of a line's width if that is fewer cells. Pinholes are what remains where lines meet at an acute angle or run
+    side by side, and nothing could be printed in them.
 
     Parameters
     ----------
     before, after : Regions
     line_cells : int
-        Cells across a line: what is as wide as a line is no pinhole.
+        Cells across a line: anything as wide as a line is not a pinhole.
     """
     from scipy import ndimage
 
@@ -139,7 +139,7 @@ def solid_area(layer: NDArray[np.floating]) -> float:
     value = np.stack([field[square][mixed] for square in squares]).astype(np.float64)
     solid, following = value > 0, np.roll(value, -1, axis=0)
     crossed = solid != (following > 0)
-    # How far along its sides, to the next corner and to the one before, the contour is from a corner.
+    # How far the contour is from a corner, along its sides to the next corner and to the previous one.
     ahead = np.where(crossed, value / np.where(crossed, value - following, 1), 0)
     behind = np.where(np.roll(crossed, 1, axis=0), 1 - np.roll(ahead, 1, axis=0), 0)
     corner = ahead * behind / 2
@@ -154,7 +154,7 @@ def solid_area(layer: NDArray[np.floating]) -> float:
 
 
 def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the diagonal pairs of cells that a saddle joins, of solid and of void: (N, 2) flat indices each."""
+    """Return the diagonal pairs of cells joined by a saddle, of solid and of void: (N, 2) flat indices each."""
     a, b, c, d = (solid[i : i - 1 or None, j : j - 1 or None] for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
     i, j = np.nonzero((a == c) & (b == d) & (a != b))
     values = np.stack([field[i, j], field[i + 1, j], field[i + 1, j + 1], field[i, j + 1]]).astype(np.float64)
@@ -169,7 +169,7 @@ def _saddles(field: NDArray[np.floating], solid: NDArray[np.bool_]) -> tuple[NDA
 
 
 def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[np.integer]:
-    """Return the numbers of the components of cells that touch at a side, or at a corner given in `pairs`."""
+    """Return the component numbers of cells that touch at a side, or at a corner listed in `pairs`."""
     from scipy import ndimage
 
     numbers: NDArray[np.integer]
@@ -182,6 +182,6 @@ def _components(inside: NDArray[np.bool_], pairs: NDArray[np.intp]) -> NDArray[n
     ends = numbers.ravel()[pairs]
     graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count + 1, count + 1))
     _, merged = connected_components(graph, directed=False)
-    # Number 0, the cells outside, is in no pair: it stays alone, and the others are counted from 1.
+    # Number 0, the cells outside, is in no pair: it stays alone, and the others are numbered from 1.
     _, renumbered = np.unique(merged[1:], return_inverse=True)
     return np.asarray(np.concatenate([[0], renumbered + 1])[numbers])

@@ -1,4 +1,4 @@
-"""`check`: is a mesh printable, and if not, why."""
+"""`check`: whether a mesh is printable and, if not, why not."""
 
 from __future__ import annotations
 
@@ -26,29 +26,29 @@ FLAT = 1e-12  # a triangle of less than this share of its longest side squared h
 
 @dataclass(frozen=True, kw_only=True)
 class Inspection:
-    """What `check` found; lengths in the unit of the file, or in mm if the file says its unit.
+    """What `check` found; lengths in the unit of the file, or in mm if the file states its unit.
 
     Parameters
     ----------
     printable : bool
-        True without problems.
+        True if there are no problems.
     problems, warnings : tuple of str
-        Why it is not, and what slicers cope with but other programs may not; one phrase each.
+        Why it is not printable, and what slicers cope with but other programs may not; one phrase each.
     triangles, components, degenerate, duplicate : int
-        Degenerate triangles have no area; duplicates have the same three corners as another.
+        Degenerate triangles have no area; duplicates have the same three corners as another triangle.
     closed, outward : bool
-        Every edge has two faces that agree; every component faces out, but those inside another, which are
-        its cavities, face in.
+        Closed: every edge has two faces, with consistent orientation. Outward: every component faces outwards, except
+        those inside another, which are its cavities and face inwards.
     open_edges : int
-        Edges without exactly two faces.
+        Edges that do not have exactly two faces.
     manifold : str
-        What manifold3d says: "NoError" if it takes the mesh as a solid.
+        The verdict of manifold3d: "NoError" if it accepts the mesh as a solid.
     self_intersections : int
         Pairs of triangles that pass through each other.
     volume, area : float
     extents, bounds : list of float
     unit_guess : str
-        "mm", or what the size looks like instead where the file does not say.
+        "mm", or another unit that the size suggests if the file does not state one.
     """
 
     printable: bool
@@ -84,9 +84,9 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
 
     Notes
     -----
-    Printable means: closed, facing out, taken by manifold3d, no duplicate triangles. Degenerate
+    Printable means closed, facing outwards, accepted by manifold3d, and without duplicate triangles. Degenerate
     triangles, parts of a mesh that pass through each other and an unlikely size are warnings: slicers
-    drop the first, print the union of the second, and take the third for what it is.
+    drop the first, print the union of the second, and take the third at face value.
     """
     stated = False
     if isinstance(mesh, (str, os.PathLike)):
@@ -152,7 +152,7 @@ def _flat(surface: Surface) -> NDArray[np.bool_]:
 
 
 def _outward(surface: Surface, component: NDArray[np.integer]) -> bool:
-    """Return whether the whole faces outwards, and every component that faces inwards is a cavity of another."""
+    """Return whether the mesh as a whole faces outwards, and every component facing inwards is a cavity of another."""
     corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
     sixfold = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
     volume = np.bincount(component, weights=sixfold)
@@ -165,7 +165,7 @@ def _outward(surface: Surface, component: NDArray[np.integer]) -> bool:
 
 
 def _winding_number(point: NDArray[np.floating], corners: NDArray[np.floating]) -> float:
-    """Return how often closed surfaces (F, 3, 3) go around a point: the sum of their solid angles over 4 pi."""
+    """Return how many times closed surfaces (F, 3, 3) wind around a point: their solid angles, summed, over 4 pi."""
     a, b, c = (corners[:, i] - point for i in range(3))
     la, lb, lc = (np.linalg.norm(each, axis=1) for each in (a, b, c))
     above = np.einsum("ij,ij->i", a, np.cross(b, c))

@@ -1,4 +1,4 @@
-"""Rays that are followed until they leave the solid, in any number of dimensions."""
+"""Rays followed until they leave the solid, in any number of dimensions."""
 
 from __future__ import annotations
 
@@ -18,28 +18,28 @@ def way_inside(
     *,
     leeway: int = 0,
 ) -> Floats:
-    """Return how far the solid goes along rays, (N,) mm.
+    """Return the length of solid along rays, (N,) mm.
 
     Parameters
     ----------
     value : callable
-        For points (M, d), mm, a value above 0 where they are solid.
+        Maps points (M, d), mm, to values above 0 where they are solid.
     start, direction : (N, d) float64
         Where the rays begin, mm, and unit vectors.
     distance : (n,) float64
-        Where along a ray it is looked, mm, rising evenly from less than a step.
+        Positions to sample along a ray, mm, rising evenly from less than a step.
     leeway : int
-        By how many of those places later a ray may enter the solid than at the first.
+        How many of those positions after the first a ray may still enter the solid.
 
     Returns
     -------
     (N,) float64
         The length of the first stretch inside; 0 for rays that do not enter within the leeway, infinite for those
-        that have not left where the places end.
+        that have not left at the last position.
 
     Notes
     -----
-    Between two places the value is taken for linear. A ray that is inside at the first place is so from its start.
+    Between two positions the value is taken as linear. A ray that is inside at the first is inside from its start.
 
     >>> ball = lambda points: 4 - np.linalg.norm(points, axis=1)
     >>> way_inside(ball, np.zeros((1, 2)), np.array([[0.6, 0.8]]), np.arange(0, 8, 0.5)).tolist()
@@ -54,7 +54,7 @@ def way_inside(
     last = out.argmax(axis=1)
 
     def crossing(after: NDArray[np.intp]) -> Floats:
-        """Return where the value is 0 in front of a place."""
+        """Return where the value is 0 just before a sampled position."""
         before = np.maximum(after - 1, 0)
         here, there = values[row, before], values[row, after]
         step = np.where(here == there, 1, here - there)

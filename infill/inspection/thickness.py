@@ -10,14 +10,14 @@ from infill.kernels.sparse import BRICK, SOLID_BRICK
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
-# The thinnest wall is that of a hundredth of the surface: less may be a single edge or corner. Of 4000 rays that is
-# 40, so that the part which is told lies between 0.7 % and 1.3 % (twice the standard deviation, sqrt(0.01 / 4000)).
+# The thinnest wall is that behind a hundredth of the surface: less may be a single edge or corner. Of 4000 rays that
+# is 40, so the share actually found lies between 0.7 % and 1.3 % (twice the standard deviation, sqrt(0.01 / 4000)).
 THIN = 0.01
 SAMPLES = 4000
-STEP = 0.25  # cells: of a solid that is looked up cell by cell there is no more to know
-# Cells: what is thicker is no wall. Smoothing takes walls of 3 cells and leaves those of 5; 16 is three times that.
+STEP = 0.25  # cells: a solid sampled cell by cell has no finer detail
+# Cells: anything thicker is no wall. Smoothing removes walls of 3 cells and keeps those of 5; 16 is three times that.
 FARTHEST = 16.0
-LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface in which a ray enters: it lies up to a cell off the data
+LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface within which a ray enters: it lies up to a cell off the data
 
 
 def thinnest_walls(
@@ -30,20 +30,20 @@ def thinnest_walls(
     field : SparseField
         Solid where it is above the level; its data are solid above 0.
     surface : Surface
-        Of that solid, mm from the lower corner of the first cell.
+        The surface of that solid, mm from the lower corner of the first cell.
     spacing : (hx, hy, hz), mm
     level : float
 
     Returns
     -------
     float or None
-        None if what is behind is thicker than 16 cells, those of the shortest side; or, for the data, if none is
-        solid there.
+        None if everything behind the surface is thicker than 16 cells, measured along their shortest side; or, for the
+        data, if nothing is solid there.
 
     Notes
     -----
-    From points all over the surface rays go inwards, along the normal, until they leave the solid. One that does not
-    leave within the reach is longer than all that do: it says nothing but that there is no wall.
+    From points all over the surface, rays go inwards along the normal until they leave the solid. A ray that does not
+    leave within reach is longer than all those that do: it shows only that there is no wall.
     """
     size = np.array(spacing)
     some = np.random.default_rng(0).permutation(len(surface.faces))[:SAMPLES]
@@ -52,8 +52,8 @@ def thinnest_walls(
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     keep = length[:, 0] > 0
     inwards, start = -normals[keep] / length[keep], corners[keep].mean(axis=1)
-    # In the middles of the steps, so that a wall of whole cells along an axis is found as thick as it is.
-    places = round(FARTHEST / STEP) + LEEWAY_OF_DATA + 1  # to the first one beyond a wall that begins late
+    # In the middle of each step, so that a wall of whole cells along an axis is measured at its true thickness.
+    places = round(FARTHEST / STEP) + LEEWAY_OF_DATA + 1  # up to the first one beyond a wall that begins late
     at = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
 
     def thin(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
@@ -74,7 +74,7 @@ def thinnest_walls(
 def solid_at(
     field: SparseField, values: NDArray[np.generic], cells: NDArray[np.int64], level: float
 ) -> NDArray[np.bool_]:
-    """Return for cells (N, 3) of the grid whether `values` of the bricks are above a level there; beyond it none is."""
+    """Return whether `values` of the bricks are above a level at cells (N, 3) of the grid; never beyond the grid."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     place = np.where(inside[:, None], cells, 0) + 1
     brick, cell = np.divmod(place, BRICK)

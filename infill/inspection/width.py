@@ -18,8 +18,8 @@ from infill.inspection.rays import way_inside
 Floats = NDArray[np.float64]
 
 MOST_SAMPLES = 4000
-# Line widths that a ray across a wall, and its foot, keep from nodes, ends and other lines: nearer,
-# walls run together. The first that leaves enough places counts; cells of few widths need the last.
+# How many line widths a ray across a wall, and its foot, keep from nodes, ends and other lines: nearer to them,
+# walls run together. The first clearance that leaves enough places is used; cells of only a few widths need the last.
 CLEARANCES = (2.0, 1.5, 1.0, 0.75)
 ENOUGH = 0.05  # of all places
 STEPS_PER_CELL = 4
@@ -32,9 +32,9 @@ class WallWidth:
     Parameters
     ----------
     requested : float
-        Line width that was asked for.
+        Requested line width.
     mean, p5, p95 : float
-        Mean, 5th and 95th percentile over the samples; 0 where a wall is gone. NaN without samples.
+        Mean, 5th and 95th percentiles over the samples; 0 where a wall is gone. NaN without samples.
     samples : int
         Places measured, evenly spread over the lines.
     """
@@ -47,7 +47,7 @@ class WallWidth:
 
 
 def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, *, requested: float) -> WallWidth:
-    """Measure the distance between the zero crossings on both sides of the lines.
+    """Measure the distance between the zero crossings on either side of the lines.
 
     Parameters
     ----------
@@ -55,14 +55,14 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
     layer : (nx, ny) array
         Phase field; between cell centres it is bilinear, as it is for marching cubes.
     grid : Grid
-        Of the layer.
+        The grid of the layer.
     requested : float
         Line width, mm.
 
     Notes
     -----
     Places are left out if another line comes within two line widths of the ray across the wall (fewer
-    in small cells): there walls run together and have no width of their own.
+    in small cells), because walls run together there and have no width of their own.
     """
     if tuple(grid.shape) != layer.shape or layer.ndim != 2:
         raise ParameterError(f"the layer has the shape {layer.shape} and the grid {grid.shape}; give the layer's own")
@@ -80,7 +80,7 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
     size = float(grid.cell_size.min())
     distance = np.arange(0, reach, size / STEPS_PER_CELL)
     value = _sampler(layer, grid)
-    # A wall that goes on beyond the reach is as wide as that.
+    # A wall that continues beyond the reach counts as that wide.
     both = [way_inside(value, places, side * normals, distance).clip(0, distance[-1]) for side in (1, -1)]
     widths = both[0] + both[1]
     p5, p95 = np.percentile(widths, [5, 95])
@@ -90,14 +90,14 @@ def wall_width(lines: MultiLineString, layer: NDArray[np.floating], grid: Grid, 
 
 
 def _places(lines: MultiLineString, requested: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the middles of short pieces of the lines and the unit normals there, (N, 2) each."""
+    """Return the midpoints of short pieces of the lines and the unit normals there, (N, 2) each."""
     spacing = max(requested / 2, shapely.length(lines) / (4 * MOST_SAMPLES))
     ends, owner = shapely.get_coordinates(shapely.segmentize(lines.geoms, spacing), return_index=True)
     follows = owner[1:] == owner[:-1]
     start, end = ends[:-1][follows], ends[1:][follows]
     length = np.linalg.norm(end - start, axis=1)
     start, end, length = start[length > 0], end[length > 0], length[length > 0]
-    # Curves come in pieces much shorter than others: take them in proportion to their length.
+    # Curves consist of pieces much shorter than others: sample them in proportion to their length.
     passed = np.floor(np.cumsum(length) / spacing + 0.5)
     chosen = np.diff(passed, prepend=0.0) > 0
     along = (end - start)[chosen] / length[chosen, None]
@@ -107,13 +107,13 @@ def _places(lines: MultiLineString, requested: float) -> tuple[NDArray[np.float6
 def _clear(
     lines: MultiLineString, places: NDArray[np.float64], normals: NDArray[np.float64], reach: float
 ) -> NDArray[np.bool_]:
-    """Return which places have, on both sides and as far as `reach`, no line nearer than their own."""
+    """Return which places have no line nearer than their own, on both sides and as far as `reach`."""
     tree = shapely.STRtree(_segments(lines))
     clear = np.ones(len(places), dtype=bool)
     for side in (1, -1):
         tips = places + side * reach * normals
         _, distance = tree.query_nearest(shapely.points(tips), all_matches=False, return_distance=True)
-        clear &= distance > 0.98 * reach  # a curve bends towards the tip of its own ray by a little
+        clear &= distance > 0.98 * reach  # a curve bends slightly towards the tip of its own ray
     ends = shapely.points(shapely.get_coordinates(lines.boundary))
     if len(ends):
         _, distance = shapely.STRtree(ends).query_nearest(
@@ -130,7 +130,7 @@ def _segments(lines: MultiLineString) -> NDArray[np.object_]:
 
 
 def _sampler(layer: NDArray[np.floating], grid: Grid) -> Callable[[Floats], Floats]:
-    """Return the function that gives the bilinear value of a layer at points (N, 2), mm; void lies beyond it."""
+    """Return a function giving the bilinear value of a layer at points (N, 2), mm; beyond the layer lies void."""
     from scipy.ndimage import map_coordinates
 
     field = np.pad(layer, 1, constant_values=VOID)

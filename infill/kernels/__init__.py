@@ -1,1 +1,1 @@
-"""Compiled loops, and nothing else: the only room that imports numba."""
+"""Compiled loops and nothing else: the only package that imports numba."""

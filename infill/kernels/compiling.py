@@ -1,4 +1,4 @@
-"""Compiling: what to do where the result cannot be kept on disk, and saying so when it has to be waited for."""
+"""Compiling: what to do where the result cannot be kept on disk, and reporting it when it has to be waited for."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from contextvars import ContextVar
 from typing import Any
 
 LOG = logging.getLogger("infill")
-TOLD = threading.Event()  # said in this process
+TOLD = threading.Event()  # set once compiling was reported in this process
 _WATCHED = ContextVar("watched", default=False)
 
 
 def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401 - hands on
-    """Return numba's decorator; where there is no folder to keep compiled code in, it is not kept."""
+    """Return numba's decorator; where no folder can hold compiled code, the code is not kept."""
     import numba
 
     def compiled(function: Callable[..., Any]) -> Any:  # noqa: ANN401 - a dispatcher of numba's
@@ -29,9 +29,9 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
 
 @contextmanager
 def told_of_compiling(what: str) -> Iterator[None]:
-    """Tell the log "infill" as soon as something inside is compiled, and not found compiled on disk.
+    """Report to the log "infill" as soon as something inside is being compiled rather than found compiled on disk.
 
-    Once in a process, by the outermost of several; also a decorator. `what` stands after "compiling".
+    Done once per process, by the outermost of nested uses; also works as a decorator. `what` follows "compiling".
     """
     if _WATCHED.get() or TOLD.is_set():
         yield

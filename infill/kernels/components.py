@@ -1,25 +1,25 @@
 """What `infill.surfaces.components` does to rows of bits and to triangles, compiled.
 
-A row of a brick is sixteen bits, set where a cell is of the kind that is labelled. What is labelled are not cells but
+A row of a brick is sixteen bits, set where a cell is of the kind being labelled. The things labelled are not cells but
 runs of set bits, found by a few operations on the whole row:
 
     bits         0 1 1 1 0 0 1 0 1 1 0 0 0 0 1 1      k ->
     beginnings   0 1 0 0 0 0 1 0 1 0 0 0 0 0 1 0      bits & ~(bits shifted by one)
     run          . 0 0 0 . . 1 . 2 2 . . . . 3 3      beginnings up to here, counted, less one
 
-So the number of the run at cell k of a row is `bricks` (runs in the bricks before) + `starts` (in the rows before) +
-that count less one: nothing is stored for a cell. A brick of one value throughout is a node by itself (`alone`).
+The number of the run at cell k of a row is therefore `bricks` (runs in earlier bricks) + `starts` (in earlier rows) +
+that count minus one: nothing is stored per cell. A brick with a single value is a node by itself (`alone`).
 
-Runs are joined by union-find. `parent` leads from every node to an earlier one of its set, the first of which leads
-to itself; `root` follows it, halving the path as it goes, and `join` puts the later root under the earlier, so that
-the first member names the set. Two rows side by side are joined where both have bits set (`own & theirs`), once for
-each stretch in which they do; along k runs go on in the next brick if the last bit here and the first there are set.
-With `diagonal`, for void, rows one step aside along two axes count too, and bits one place aside: cells that touch by
-an edge. Solid is joined by faces only, so where two of its cells touch by an edge, void runs between them.
+Runs are joined by union-find. `parent` leads from every node to an earlier one of its set, and from the first node of
+the set to itself; `root` follows it, halving the path as it goes, and `join` puts the later root under the earlier one,
+so that the first member names the set. Two adjacent rows are joined where both have bits set (`own & theirs`), once for
+each stretch where they do; along k, a run continues in the next brick if the last bit here and the first there are set.
+With `diagonal`, for void, rows one step away along two axes count too, as do bits one place aside: cells that touch at
+an edge. Solid is joined by faces only, so where two solid cells touch at an edge, void runs between them.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
-# No tool sees compiled lines run.
+# Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from infill.kernels.sparse_marching import FULL, ROWS, lowest, ones, within
 
 @njit(cache=True)
 def root(parent, n):
-    """Return the first of the set that `n` is in."""
+    """Return the first member of the set that contains `n`."""
     while parent[n] != n:
         parent[n] = parent[parent[n]]
         n = parent[n]
@@ -41,7 +41,7 @@ def root(parent, n):
 
 @njit(cache=True)
 def join(parent, a, b):
-    """Make one set of two; the first of it stays the first."""
+    """Merge two sets; the first member stays the first."""
     a, b = root(parent, a), root(parent, b)
     if a < b:
         parent[b] = a
@@ -57,15 +57,15 @@ def beginnings(bits):
 
 @njit(cache=True)
 def run_length(bits, k):
-    """Return how many bits are set from bit `k` on without a gap."""
+    """Return how many consecutive bits are set from bit `k` on."""
     gaps = ~(np.int64(bits) >> k)
     return ones(((gaps & -gaps) - 1) & FULL)
 
 
 @njit(nogil=True, cache=True)
 def number_runs(bits, bricks, starts):
-    """Set where the runs of every brick and every row of it begin to count; return how many there are."""
-    count = np.int64(1)  # run 0 is what lies beyond the grid
+    """Set where the numbering of runs begins in every brick and in each of its rows; return the number of runs."""
+    count = np.int64(1)  # run 0 is whatever lies beyond the grid
     for s in range(len(bits)):
         bricks[s] = count
         inner = 0
@@ -78,14 +78,14 @@ def number_runs(bits, bricks, starts):
 
 @njit(cache=True)
 def run_at(bits, bricks, starts, s, row, k):
-    """Return the number of the run that cell `k` of a row lies in."""
+    """Return the number of the run that contains cell `k` of a row."""
     upto = np.uint16((2 << k) - 1)
     return bricks[s] + starts[s, row] + ones(beginnings(bits[s, row]) & upto) - 1
 
 
 @njit(cache=True)
 def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
-    """Return the node of a cell of any brick of the lattice, -1 if the cell is not of the kind that is labelled."""
+    """Return the node of a cell of any brick of the lattice, or -1 if the cell is not of the kind being labelled."""
     slot = slots[p, q, r]
     if slot < 0:
         return np.int64(alone[p, q, r])
@@ -96,7 +96,7 @@ def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
 
 @njit(nogil=True, cache=True)
 def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
-    """Join what touches by a face, or if `diagonal` by an edge, in all bricks that are kept."""
+    """Join whatever touches by a face, or by an edge if `diagonal`, in all kept bricks."""
     m0, m1, m2 = slots.shape
     for s in range(len(where)):
         p, q, r = where[s]
@@ -105,7 +105,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
             own = bits[s, row]
             if own == 0:
                 continue
-            # Along k runs end at the brick.
+            # Along k, runs end at the brick boundary.
             for step in range(-1, 2, 2):
                 c = r + step
                 edge = B2 - 1 if step > 0 else 0
@@ -133,7 +133,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                                 k = lowest(left)
                                 left &= left - 1
                                 join(parent, run_at(bits, bricks, starts, s, row, k), np.int64(alone[a, b, r]))
-                    elif ahead:  # the other one looks back at none
+                    elif ahead:  # the other brick never looks back at this one
                         theirs = bits[slot, x * B1 + y]
                         left = np.int64(beginnings(own & theirs))
                         while left:
@@ -145,7 +145,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                                 run_at(bits, bricks, starts, slot, x * B1 + y, k),
                             )
                         if diagonal and (di == 0 or dj == 0):
-                            for shift in range(-1, 2, 2):  # by an edge, and by no face
+                            for shift in range(-1, 2, 2):  # touching at an edge but not by a face
                                 if shift > 0:
                                     own_next, theirs_next = own >> np.uint16(1), theirs >> np.uint16(1)
                                 else:
@@ -159,7 +159,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                                         run_at(bits, bricks, starts, s, row, k),
                                         run_at(bits, bricks, starts, slot, x * B1 + y, k + shift),
                                     )
-                    if diagonal and (di == 0 or dj == 0):  # by an edge into the brick before or behind along k
+                    if diagonal and (di == 0 or dj == 0):  # at an edge, into the previous or next brick along k
                         for step in range(-1, 2, 2):
                             c = r + step
                             edge = B2 - 1 if step > 0 else 0
@@ -171,7 +171,7 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
 
 @njit(nogil=True, cache=True)
 def join_alone(alone, parent):
-    """Join bricks of one value that lie side by side."""
+    """Join adjacent bricks of one value."""
     m0, m1, m2 = alone.shape
     for p in range(m0):
         for q in range(m1):
@@ -189,7 +189,7 @@ def join_alone(alone, parent):
 
 @njit(nogil=True, cache=True)
 def join_beyond(where, bits, bricks, starts, shape, parent):
-    """Join every run of void that reaches beyond the grid with what lies there."""
+    """Join every run of void that extends beyond the grid with what lies there."""
     for s in range(len(where)):
         for row in range(ROWS):
             inside = within(where[s, 0], where[s, 1], where[s, 2], row, shape)
@@ -202,7 +202,7 @@ def join_beyond(where, bits, bricks, starts, shape, parent):
 
 @njit(nogil=True, cache=True)
 def name_sets(parent, names):
-    """Give the sets the names 0, 1, 2 … in the order of their first members; return how many there are."""
+    """Name the sets 0, 1, 2 … in the order of their first members; return how many there are."""
     count = 0
     for n in range(len(parent)):
         first = root(parent, n)
@@ -216,7 +216,7 @@ def name_sets(parent, names):
 
 @njit(nogil=True, cache=True)
 def count_cells(where, bits, bricks, starts, shape, names, cells):
-    """Add the cells of every run within the grid to its component."""
+    """Add the cells of every run within the grid to the count of its component."""
     for s in range(len(where)):
         for row in range(ROWS):
             own = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
@@ -229,7 +229,7 @@ def count_cells(where, bits, bricks, starts, shape, names, cells):
 
 @njit(nogil=True, cache=True)
 def mark_runs(bits, bricks, starts, names, chosen, marked):
-    """Mark the components of cells that are `chosen`."""
+    """Mark the components that contain `chosen` cells."""
     for s in range(len(bits)):
         for row in range(ROWS):
             left = np.int64(beginnings(bits[s, row] & chosen[s, row]))
@@ -264,7 +264,7 @@ def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts
 
 @njit(nogil=True, cache=True)
 def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach):
-    """Return the component of a cell of the lattice, or the nearest along the axes within `reach` cells, else -1."""
+    """Return the component of a cell of the lattice, else the nearest along the axes within `reach` cells, else -1."""
     node = node_at(alone, slots, x // B0, y // B1, z // B2, (x % B0) * B1 + y % B1, z % B2, bits, bricks, starts)
     if node >= 0:
         return names[node]
@@ -285,7 +285,7 @@ def nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
 
 @njit(nogil=True, cache=True)
 def label_cells(places, slots, bits, bricks, starts, alone, names, reach, labels):
-    """Set the component nearest to cells at places (N, 3) on the lattice of cells, -1 where there is none in reach."""
+    """Set the nearest component for cells at places (N, 3) on the lattice of cells, -1 where none is within reach."""
     for n in range(len(places)):
         x, y, z = places[n]
         labels[n] = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
@@ -304,7 +304,7 @@ def join_faces(faces, parent, used):
 def lower_to_levels(
     values, where, slots, bits, bricks, starts, alone, names, levels, common, reach, out, thread, threads
 ):
-    """Subtract from every cell the level of the nearest component along the axes; `common` where there is none."""
+    """Subtract from every cell the level of the nearest component along the axes, or `common` where there is none."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for t in range(CELLS):
@@ -319,7 +319,7 @@ def lower_to_levels(
 
 @njit(cache=True)
 def any_row(slots, p, q, r, row, bits, kind):
-    """Return a row of any brick of the lattice; a brick of one value is full if it is of `kind`."""
+    """Return a row of any brick of the lattice; a brick of one value is full if it is of the given `kind`."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return np.int64(0)
     slot = slots[p, q, r]
@@ -330,7 +330,7 @@ def any_row(slots, p, q, r, row, bits, kind):
 
 @njit(nogil=True, cache=True)
 def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):
-    """Set cells all (`meet`) or any of whose 2 x 2 x 2 are set: those from them on (`way` 1), or up to them (-1)."""
+    """Set cells where all (`meet`) or any of 2 x 2 x 2 cells are set: from the cell on (`way` 1), or up to it (-1)."""
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for row in range(ROWS):

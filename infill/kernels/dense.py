@@ -6,8 +6,8 @@ Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixe
     v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `parts_of_one` in `phasefield.dense`
     phi = v + p / (1 + p) (f - v)               adds zero where v = f
 
-So a kernel may leave such cells out and give the same bits as one that does not. Importing this module loads numba;
-each function is compiled when it is first called and then kept on disk.
+A kernel may therefore leave such cells out and give the same bits as one that does not. Importing this module loads
+numba; each function is compiled when it is first called and then kept on disk.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from infill.kernels.compiling import njit
 
 @njit(inline="always", cache=True, error_model="numpy")
 def advanced(c, a, b, d, e, g, h, f, numbers):  # type: ignore[no-untyped-def]  # noqa: ANN001, ANN201
-    """Return the value of one cell after a step, from its own, its six neighbours' and its datum."""
+    """Return the value of one cell after a step, given its own value, its six neighbours' and its datum."""
     w0, w1, w2, decay, rest, hold = numbers
     v = c + (w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c)))
     v = v / math.sqrt(decay + rest * (v * v))

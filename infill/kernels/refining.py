@@ -1,11 +1,11 @@
 """What `infill.phasefield.refining` does to bricks, compiled.
 
-Loops run over whole bricks, so that they become vector code.
+Loops run over whole bricks, so that they are compiled to vector code.
 
-`step` is a step with momentum: it needs the field of the step before too, kept in `before`, of which each cell is
-read and replaced while the brick is at hand.
+`step` is a step with momentum: it also needs the field before the previous step, kept in `before`, where each cell is
+read and replaced while its brick is being processed.
 
-A gate weighs averages over a Gaussian of `size` cells. They are taken on coarse cells of `size` cells along each axis,
+A gate weights averages over a Gaussian of `size` cells. They are taken on coarse cells of `size` cells along each axis,
 (n, 3, 8/size, 8/size, 16/size): the means of w, of w r and of w r², 0 where no brick is kept.
 
     fine       . . . . . . . .      collect   1  means over `size` cells: a box, variance size²/12
@@ -13,12 +13,12 @@ A gate weighs averages over a Gaussian of `size` cells. They are taken on coarse
     fine       . . x . . . . .      blend     3  interpolated between coarse centres: a tent, variance size²/6
                                               together size², as the Gaussian's
 
-For the blur a brick needs two coarse cells around it, for the interpolation one: `fetch` copies them from the 26
+For the blur, a brick needs two coarse cells around it, for the interpolation one: `fetch` copies them from the 26
 bricks around it. `blend` interpolates along i for a plane, then along j for a row, then along k for its cells.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
-# No tool sees compiled lines run.
+# Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from infill.kernels.compiling import njit
 from infill.kernels.sparse import B0, B1, B2, CELLS, PLANE, emit, repeat_edges, surround, unmoved
 
 SUMS = 3  # w, w r, w r²
-# Twice (3, 10, 3) / 16. Together with the coarse cell's own breadth, size²/12, and that of the interpolation,
-# size²/6, its variance, 3 size²/4, makes that of a Gaussian of `size` cells.
+# Twice (3, 10, 3) / 16. Together with the coarse cell's own width, size²/12, and that of the interpolation,
+# size²/6, its variance, 3 size²/4, gives that of a Gaussian of `size` cells.
 TAPS = (9 / 256, 60 / 256, 118 / 256)
 
 
@@ -53,7 +53,7 @@ def step(
     thread,
     threads,
 ):
-    """Do one step of all bricks in place, as `infill.kernels.sparse.step`, and leave the old values in `before`."""
+    """Do one step of all bricks in place, as `infill.kernels.sparse.step` does, leaving the old values in `before`."""
     w0, w1, w2, decay, rest, _ = numbers
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, back, after = (
@@ -82,7 +82,7 @@ def step(
 
 @njit(nogil=True, cache=True)
 def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads):
-    """Add weight times phi to `total`; a brick from `known` on was uniform, as its data, in all snapshots so far."""
+    """Add weight times phi to `total`; bricks from `known` on were uniform, like their data, in every one so far."""
     for s in range(thread, count, threads):
         own, out = phi[s], total[s]
         if s < known:
@@ -118,7 +118,7 @@ def collect(low, high, phase, unit, size, sums, thread, threads):
 
 @njit(cache=True)
 def fetch(sums, slots, place, rim, out):
-    """Copy the coarse cells of the brick at `place` and those around it, `rim` deep, into `out`."""
+    """Copy the coarse cells of the brick at `place` and of those around it, `rim` deep, into `out`."""
     _, _, n0, n1, n2 = sums.shape
     a0, a1, a2 = place[0] * n0 - rim, place[1] * n1 - rim, place[2] * n2 - rim
     for i in range(n0 + 2 * rim):
@@ -135,7 +135,7 @@ def fetch(sums, slots, place, rim, out):
 
 @njit(nogil=True, cache=True)
 def blur(sums, slots, where, out, thread, threads):
-    """Average the coarse cells with those around them, by `TAPS` along each axis."""
+    """Average the coarse cells with those around them, using `TAPS` along each axis."""
     _, _, n0, n1, n2 = sums.shape
     far, near, own = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
     whole = np.empty((SUMS, n0 + 4, n1 + 4, n2 + 4), dtype=np.float32)
@@ -162,7 +162,7 @@ def blur(sums, slots, where, out, thread, threads):
 
 @njit(inline="always", cache=True)
 def between(cell, size):
-    """Return between which coarse cells, counted from one before the brick, a cell lies, and how far."""
+    """Return which coarse cells, counted from one before the brick, a cell lies between, and how far."""
     place = np.float32((cell + 0.5) / size + 0.5)
     first = int(place)
     return first, place - np.float32(first)
@@ -170,7 +170,7 @@ def between(cell, size):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, threads):
-    """Move `low` towards `high` as far as the gate lets it: see `infill.phasefield.refining.gate`."""
+    """Move `low` towards `high` as far as the gate permits: see `infill.phasefield.refining.gate`."""
     _, _, n0, n1, n2 = sums.shape
     size = B0 // n0
     whole = np.empty((SUMS, n0 + 2, n1 + 2, n2 + 2), dtype=np.float32)

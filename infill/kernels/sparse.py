@@ -9,29 +9,29 @@ A brick is (8, 8, 16) cells, flat: cell (i, j, k) is number (i 8 + j) 16 + k.
       /            / |
      +------------+  |             +-- faces, copied: low and high along i (2 x 128), j (2 x 128), k (2 x 64)
      |            |  +
-   i |   8 x 8    | /              slots, the lattice of bricks: the number of a brick that is kept, or
+   i |   8 x 8    | /              slots, the lattice of bricks: the number of a kept brick, or
      |            |/               VOID_BRICK, SOLID_BRICK (one value throughout) or OUTSIDE (no cell of the grid)
      +------------+
           k: 16
 
 A step goes through the bricks in any order and on any thread. Each is stepped in place, so its neighbours may not
-read its cells, which are old or new by chance; they read the copy of its faces from before the step (`faces`), and
-the faces after it go to a second copy (`next_faces`). The two change places when all bricks are done.
+read its cells, which may be old or new; they read the copy of its faces from before the step (`faces`), and
+the faces after it go to a second copy (`next_faces`). The two are swapped when all bricks are done.
 
-One brick in a step:
+How one brick is stepped:
 
-    surround    six arrays of the same length, in which cell t finds its neighbours at t: the brick between the planes
-                of its neighbours along i (`tall`), and four copies shifted by a row or a cell (`left`, `right`,
-                `before`, `after`) with the neighbours' faces let in at their ends
-    advanced    one loop over 1024 cells without a branch: vector code
-    emit        the six faces copied, and for each whether it is +1 or -1 throughout (`flat`)
+    surround    fills six arrays of equal length, in which cell t finds its neighbours at t: the brick between the
+                planes of its neighbours along i (`tall`), and four copies shifted by a row or a cell (`left`,
+                `right`, `before`, `after`) with the neighbours' faces inserted at their ends
+    advanced    is one loop over 1024 cells without a branch: vector code
+    emit        copies the six faces, and notes for each whether it is +1 or -1 throughout (`flat`)
 
-A brick of one value (`uniform`) between neighbours of that value is a fixed point and is left out. A flat face
-whose value differs from that of a brick which is not kept is what makes that brick be kept (`wanted`).
+A brick of one value (`uniform`) between neighbours of that value is a fixed point and is left out. A brick that is not
+kept starts to be kept when a flat face next to it has a different value (`wanted`).
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
-# No tool sees compiled lines run.
+# Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
@@ -49,15 +49,15 @@ FACE_I, FACE_J, FACE_K = B1 * B2, B0 * B2, B0 * B1
 SECOND, THIRD = 2 * FACE_I, 2 * (FACE_I + FACE_J)
 FACES = THIRD + 2 * FACE_K
 
-# What stands on the lattice for a brick that is not kept.
+# What the lattice holds for a brick that is not kept.
 VOID_BRICK, SOLID_BRICK, OUTSIDE = -1, -2, -3
-CHUNK = 32  # bricks that a thread takes at a time: neighbours, mostly; with their data 160 to 256 KiB
-MIXED, OUTER = 0, -3  # states of a brick: of both phases, and without a cell of the grid
+CHUNK = 32  # bricks that a thread takes at a time, mostly neighbours; with their data, 160 to 256 KiB
+MIXED, OUTER = 0, -3  # states of a brick: containing both phases, and without a cell of the grid
 
 
 @njit(inline="always", cache=True)
 def uniform_value(face, bits, at, size):
-    """Return +1 or -1 if all values of a face are that, else 0; `bits` are the values seen as whole numbers."""
+    """Return +1 or -1 if all values of a face are equal to it, else 0; `bits` are the values viewed as integers."""
     first = bits[at]
     others = np.int32(0)
     for t in range(size):
@@ -96,7 +96,7 @@ def emit_all(bricks, faces, flat, count, thread, threads):
 
 @njit(cache=True)
 def place_beside(place, side):
-    """Return the place beside a brick: low and high along i, j, k."""
+    """Return the place next to a brick: low and high along i, j, k."""
     a, b, c = place[0], place[1], place[2]
     way = 1 if side % 2 else -1
     if side < 2:
@@ -106,7 +106,7 @@ def place_beside(place, side):
 
 @njit(cache=True)
 def find_neighbours(slots, where, beside, first, count):
-    """Set what lies beside the bricks from `first` on, and that they lie beside those."""
+    """Set what lies next to the bricks from `first` on, and that they lie next to those."""
     for s in range(first, count):
         for side in range(6):
             a, b, c = place_beside(where[s], side)
@@ -119,7 +119,7 @@ def find_neighbours(slots, where, beside, first, count):
 
 @njit(cache=True)
 def wanted(slots, where, beside, flat, count, found):
-    """Set `found` to the places beside faces whose value differs from theirs, each once; return how many."""
+    """Set `found` to the places next to faces whose value differs from theirs, each once; return how many there are."""
     many = 0
     for s in range(count):
         for side in range(6):
@@ -130,7 +130,7 @@ def wanted(slots, where, beside, flat, count, found):
                 continue
             a, b, c = place_beside(where[s], side)
             if slots[a, b, c] == other:
-                slots[a, b, c] = other - 10  # seen
+                slots[a, b, c] = other - 10  # already found
                 found[many, 0], found[many, 1], found[many, 2] = a, b, c
                 many += 1
     for n in range(many):
@@ -140,7 +140,7 @@ def wanted(slots, where, beside, flat, count, found):
 
 @njit(nogil=True, cache=True)
 def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):
-    """Give the bricks from `first` on the value they are uniform in; nobody reads faces that are flat."""
+    """Set the bricks from `first` on to the value they are uniform in; nobody reads faces that are flat."""
     for s in range(first + thread, count, threads):
         value = uniform[s]
         for t in range(CELLS):
@@ -182,7 +182,7 @@ def step(
     thread,
     threads,
 ):
-    """Do one step of all bricks in place; read neighbours' faces from `faces`, leave the new ones in `next_faces`."""
+    """Do one step of all bricks in place; read neighbours' faces from `faces`, write the new ones to `next_faces`."""
     tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
     left, right, before, after = (
         np.empty(CELLS, dtype=np.float32),
@@ -198,7 +198,7 @@ def step(
                 uniform[s] = 0
             own, data = phi[s], held[s]
             surround(own, faces, flat, beside[s], tall, left, right, before, after)
-            if domain is not None:  # decided when it is compiled
+            if domain is not None:  # decided at compile time
                 step_masked(own, data, tall, left, right, before, after, domain, where[s], numbers)
             else:
                 for t in range(CELLS):
@@ -219,7 +219,7 @@ def step(
 
 @njit(cache=True)
 def surround(own, faces, flat, beside, tall, left, right, before, after):
-    """Set for every cell its six neighbours: the brick between two planes, and four shifted copies."""
+    """Set the six neighbours of every cell: the brick between two planes, and four shifted copies."""
     for t in range(CELLS):
         tall[t + PLANE] = own[t]
     for t in range(CELLS - B2):
@@ -265,7 +265,7 @@ def surround(own, faces, flat, beside, tall, left, right, before, after):
 
 @njit(inline="always", cache=True)
 def seen(other, flat, side):
-    """Return the brick beside a face, or what stands for it if its own face there has one value."""
+    """Return the brick next to a face, or the stand-in for it if its own face there has one value."""
     if other < 0 or flat[other, side ^ 1] == 0:
         return other
     return SOLID_BRICK if flat[other, side ^ 1] == 1 else VOID_BRICK
@@ -273,7 +273,7 @@ def seen(other, flat, side):
 
 @njit(inline="always", cache=True)
 def beyond(other, own):
-    """Return the value beside a face where no brick is kept: beyond the grid it is the face's own."""
+    """Return the value next to a face where no brick is kept: beyond the grid, it is the face's own."""
     if other == OUTSIDE:
         return own
     return np.float32(1) if other == SOLID_BRICK else np.float32(-1)
@@ -281,7 +281,7 @@ def beyond(other, own):
 
 @njit(cache=True, error_model="numpy")
 def step_masked(own, data, tall, left, right, before, after, domain, where, numbers):
-    """Do one step of the cells in the domain; a neighbour outside of it has the cell's own value."""
+    """Do one step of the cells in the domain; a neighbour outside it has the cell's own value."""
     n0, n1, n2 = domain.shape
     for t in range(CELLS):
         x = where[0] * B0 - 1 + t // PLANE
@@ -305,7 +305,7 @@ def step_masked(own, data, tall, left, right, before, after, domain, where, numb
 
 @njit(cache=True)
 def repeat_edges(brick, where, shape):
-    """Give the cells beyond the grid the values of those at its edge."""
+    """Give cells beyond the grid the values of the cells at its edge."""
     i0, i1 = max(0, 1 - where[0] * B0), min(B0, shape[0] + 1 - where[0] * B0)
     j0, j1 = max(0, 1 - where[1] * B1), min(B1, shape[1] + 1 - where[1] * B1)
     k0, k1 = max(0, 1 - where[2] * B2), min(B2, shape[2] + 1 - where[2] * B2)

@@ -1,7 +1,7 @@
 """What `infill.surfaces.sparse_marching` does to bricks, compiled.
 
 A row of sixteen cells along k is one number of sixteen bits, set where a cell is above the level. A row of cubes lies
-between four rows of cells, of 17 cells each: one is taken from the brick behind. Bricks own the cubes whose lowest
+between four rows of 17 cells each: the last cell is taken from the next brick. Bricks own the cubes whose lowest
 corner they hold, and the edges that begin in their cells.
 
     c ─── d      a, b, c, d: rows (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1), seen from their ends
@@ -9,19 +9,19 @@ corner they hold, and the edges that begin in their cells.
     a ─── b      crossed edges: a ^ b along i, a ^ c along j, a ^ (a shifted by one) along k
                  crossed cubes: those whose eight bits are not all equal (`crossed`)
 
-All sixteen are decided by a few operations; loops then visit only bits that are set, from the lowest up (`lowest`).
+All sixteen are decided by a few operations; loops then visit only the set bits, from the lowest up (`lowest`).
 
-Vertices are numbered without a table of edges: a brick's begin at `offsets`, those of a row and an axis at `starts`
-beyond that, and within the row an edge has as many before it as bits are set below its own in `masks`. So any cube
-finds the vertices on its twelve edges, its neighbours' included, and threads need not meet.
+Vertices are numbered without a table of edges: those of a brick begin at `offsets`, those of a row and an axis at
+`starts` after that, and within the row an edge is preceded by as many vertices as there are bits set below its own in
+`masks`. So any cube finds the vertices on its twelve edges, including those of its neighbours, without synchronisation.
 
-Two passes: `count` says how much every brick will write, sums of that say where, and `write` writes. A cube's eight
-signs choose its triangles from a table of 256 (`infill.surfaces.sparse_marching.cube_table`); where signs do not tell
-(`UNDECIDED`: a face with a saddle, or opposite corners), the values of its corners are handed back instead.
+There are two passes: `count` says how much every brick will write, cumulative sums of that say where, and `write`
+writes. A cube's eight signs choose its triangles from a table of 256 (`infill.surfaces.sparse_marching.cube_table`);
+where signs do not decide (`UNDECIDED`: a face with a saddle, or opposite corners), its corner values are returned.
 """
 # mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
-# No tool sees compiled lines run.
+# Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1
 TRUE = ir.Constant(ir.IntType(1), 1)
-UNDECIDED = -128  # in a table of triangles: the signs do not tell; the least int8, which no count comes near
+UNDECIDED = -128  # in a table of triangles: the signs do not decide; the least int8, which no count comes near
 FULL = (1 << B2) - 1  # all bits of a row
 
 
 @njit(nogil=True, cache=True)
 def bits_above(values, where, level, shape, bits, thread, threads):
-    """Set for every row of every kept brick which cells are above the level; beyond the grid none is."""
+    """Set which cells of every row of every kept brick are above the level; none is beyond the grid."""
     for s in range(thread, len(values), threads):
         brick = values[s]
         for row in range(ROWS):
@@ -60,7 +60,7 @@ def within(p, q, r, row, shape):
     found = FULL
     if r == 0:
         found &= ~1
-    over = (r + 1) * B2 - (shape[2] + 1)  # cells behind the last one
+    over = (r + 1) * B2 - (shape[2] + 1)  # cells after the last one
     if over > 0:
         found = found & (FULL >> over) if over < B2 else 0
     return np.uint16(found)
@@ -79,7 +79,7 @@ def row_of(slots, p, q, r, row, bits, shape):
 
 @njit(cache=True)
 def rows_around(slots, p, q, r, bits, shape, rows):
-    """Set the rows of a brick and the first ones behind it, 17 cells each: (9, 9)."""
+    """Set the rows of a brick and the first ones after it, 17 cells each: (9, 9)."""
     for i in range(B0 + 1):
         a, x = (p, i) if i < B0 else (p + 1, 0)
         for j in range(B1 + 1):
@@ -91,25 +91,25 @@ def rows_around(slots, p, q, r, bits, shape, rows):
 
 @intrinsic
 def counted(context, bits):  # noqa: ARG001
-    """Count the bits that are set, by the one instruction there is for it."""
+    """Count the set bits, by the machine instruction for it."""
     return types.int64(types.int64), lambda _, builder, __, arguments: builder.ctpop(arguments[0])
 
 
 @intrinsic
 def trailing(context, bits):  # noqa: ARG001
-    """Count the bits below the lowest one that is set."""
+    """Count the bits below the lowest set bit."""
     return types.int64(types.int64), lambda _, builder, __, arguments: builder.cttz(arguments[0], TRUE)
 
 
 @njit(inline="always", cache=True)
 def ones(bits):
-    """Count the bits of a number that is not negative."""
+    """Count the set bits of a non-negative number."""
     return counted(np.int64(bits))
 
 
 @njit(inline="always", cache=True)
 def lowest(bits):
-    """Return the place of the lowest bit that is set."""
+    """Return the position of the lowest set bit."""
     return trailing(np.int64(bits))
 
 
@@ -135,7 +135,7 @@ def signs_of(a, b, c, d, k):
 
 @njit(nogil=True, cache=True)
 def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):
-    """Set the crossed edges of every row along i, j, k, where its vertices begin, and what a brick will hold."""
+    """Set the crossed edges of every row along i, j, k, where its vertices begin, and how much each brick will hold."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
         rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
@@ -163,7 +163,7 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
 
 @njit(cache=True)
 def values_around(slots, p, q, r, values, shape, numbers, around):
-    """Set the values against the level of a brick and of the first cells behind it: (9, 9, 17)."""
+    """Set the values minus the level for a brick and the first cells after it: (9, 9, 17)."""
     level, clearance, tie = numbers
     for i in range(B0 + 1):
         a, x = (p, i) if i < B0 else (p + 1, 0)
@@ -190,7 +190,7 @@ def values_around(slots, p, q, r, values, shape, numbers, around):
 
 @njit(inline="always", cache=True)
 def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):
-    """Return the number of the vertex on an edge that begins in a brick or in the first cells behind it."""
+    """Return the number of the vertex on an edge that begins in a brick or in the first cells after it."""
     if i == B0:
         p, i = p + 1, 0
     if j == B1:
@@ -225,7 +225,7 @@ def write(
     thread,
     threads,
 ):
-    """Write vertices in cells from the first cell's centre, triangles, and what there is to know of undecided cubes."""
+    """Write vertices in cells from the first cell's centre, triangles, and what is known about undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     for n in range(thread, len(places), threads):
@@ -304,8 +304,8 @@ def write(
 
 @njit(nogil=True, cache=True)
 def place(vertices, rate, spacing, origin, thread, threads):
-    """Turn cells from the first cell's centre into mm."""
-    size = (len(vertices) + threads - 1) // threads  # each thread its own stretch of memory
+    """Convert cells from the first cell's centre to mm."""
+    size = (len(vertices) + threads - 1) // threads  # each thread has its own stretch of memory
     for v in range(thread * size, min(len(vertices), (thread + 1) * size)):
         for axis in range(3):
             vertices[v, axis] = (vertices[v, axis] + 0.5) * spacing[axis] + origin[axis]
@@ -314,7 +314,7 @@ def place(vertices, rate, spacing, origin, thread, threads):
 
 @njit(nogil=True, cache=True)
 def volumes(vertices, rate, faces, middle, own, change, thread, threads):
-    """Set for every face the volume between it and the middle, and its change when the level rises by one."""
+    """Set for every face the volume between it and the central point, and its change when the level rises by one."""
     size = (len(faces) + threads - 1) // threads
     for f in range(thread * size, min(len(faces), (thread + 1) * size)):
         six, more = sixfold(vertices, rate, faces[f], middle)
@@ -324,7 +324,7 @@ def volumes(vertices, rate, faces, middle, own, change, thread, threads):
 
 @njit(cache=True)
 def sixfold(vertices, rate, face, middle):
-    """Return six times the volume between a face and the middle, and its change when the level rises by one."""
+    """Return six times the volume between a face and the central point, and its change when the level rises by one."""
     i, j, k = face
     ax, ay, az = vertices[i, 0] - middle[0], vertices[i, 1] - middle[1], vertices[i, 2] - middle[2]
     bx, by, bz = vertices[j, 0] - middle[0], vertices[j, 1] - middle[1], vertices[j, 2] - middle[2]
@@ -343,7 +343,7 @@ def sixfold(vertices, rate, face, middle):
 def measure(
     slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, middle, order, thread, threads
 ):
-    """Return six times the volume of the surface, its slope over the level, and how many cubes were left undecided."""
+    """Return six times the volume of the surface, its slope over the level, and the number of undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     corners, points, moves = np.empty(8), np.empty((3, 3)), np.empty((3, 3), dtype=np.float32)

@@ -1,4 +1,4 @@
-"""Work shared among threads: one pool, one way to share, and never more threads than are allowed."""
+"""Sharing work among threads: one pool, one way to share, and never more threads than are allowed."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from infill.checks import whole
 from infill.machine import usable_cores
 
 VARIABLE = "NUMBA_NUM_THREADS"
-MOST = 256  # threads: more cost more than they bring
+MOST = 256  # threads: more cost more than they gain
 
 
 def thread_count(asked: int | None = None) -> int:
-    """Return how many threads to work with: as asked, else what NUMBA_NUM_THREADS says, else one a core.
+    """Return how many threads to use: as requested, else as NUMBA_NUM_THREADS says, else one per core.
 
     >>> thread_count(3)
     3
@@ -30,17 +30,17 @@ def thread_count(asked: int | None = None) -> int:
 def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> list[Any]:  # noqa: ANN401 - hands on
     """Call `kernel(*arguments, thread, threads)` for each thread and return what they return.
 
-    A kernel takes every n-th piece of the work, n the number of threads. It has to let go of the interpreter, and
+    With n threads, each call of the kernel handles every n-th piece of the work. The kernel must release the GIL, and
     no two calls may write to the same place.
     """
     return together(*(partial(kernel, *arguments, thread, threads) for thread in range(threads)), threads=threads)
 
 
 def together(*works: Callable[[], Any], threads: int) -> list[Any]:
-    """Do several works at once, this thread and `threads` - 1 others, and return what they return, in order.
+    """Run several tasks at once, on this thread and `threads` - 1 others, and return their results in order.
 
-    A work may share out parts of its own: what no thread has begun yet is done by the one that waits for it. So
-    threads are never more than allowed, however deep works are nested, and none waits for another that is waiting.
+    A task may share out parts of its own: whatever no thread has begun yet is done by the one that waits for it. So
+    there are never more threads than allowed, however deeply tasks are nested, and none waits for one that is waiting.
 
     >>> together(lambda: 1, lambda: 2, threads=2)
     [1, 2]
@@ -54,7 +54,7 @@ def together(*works: Callable[[], Any], threads: int) -> list[Any]:
         for work, future in zip(works[1:], handed, strict=True):
             done.append(work() if future.cancel() else future.result())
     finally:
-        for future in handed:  # after a failure or an interrupt nobody begins what is left
+        for future in handed:  # after a failure or an interrupt, nobody begins what is left
             future.cancel()
     return done
 

@@ -1,18 +1,18 @@
 """Between a whole field and its bricks, compiled: see `infill.phasefield.sparse`.
 
 Brick (p, q, r) of the lattice holds cells 8 p - 1 … 8 p + 6, 8 q - 1 …, 16 r - 1 … of the grid: the lattice begins
-one cell before the grid, so that there is void (or what repeats the edge) for the surface to close in.
+one cell before the grid, so that there is void (or a repetition of the edge) for the surface to close in.
 
     grid                0 1 2 3 4 5 6 7 8 9 …
     lattice     [ -1 0 1 2 3 4 5 6 ][ 7 8 9 …        bricks of 8 along x
 
-`fill_states` and `fill_grey_states` say of every brick what it is without copying it: least and largest value of each
+`fill_states` and `fill_grey_states` classify every brick without copying it: the least and largest value of each
 row of bricks are collected for all k at once, which is vector code, and then cut into sixteens. Only mixed bricks,
-and those beside one of the other phase, are gathered; `spread` is the way back, a row of bricks at a time.
+and those next to one of the other phase, are gathered; `spread` is the way back, a row of bricks at a time.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
-# No tool sees compiled lines run.
+# Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BRICK
 
 @njit(nogil=True, cache=True)
 def fill_states(data, state, zeros, thread, threads):
-    """Set the state of every brick of int8 data, solid above 0, and whether a row of bricks holds a zero."""
+    """Set the state of every brick of int8 data, solid above 0, and whether a row of bricks contains a zero."""
     m0, m1, m2 = state.shape
     n0, n1, n2 = data.shape
     low, high, zero = np.empty(n2, dtype=np.int8), np.empty(n2, dtype=np.int8), np.empty(n2, dtype=np.int8)
@@ -91,7 +91,7 @@ def fill_grey_states(data, state, thread, threads):
 
 @njit(nogil=True, cache=True)
 def gather(whole, where, bricks, count, level, thread, threads):
-    """Copy the cells of bricks; cells beyond the grid repeat the edge. With a level, +1 where above it and -1 else."""
+    """Copy the cells of bricks; cells beyond the grid repeat the edge. With a level, +1 where above it and else -1."""
     n0, n1, n2 = whole.shape
     for s in range(thread, count, threads):
         i0, j0, k0 = where[s, 0] * B0 - 1, where[s, 1] * B1 - 1, where[s, 2] * B2 - 1
@@ -103,7 +103,7 @@ def gather(whole, where, bricks, count, level, thread, threads):
                 at = (i * B1 + j) * B2
                 for k in range(B2):
                     value = line[min(max(k0 + k, 0), n2 - 1)]
-                    if level is None:  # decided when it is compiled
+                    if level is None:  # decided at compile time
                         brick[at + k] = value
                     else:
                         brick[at + k] = 1 if value > level else -1
@@ -136,11 +136,11 @@ def spread(slots, bricks, whole, thread, threads):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def straighten(bricks, most, scale, out, thread, threads):
-    """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: vector code, which a log is not.
+    """Set out to artanh of the values, cut off at +-most, over scale, to 1e-6: as vector code, which a log is not.
 
     artanh v = ln 2 / 2 log2 x, x = (1 + v) / (1 - v). With x = 2^n m and m in [1/sqrt 2, sqrt 2), log2 x is n plus
-    log2 m = 2 / ln 2 (y + y³ / 3 + y⁵ / 5 + y⁷ / 7 + …), y = (m - 1) / (m + 1), |y| < 0.172: what is left out is less
-    than 5e-8. n is read off the bits of x, of which those of 1/sqrt 2, 0x3F3504F3, are taken off first.
+    log2 m = 2 / ln 2 (y + y³ / 3 + y⁵ / 5 + y⁷ / 7 + …), y = (m - 1) / (m + 1), |y| < 0.172: the terms left out are
+    less than 5e-8. n is read off the bits of x, from which those of 1/sqrt 2, 0x3F3504F3, are subtracted first.
     """
     ratio, power = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.int32)
     bits = ratio.view(np.int32)
@@ -150,11 +150,11 @@ def straighten(bricks, most, scale, out, thread, threads):
         for t in range(CELLS):
             v = min(max(brick[t], -most), most)
             ratio[t] = (1 + v) / (1 - v)
-        for t in range(CELLS):  # the power of two, taken so that the rest lies around 1
+        for t in range(CELLS):  # the power of two, chosen so that the remainder lies around 1
             power[t] = (bits[t] - 0x3F3504F3) >> 23
         for t in range(CELLS):
             bits[t] -= power[t] << 23
-        for t in range(CELLS):  # log2 of the rest by the series of artanh
+        for t in range(CELLS):  # log2 of the remainder by the artanh series
             x = (ratio[t] - 1) / (ratio[t] + 1)
             y = x * x
             log = x * (

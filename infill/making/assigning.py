@@ -39,7 +39,7 @@ class Given:
 
 
 def values(kind: type[Pattern], named: Mapping[str, Any], source: Source) -> Iterator[Given]:
-    """Yield parameters given as plain values; dashes and underscores in names are alike."""
+    """Yield parameters given as plain values; dashes and underscores in names are equivalent."""
     known = parameters(kind)
     for word, value in named.items():
         name = word.replace("-", "_")
@@ -49,14 +49,14 @@ def values(kind: type[Pattern], named: Mapping[str, Any], source: Source) -> Ite
 
 
 def assignments(kind: type[Pattern], texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[Given]:
-    """Yield parameters given as ``name=value``, or raise ParameterError that begins with what was typed.
+    """Yield parameters given as ``name=value``, or raise ParameterError whose message begins with what was typed.
 
     Parameters
     ----------
     kind : type of Pattern
     texts : sequence of str
     options : iterable of str
-        Names that are options of the command instead, for advice.
+        Names that are options of the command instead, so that the message can say so.
     """
     flags = {name: f"--{name.replace('_', '-')}" for name in options}
     for text in texts:
@@ -74,8 +74,8 @@ def assignments(kind: type[Pattern], texts: Sequence[str], *, options: Iterable[
 def merged(kind: type[Pattern], *, command: Iterable[Given], file: Iterable[Given]) -> dict[str, Any]:
     """Return the parameters by name; the command line wins over the file.
 
-    One that is given for another (`replaces`) drops the other from the file; both in one place are an error, as is
-    one parameter with two values.
+    A parameter that replaces another (`replaces`) drops the other one if only the file gives it; giving both in one
+    place is an error, as is giving one parameter two values.
     """
     typed, filed = _once(command), _once(file)
     for name, (_, described) in parameters(kind).items():
@@ -94,7 +94,7 @@ def merged(kind: type[Pattern], *, command: Iterable[Given], file: Iterable[Give
 
 
 def _once(given: Iterable[Given]) -> dict[str, Given]:
-    """Return what is given by name, or raise ParameterError if one parameter is given two values."""
+    """Return the given parameters by name, or raise ParameterError if one of them has two values."""
     found: dict[str, Given] = {}
     for each in given:
         first = found.setdefault(each.name, each)

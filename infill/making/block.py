@@ -2,7 +2,7 @@
 
     points  ->  stamps on a grid  ->  smoothing  ->  layers, caps, isosurface
 
-and a report of what came out.
+and a report on the result.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString
 
-THINNEST = 0.6  # of the requested width, at the 5th percentile: below, a wall counts as lost
-MOST_PINHOLES = 0.02  # of the void in holes: more is no matter of acute angles
+THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
+MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 
@@ -77,11 +77,11 @@ def make(
     allow_broken : bool
         Return a result in which walls broke or vanished, and say so in the report, instead of raising.
     max_memory : int, optional
-        Bytes; what the machine has free if left out.
+        Bytes; by default, whatever memory the machine has free.
     progress : callable, optional
         Called with the name of a stage and the share of work done, 0 to 1, when the stage begins.
     **parameters
-        Of the pattern, if it is given by name: cell=8, angle=math.radians(30) …
+        Parameters of the pattern, if it is given by name: cell=8, angle=math.radians(30) …
 
     Returns
     -------
@@ -91,11 +91,11 @@ def make(
     Raises
     ------
     ParameterError, patterns.PatternError
-        For a number out of its range.
+        If a number is out of range.
     MemoryLimitError
-        Before anything is computed.
+        If memory will not suffice; raised before anything is computed.
     GeometryError
-        If a wall broke, ran into another, vanished, or is thinner than 60 % of the request at the 5th
+        If a wall broke, ran into another, vanished, or is thinner than 60 % of the requested width at the 5th
         percentile.
 
     Notes
@@ -103,7 +103,7 @@ def make(
     Source: Wang et al. 2020, section 3.4.
 
     The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its volume change is
-    that of the layer by smoothing: the rounding of the rims, at most half a layer, is left out.
+    how much smoothing changed the layer: the rounding of the rims, at most half a layer, is not included.
 
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
@@ -168,21 +168,21 @@ def make(
 
 
 def _points(block: Block) -> NDArray[np.float64]:
-    """Return points along the lines, as the pattern draws them; those are drawn once."""
+    """Return points along the lines, from the pattern's own `points` if it has one; lines are drawn only once."""
     spacing = min(block.grid.cell_size) / POINTS_PER_CELL
     own = type(block.pattern).points is not Pattern.points
     return block.pattern.points(block.region, spacing) if own else sample(block.lines, spacing)
 
 
 def _fused_lines(lines: MultiLineString, before: Regions, line_width: float) -> int:
-    """Return how many bodies of lines the stamp ran together; scraps of three widths or less do not count."""
+    """Return how many bodies of lines the stamp fused; scraps no longer than three line widths do not count."""
     number = bodies(lines)
     length = np.bincount(number, weights=shapely.length(np.array(lines.geoms, dtype=object)))
     return max(0, int((length > 3 * line_width).sum()) - before.topology.components)
 
 
 def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[str]:
-    """Say, one phrase each, what is wrong with the walls."""
+    """Describe what is wrong with the walls, one phrase per problem."""
     if fused_lines:
         yield f"{fused_lines} separate line(s) of the pattern run together at this line width: use larger cells"
     for count, what in (

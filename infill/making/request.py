@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 
 StampMethod = Literal["block", "exact"]
 DEFAULT_CELLS = {"block": 3, "exact": 5}
-LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls and a gap as wide as two
+LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls, and a gap as wide as two of them
 
-# Measured on the three designs, on blocks from 60 x 60 mm to a whole bed.
+# Measured on the three designs, on blocks from 60 x 60 mm to a whole print bed.
 BYTES_BEFORE = 130e6
 BYTES_PER_CELL = 100
 BYTES_PER_TRIANGLE = 70
 CAP_TRIANGLES_PER_CELL = 4  # two on each of the two faces
-SIDE_TRIANGLES_PER_CELL = 4.5  # of the length of the outline
+SIDE_TRIANGLES_PER_CELL = 4.5  # per cell of outline length
 STL_BYTES_PER_TRIANGLE = 50
 
 
@@ -62,7 +62,7 @@ class Block:
 
     @cached_property
     def region(self) -> Polygon:
-        """Where the centre lines may lie: the block less half a line width, mm."""
+        """Where the centre lines may run: the block less half a line width on each side, mm."""
         half = self.line_width / 2
         (x, y), (width, depth) = self.grid.origin, self.grid.extents
         return shapely.box(x + half, y + half, x + width - half, y + depth - half)
@@ -77,12 +77,12 @@ class Block:
 
     @property
     def layers(self) -> int:
-        """Layers of one cell that the stack stands for."""
+        """Number of layers, one cell thick each, that the stack represents."""
         return layer_count(self.height, float(self.grid.cell_size.min()))
 
     @property
     def triangles(self) -> int:
-        """Expected number of triangles, right to about a quarter."""
+        """Expected number of triangles, accurate to about a quarter."""
         run, cell = float(shapely.length(self.lines)), float(self.grid.cell_size.min())
         caps = CAP_TRIANGLES_PER_CELL * run * self.line_width / cell**2
         return round(caps + SIDE_TRIANGLES_PER_CELL * 2 * run / cell)
@@ -99,7 +99,7 @@ class Block:
 
     @property
     def memory(self) -> int:
-        """Bytes of memory the work will need, the program itself included."""
+        """Bytes of memory the work will need, including the program itself."""
         return self.grid_memory + BYTES_PER_TRIANGLE * self.triangles
 
     @property
@@ -145,12 +145,12 @@ class Block:
         }
 
     def require_memory(self, limit: int | None) -> None:
-        """Raise MemoryLimitError if the work needs more than `limit` bytes, or than the machine has free."""
+        """Raise MemoryLimitError if the work needs more than `limit` bytes, or more than the machine has free."""
         self.require_grid_memory(limit)
         require_memory(self.memory, limit, self._advice)
 
     def require_grid_memory(self, limit: int | None) -> None:
-        """Do the same for the grid alone: to know the triangles takes the lines, which may be many as well."""
+        """Check the grid alone: counting triangles requires the lines, which may need much memory themselves."""
         require_memory(self.grid_memory, limit, self._advice)
 
     @property
@@ -170,7 +170,7 @@ def plan(
     smoothing: Smoothing,
     parameters: dict[str, Any],
 ) -> Block:
-    """Check a request and return it with its grid; the parameters are those of `infill.make`."""
+    """Check a request and return it with its grid; the parameters are the same as for `infill.make`."""
     made = pattern_of(pattern, parameters)
     sides = list(size) if isinstance(size, Iterable) else [size, size]
     if len(sides) != 2:
@@ -191,7 +191,7 @@ def plan(
             f"a block of {width:g} × {depth:g} mm has no room for walls of {line_width:g} mm; "
             f"make it at least {(1 + LINES_PER_CELL) * line_width:g} mm in x and y"
         )
-    smoothing.weights((1.0, 1.0))  # raises over the stability limit
+    smoothing.weights((1.0, 1.0))  # raises above the stability limit
     block = Block(
         pattern=made,
         grid=Grid(shape=counts, spacing=cell, origin=tuple(-count * cell / 2 for count in counts)),
@@ -213,7 +213,7 @@ def plan(
 
 
 def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
-    """Return the pattern that a name and its parameters stand for, or the pattern itself."""
+    """Return the pattern that a name and its parameters describe, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):
             raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")

@@ -1,9 +1,9 @@
-"""The settings of `infill make`: defaults, a TOML file, and flags over both.
+"""The settings of `infill make`: defaults, overridden by a TOML file, overridden by flags.
 
-Angles are degrees here, as at the command line; `MakeSettings.make` turns them into radians.
+Angles are in degrees here, as on the command line; `MakeSettings.make` turns them into radians.
 
-In the file, make's options stand at the top; the pattern's parameters beside them, or in a table `[set]`,
-where they may have any name::
+In the file, make's options are at the top level; the pattern's parameters go next to them, or in a table
+`[set]`, where they may have any name::
 
     pattern = "zigzag"
     size = [60, 40]
@@ -37,7 +37,7 @@ SET = "set"
 
 @dataclass(frozen=True, kw_only=True)
 class MakeSettings:
-    """One block of infill, described in the words of the command line.
+    """One block of infill, described in terms of the command line.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class MakeSettings:
     steps, fidelity, interface, alpha
         As in `infill.Smoothing`.
     parameters : dict
-        The pattern's own, angles in degrees.
+        The pattern's own parameters, angles in degrees.
     """
 
     pattern: str
@@ -111,22 +111,22 @@ class MakeSettings:
 
 
 def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = ()) -> MakeSettings:
-    """Return the settings: what is given at the command line wins over the file, the file over the defaults.
+    """Return the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
     ----------
     flags : mapping
-        Options by name, those that are not None: make's, and parameters of the pattern that are flags.
+        Options by name, except those that are None: make's, and those parameters of the pattern that are flags.
     config : Path, optional
         A TOML file.
     assigned : sequence of str
-        Parameters of the pattern as ``name=value``; they may have the name of an option of make.
+        Parameters of the pattern as ``name=value``; they may share a name with one of make's options.
 
     Raises
     ------
     ParameterError, PatternError
-        For a name that neither `make` nor the pattern has, a parameter that is given twice or cannot be what
-        it is given, or without a pattern.
+        If a name is unknown to both `make` and the pattern, a parameter is given twice or cannot take its value,
+        or no pattern is given.
     FormatError
         If the file is missing or not TOML.
     """
@@ -174,7 +174,7 @@ def parse_size(size: object) -> tuple[float, float]:
 
 
 def _read(path: Path) -> dict[str, Any]:
-    """Return the content of a TOML file, dashes in the names of options as underscores."""
+    """Return the contents of a TOML file, with dashes in option names turned into underscores."""
     try:
         content = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -187,7 +187,7 @@ def _read(path: Path) -> dict[str, Any]:
 
 
 def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
-    """Return the value of an option of make if it is of the kind that `default` is, or raise ParameterError."""
+    """Return the value of one of make's options if it has the same type as `default`, or raise ParameterError."""
     word = name.replace("_", "-")
     if name == "size":
         return parse_size(value)
@@ -209,7 +209,7 @@ def _is_number(value: object) -> bool:
 
 
 def _rows(values: Mapping[str, Any]) -> list[str]:
-    """Return a line of TOML for each value that is not None."""
+    """Return one line of TOML for each value that is not None."""
     return [f"{name} = {_toml(value)}" for name, value in values.items() if value is not None]
 
 

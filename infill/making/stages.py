@@ -24,7 +24,7 @@ class MakeStages:
     lines : MultiLineString, mm
         The lines.
     grid : Grid
-        That of one layer.
+        The grid of one layer.
     stamp, smoothed : (nx, ny) float32
         The layer before and after smoothing, in [-1, 1].
     """

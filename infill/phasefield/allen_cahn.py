@@ -20,7 +20,7 @@ from infill.checks import positive, whole, within
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 
-# Within these no kernel, in 32 bits either, divides 0 by 0.
+# Within these ranges no kernel divides 0 by 0, not even in 32 bits.
 RANGES = {"fidelity": (0.0, 1e6), "interface": (0.25, 1e3), "alpha": (1e-4, 1.0)}
 STEEPNESS = math.atanh(0.9)  # the interface is measured from the surface to phi = 0.9
 
@@ -34,11 +34,11 @@ class Smoothing:
     steps : int
         Number of time steps. The paper takes 5 for 2D shapes, 10 for patterns, 20 for complex
         models, 30 for medical data. n steps blur about as far as a Gaussian of sqrt(2 n / 7)
-        cells: a wall 3 cells thick keeps 2.83 after 10 steps and is gone after 30; one of 5 cells
-        keeps 4.95 after 30.
+        cells: a wall 3 cells thick keeps a width of 2.83 after 10 steps and is gone after 30;
+        one of 5 cells keeps 4.95 after 30.
     fidelity : float
-        lam h^2: how strongly the data hold. 0.01 (the paper's lam = 100 at h = 0.01) gives way;
-        1 keeps a wall of 3 cells for ever, and with it the staircase.
+        lam h^2: how strongly the data hold the field. 0.01 (the paper's lam = 100 at h = 0.01) is weak;
+        1 keeps a wall of 3 cells for ever, and the staircase with it.
     interface : float
         m: cells from the surface to phi = 0.9, eps = m h / (sqrt(2) artanh 0.9).
     alpha : float
@@ -47,7 +47,7 @@ class Smoothing:
     Raises
     ------
     ParameterError
-        For a number out of its range.
+        If a number is out of range.
 
     >>> round(Smoothing.paper(lam=100, h=0.1).fidelity, 12)
     1.0
@@ -59,7 +59,7 @@ class Smoothing:
     alpha: float = 1 / 7
 
     def __post_init__(self) -> None:
-        """Check the ranges that do not depend on the data, and keep plain numbers."""
+        """Check the ranges that do not depend on the data, and convert to plain numbers."""
         object.__setattr__(self, "steps", whole("the number of steps", self.steps, 0))
         for name, (low, high) in RANGES.items():
             object.__setattr__(self, name, within(name, getattr(self, name), low, high))
@@ -90,7 +90,7 @@ class Smoothing:
         Raises
         ------
         ParameterError
-            Over the stability limit of the explicit step: 2 sum(weights) <= 1.
+            Above the stability limit of the explicit step: 2 sum(weights) <= 1.
         """
         smallest = min(spacing)
         shares = [(smallest / size) ** 2 for size in spacing]
@@ -104,7 +104,7 @@ class Smoothing:
 
 
 def phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
-    """Return `data` as an array of numbers in [-1, 1]; False and True become -1 and +1, 0 and 1 stay.
+    """Return `data` as an array of numbers in [-1, 1]; False and True become -1 and +1, 0 and 1 stay as they are.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def laplacian(
     weights : one float per axis
         dt / h_axis^2.
     mask : (...) bool, optional
-        The domain. No flux crosses its edge, as none crosses the edge of the grid.
+        The domain. No flux crosses its boundary, just as none crosses the edge of the grid.
     """
     change = np.zeros_like(phi)
     for axis, weight in enumerate(weights):
@@ -187,7 +187,7 @@ def reacted(phi: NDArray[np.float64], decay: float) -> NDArray[np.float64]:
 def held(phi: NDArray[np.float64], f: NDArray[np.float64], pull: float) -> NDArray[np.float64]:
     """Return phi after phi_t = lam (f - phi) for one time step, implicitly, with lam dt = `pull` (10, 14).
 
-    Alone, n such steps leave (1 + lam dt)^-n of the difference from the data.
+    On their own, n such steps leave (1 + lam dt)^-n of the difference from the data.
     """
     return (phi + pull * f) / (1 + pull)
 
@@ -211,7 +211,7 @@ def smooth_reference(
     initial: NDArray[np.generic] | None = None,
     mask: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float64]:
-    """Return phi after all steps, in float64; cells outside the mask keep what they start with."""
+    """Return phi after all steps, in float64; cells outside the mask keep their initial values."""
     data = f.astype(np.float64)
     start = data if initial is None else initial.astype(np.float64)
     weights = smoothing.weights(spacing_of(spacing, data.ndim))

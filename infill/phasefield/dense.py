@@ -1,4 +1,4 @@
-"""The scheme of `infill.phasefield.allen_cahn` compiled: one fused pass a step, in float32.
+"""The scheme of `infill.phasefield.allen_cahn` compiled: one fused pass per step, in float32.
 
 Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixed point to the last bit:
 
@@ -6,8 +6,8 @@ Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixe
     v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `parts_of_one`
     phi = v + p / (1 + p) (f - v)               adds zero where v = f
 
-So a kernel may leave such cells out (`infill.phasefield.sparse`) and give the same bits as one that does not. Importing
-this module loads numba; each function is compiled when it is first called and then kept on disk.
+A kernel may therefore leave such cells out (`infill.phasefield.sparse`) and give the same bits as one that does not.
+Importing this module loads numba; each function is compiled when it is first called and then kept on disk.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def smooth_dense(
 
 
 def on_three_axes(field: NDArray[Any]) -> NDArray[Any]:
-    """Return the field as (n0, n1, n2), with axes of one cell in front, contiguous."""
+    """Return the field as (n0, n1, n2), contiguous, with axes of one cell put in front."""
     return np.ascontiguousarray(field.reshape((1,) * (3 - field.ndim) + field.shape))
 
 
@@ -71,5 +71,5 @@ def parts_of_one(decay: float) -> tuple[np.float32, np.float32]:
     if decay >= 0.5:
         return np.float32(decay), one - np.float32(decay)
     rest = np.float32(1 - decay)
-    # Next to 1 a decay too small to be the difference still counts, where phi is near 0.
+    # A decay too small to register next to 1 still matters where phi is near 0.
     return max(one - rest, np.float32(decay)), rest

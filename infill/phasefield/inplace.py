@@ -1,14 +1,14 @@
 """The scheme of `infill.phasefield.allen_cahn` in place, in float32, without a compiler.
 
-The same three sub-steps, rearranged so that a step is ten passes over a block of cells that stays
+The same three sub-steps are rearranged so that a step is ten passes over a block of cells that stays
 in the cache. With E = decay, p = pull, w the weight of the first axis and u = c phi:
 
     v     = sum of (w_axis / w) u over the neighbours + k / w u     k = 1 - sum of their weights
     u new = v / sqrt(B + v^2) + c p / (1 + p) f
 
 The scale c = sqrt(1 - E) (1 + p) and B = E (1 + p)^2 / w^2 make every other factor of the scheme
-vanish. A neighbour that does not exist (beyond the grid or the mask) holds 0 and is left out of k:
-that is zero Neumann.
+disappear. A neighbour that does not exist (beyond the grid or the mask) holds 0 and is left out of k,
+which is exactly zero Neumann.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from infill.phasefield.allen_cahn import Smoothing
 
 Flat = NDArray[np.float32]
 
-BLOCK = 180000  # cells handled at once: long enough that threads seldom wait for the interpreter
-AT_ONCE = 8  # steps that a thread does alone: fewer meetings against a wider halo
+BLOCK = 180000  # cells handled at once: enough that threads seldom wait for the GIL
+AT_ONCE = 8  # steps that a thread does alone: fewer barriers in exchange for a wider halo
 
 
 def smooth_inplace(
@@ -59,7 +59,7 @@ def smooth_inplace(
     keep = np.full(last - first, np.float32(1 / weights[0] - 2 * sum(weights) / weights[0]))
     absent = np.flatnonzero(~there)
     for weight, shift in axes:
-        for step in (-shift, shift):  # a cell keeps what it would give a neighbour that is not there
+        for step in (-shift, shift):  # a cell keeps what it would give to a missing neighbour
             cells = absent + step - first
             keep[cells[(cells >= 0) & (cells < last - first)]] += np.float32(weight / weights[0])
     u, known = field.ravel(), data.ravel()
@@ -85,7 +85,7 @@ def smooth_inplace(
 
     u = _march(u, smoothing.steps, margin, thread_count(threads), advance)
     result: NDArray[np.float32] = u.reshape(field.shape)[interior] * np.float32(1 / scale)
-    np.clip(result, -1, 1, out=result)  # of which rounding leaves the last bit: what comes out is a phase field again
+    np.clip(result, -1, 1, out=result)  # rounding can exceed it by the last bit; the result must be a phase field again
     return result if mask is None else np.where(mask, result, start).astype(np.float32)
 
 
@@ -96,11 +96,11 @@ def _march(
     threads: int,
     advance: Callable[[Flat, Flat, int, int, int, tuple[Flat, Flat]], None],
 ) -> Flat:
-    """Return `u` after `steps`, the cells shared out to threads.
+    """Return `u` after `steps`, with the cells divided among threads.
 
-    A thread takes its cells and a halo of `count` times `margin` cells on both sides, and does that many steps
-    alone: what is wrong at the edge of the halo comes nearer by one margin a step and never reaches its own
-    cells. Then all meet.
+    A thread takes its cells plus a halo of `count` times `margin` cells on both sides, and does that many steps
+    alone: the error at the edge of the halo moves one margin closer with each step and never reaches the thread's own
+    cells. Then all threads synchronise.
     """
     first, last = margin, len(u) - margin
     threads = max(1, min(threads, (last - first) // (BLOCK // 2)))

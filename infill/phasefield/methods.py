@@ -1,4 +1,4 @@
-"""`smooth`: one door to all kernels."""
+"""`smooth`: a single entry point to all kernels."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Method = Literal["auto", "numpy", "inplace", "dense", "sparse"]
 Kernel = Callable[..., NDArray[np.floating]]
 COMPILED = ("dense", "sparse")
 COMPILED_AXES = 3
-WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, as long as compiling takes
+WORTH_COMPILING = 2e8  # cells times steps: some seconds without a compiler, about as long as compiling takes
 
 
 def _dense(*args: Any, **options: Any) -> NDArray[np.floating]:  # noqa: ANN401 - hands on
@@ -53,23 +53,23 @@ def smooth(
     Parameters
     ----------
     f : (...) array in [-1, 1], or bool
-        The data, in any number of dimensions: +1 solid, -1 void, grey between; of booleans True is
-        solid. It holds the result by the fidelity term; it is not changed.
+        The data, in any number of dimensions: +1 solid, -1 void, grey between; for booleans, True is
+        solid. The fidelity term pulls the result towards the data, which are not changed.
     smoothing : Smoothing
         Steps, fidelity, interface width and time step, in units of cells.
     spacing : float or one float per axis
         Cell size. Only the ratios matter: axes are weighted by (h_min / h_axis)^2.
     initial : (...) array in [-1, 1], optional
-        The field to start from; the data if left out.
+        The field to start from; by default, the data.
     mask : (...) bool, optional
-        The domain. No flux crosses its edge; cells outside keep what they start with.
+        The domain. No flux crosses its boundary; cells outside keep their initial values.
     method : {"auto", "numpy", "inplace", "dense", "sparse"}
-        "numpy" is the specification in float64; the others are float32, the same to 2e-5.
+        "numpy" is the specification in float64; the others work in float32 and agree with it to 2e-5.
         "inplace" needs no compiler. "dense" and "sparse" take up to three axes; they are compiled when
-        first used, some seconds, which the log "infill" tells of, and kept on disk. "sparse" leaves out what
-        cannot move, and gives the bits of "dense". "auto" takes "inplace" for two axes and for little work;
-        in three axes, for more than 2e8 cells times steps, "sparse" for whole numbers and booleans and
-        "dense" for grey data.
+        first used, which takes a few seconds and is reported to the log "infill", and kept on disk. "sparse"
+        leaves out what cannot move, and its result is bit-identical to that of "dense". "auto" chooses "inplace"
+        for two axes and for little work; in three axes, for more than 2e8 cells times steps, it chooses "sparse"
+        for whole numbers and booleans and "dense" for grey data.
 
     Returns
     -------
@@ -78,12 +78,12 @@ def smooth(
     Raises
     ------
     ParameterError
-        For data out of [-1, 1], shapes that differ, or a time step over the stability limit.
+        For data outside [-1, 1], shapes that differ, or a time step above the stability limit.
 
     Notes
     -----
-    Source: Wang et al. 2020, Eqs. (3)-(14); zero Neumann at every edge. Walls under three cells
-    get thinner and vanish: see `Smoothing`.
+    Source: Wang et al. 2020, Eqs. (3)-(14); zero Neumann at every edge. Walls thinner than three cells
+    get even thinner and vanish: see `Smoothing`.
 
     >>> smooth(np.ones((3, 3)), Smoothing(steps=4)).tolist()[0]
     [1.0, 1.0, 1.0]

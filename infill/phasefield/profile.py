@@ -1,6 +1,6 @@
 """The profile across a surface: phi is a tanh of the distance, so artanh phi is the distance itself.
 
-Marching cubes draws straight lines between cell centres. Along a tanh they are wrong, along artanh phi they are
+Marching cubes interpolates linearly between cell centres. For a tanh that is wrong, for artanh phi it is
 right, which halves the error of the normals. Far from the surface phi is +-1 and its artanh infinite, so it is
 cut off at `steepest` and scaled to [-1, 1] there:
 
@@ -28,7 +28,7 @@ class Profile:
     Parameters
     ----------
     steepest : float
-        The phi beyond which distance is cut off.
+        The value of phi beyond which the distance is cut off.
 
     >>> round(STRAIGHT.phase_level(STRAIGHT.distance_level(0.5)), 12)
     0.5
@@ -38,19 +38,19 @@ class Profile:
 
     @cached_property
     def scale(self) -> float:
-        """Return artanh of the steepest phi: the distance that 1 stands for, in units of the tanh."""
+        """Return artanh of the steepest phi: the distance that 1 represents, in units of the tanh."""
         return math.atanh(self.steepest)
 
     def phase_level(self, level: float) -> float:
-        """Return the level of phi that a level of distance stands for."""
+        """Return the level of phi that corresponds to a level of distance."""
         return math.tanh(level * self.scale)
 
     def distance_level(self, level: float) -> float:
-        """Return the level of distance that a level of phi, within `steepest`, stands for."""
+        """Return the level of distance that corresponds to a level of phi, which must be within `steepest`."""
         return math.atanh(level) / self.scale
 
     def phase(self, distance: Field) -> Field:
-        """Return phi of distances, +-1 where they are cut off.
+        """Return phi for distances, +-1 where they are cut off.
 
         >>> REFINED.phase(np.array([-1, 0, 1], dtype=np.float32)).tolist()
         [-1.0, 0.0, 1.0]
@@ -74,5 +74,5 @@ class Profile:
         return out
 
 
-STRAIGHT = Profile(0.9999)  # of plain smoothing: nearly all of the interface
-REFINED = Profile(0.995)  # of refinement, whose gates compare distances: what is further away is +-1 alike
+STRAIGHT = Profile(0.9999)  # for plain smoothing: nearly all of the interface
+REFINED = Profile(0.995)  # for refinement, whose gates compare distances: anything further away is simply +-1

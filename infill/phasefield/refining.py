@@ -1,24 +1,24 @@
-"""Smoothing that keeps curvature, edges and thin walls: three strengths of the scheme, blended where each is right.
+"""Smoothing that keeps curvature, edges and thin walls: three strengths of the scheme, each used where it is right.
 
-One run with momentum, from phi_-1 = phi_0 = f, without fidelity:
+The scheme is run once with momentum, from phi_-1 = phi_0 = f, without fidelity:
 
     v = phi_k + b_k (phi_k - phi_k-1) + alpha Lap phi_k      b_k = 0 at first, then 1/2
     phi_k+1 = v / sqrt(E + (1 - E) v v)
 
-Momentum reaches as far as about twice as many plain steps. Of a wave exp(i q x) step k leaves the share T_k(x),
-x = alpha q², a polynomial with T_0 = 1 and T_k+1 = (1 - x) T_k + b_k (T_k - T_k-1). A sum of a_i T_k_i of which
-the sum of the a_i is 1 and the lowest powers of x vanish lets long waves through untouched - so there is no
+Momentum reaches as far as about twice as many plain steps. Of a wave exp(i q x), step k leaves the share T_k(x),
+x = alpha q², a polynomial with T_0 = 1 and T_k+1 = (1 - x) T_k + b_k (T_k - T_k-1). A sum of a_i T_k_i in which
+the a_i add up to 1 and the lowest powers of x cancel lets long waves through untouched - so there is no
 shrinkage - and still damps the short ones, the staircase:
 
     P_0 of steps (5, 10)    P_1 of steps (15, 25, 35)    P_2 of steps (35, 65)
 
-the mildest, which keeps thin walls, the middle one, which keeps edges, and the strong one, for smooth surfaces.
-Each becomes a distance from the surface, and two gates choose between them: see `gate`.
+P_0 is the mildest and keeps thin walls, P_1 is in the middle and keeps edges, and P_2 is strong, for smooth surfaces.
+Each is turned into a distance from the surface, and two gates choose between them: see `gate`.
 
-What to expect, cells rms from the truth, after plain smoothing to the volume and refined: a box of 120 x 84 x 60
-with edges of radius 8: 0.165, 0.031; a sphere of radius 80: 0.029, 0.021, but one of radius 26: 0.030, 0.043, for an
-even shift is all that the plain scheme does to it, and the level takes that back. Walls 3 cells thick stay whole
-after 30 steps. Noise in the skin goes as it does in plain smoothing; specks that plain smoothing wipes out stay.
+What to expect, in cells rms from the true surface, after plain smoothing to the volume and after refinement: a box of
+120 x 84 x 60 with edges of radius 8: 0.165, 0.031; a sphere of radius 80: 0.029, 0.021, but one of radius 26: 0.030,
+0.043, because all the plain scheme does to it is an even shift, which the level undoes. Walls 3 cells thick stay whole
+after 30 steps. Noise in the surface is removed as in plain smoothing; specks that plain smoothing wipes out remain.
 
 This is the package's own extension of the scheme of Wang et al., Computer-Aided Design 120 (2020) 102804.
 """
@@ -42,26 +42,26 @@ from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
 from infill.phasefield.profile import REFINED
 from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
 
-# The steps of which something is kept, in quarters of `Smoothing.steps`, and which of those go into the mild, the
-# middle and the strong filter: two snapshots cancel x, three cancel x² too. Filters share snapshots, and all of them
-# one run.
+# The steps at which a snapshot is taken, in quarters of `Smoothing.steps`, and which of them go into the mild, the
+# middle and the strong filter: two snapshots cancel x, three cancel x² as well. Filters share snapshots, and all of
+# them share one run.
 QUARTERS = (1, 2, 3, 5, 7, 13)
 FILTERS = ((0, 1), (2, 3, 4), (4, 5))
-MOMENTUM = 0.5  # after half of `Smoothing.steps`: a step then counts 1 / (1 - 1/2), twice, for long waves
-FEWEST = 4  # steps: with fewer, two of the six would be the same
-TINY = 1e-6  # of a weight: where there is no surface near, the means are 0
+MOMENTUM = 0.5  # after half of `Smoothing.steps`: for long waves, a step then counts 1 / (1 - 1/2), twice as much
+FEWEST = 4  # steps: with fewer, two of the six would coincide
+TINY = 1e-6  # of a weight: where no surface is near, the means are 0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Gate:
-    """When to take the milder of two fields.
+    """When to use the milder of two fields.
 
     Parameters
     ----------
     size : int
         Standard deviation of the averages, cells; 2 or 4.
     signed, unsigned : float
-        Mean difference, and root of the mean squared difference, at which it is half taken, cells.
+        Mean difference, and root mean square difference, at which it is half used, cells.
     """
 
     size: int
@@ -69,8 +69,8 @@ class Gate:
     unsigned: float
 
 
-# Both limits lie above what a staircase makes of them and below what a lost shape does. Measured at 20 steps, in cells,
-# 95 % of the surface below, the mean difference and the root of the mean square:
+# Both limits lie above what a staircase causes and below what a lost shape causes. Measured at 20 steps, in cells;
+# 95 % of the surface is below these values of the mean difference and the root mean square:
 #
 #                               outer, of 4 cells       inner, of 2 cells
 #   planes, in five directions  0.05, 0.16              0.06, 0.40        what is left of the staircase: stay
@@ -84,14 +84,14 @@ INNER = Gate(size=2, signed=0.3, unsigned=0.7)  # from there to the mild one
 
 @dataclass(frozen=True, kw_only=True)
 class Schedule:
-    """How many steps are done, which of them are kept, and what for.
+    """How many steps are done, which of them are kept, and for what.
 
     Parameters
     ----------
     plain : int
         Steps without momentum.
     weights : per filter, dict of int to float
-        The share of the field after so many steps.
+        The share of the field after each number of steps.
     """
 
     plain: int
@@ -99,12 +99,12 @@ class Schedule:
 
     @classmethod
     def of(cls, steps: int) -> Schedule:
-        """Return the schedule that goes with so many plain steps.
+        """Return the schedule that corresponds to a number of plain steps.
 
         Raises
         ------
         ParameterError
-            If there are fewer than 4.
+            If there are fewer than 4 steps.
 
         >>> schedule = Schedule.of(20)
         >>> schedule.last, [list(weights) for weights in schedule.weights]
@@ -123,11 +123,11 @@ class Schedule:
 
     @property
     def last(self) -> int:
-        """Steps in all."""
+        """Total number of steps."""
         return max(max(weights) for weights in self.weights)
 
     def momentum(self, step: int) -> float:
-        """Return b of a step, the first of which is 0."""
+        """Return b of a step, counting from 0."""
         return 0.0 if step < self.plain else MOMENTUM
 
 
@@ -144,7 +144,7 @@ def _shares(steps: int, plain: int, powers: int) -> NDArray[np.float64]:
 
 
 def _flat(shares: dict[int, NDArray[np.float64]]) -> dict[int, float]:
-    """Return the weights with which the sum of polynomials is 1 + O(x^n), n the number of them."""
+    """Return the weights for which the sum of polynomials is 1 + O(x^n), n being their number."""
     powers = np.stack(list(shares.values()), axis=1)
     size = np.abs(powers).max(axis=1)
     wanted = np.zeros(len(powers))
@@ -161,17 +161,17 @@ def refine_bricks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SparseField:
-    """Return a refined distance from the surface in bricks, 0 there, +-1 from about 4 cells away on.
+    """Return a refined distance from the surface in bricks: 0 on the surface, +-1 from about 4 cells away.
 
     Parameters
     ----------
     f : up to three axes
         bool, True solid; or numbers in [-1, 1].
     smoothing : Smoothing
-        `steps` sets how far it reaches, as plain smoothing of so many steps would, of which 65 / 20 as many are
-        done. Fidelity is left out: the gates do its work.
+        `steps` sets how far it reaches: as far as plain smoothing with that many steps, of which 65 / 20 times as many
+        are done. Fidelity is ignored: the gates take its place.
     spacing : float or one per axis, mm
-        Averages are taken over cells, distances in the smallest side of one.
+        Averages are taken over cells, and distances measured in units of the shortest cell side.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     progress : callable, optional
@@ -180,7 +180,7 @@ def refine_bricks(
     Returns
     -------
     SparseField
-        Of distances, artanh phi / artanh 0.995, not of phi: `profile.REFINED` makes phi of them.
+        Of distances, artanh phi / artanh 0.995, not of phi: `profile.REFINED` converts them to phi.
 
     Raises
     ------
@@ -190,8 +190,8 @@ def refine_bricks(
     Notes
     -----
     The averages of the gates are taken on a coarse lattice within the bricks, with the variance of the Gaussians of
-    `refine_reference`; so results differ from it by about 0.01 cells rms where the data are rough, and half
-    as much between one placement of the data on the lattice and another. While it works, bricks take about three
+    `refine_reference`; results therefore differ from it by about 0.01 cells rms where the data are rough, and half
+    as much between one placement of the data on the lattice and another. While it runs, the bricks take about three
     times the memory of `infill.phasefield.sparse.smooth_bricks`.
     """
     threads = thread_count(threads)
@@ -210,7 +210,7 @@ def filtered_bricks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[SparseField, SparseField, SparseField]:
-    """Return P_0, P_1 and P_2, which share all but their values; see `refine_bricks` for the parameters."""
+    """Return P_0, P_1 and P_2, which share everything but their values; see `refine_bricks` for the parameters."""
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
     numbers = numbers_of(smoothing, spacing, f.ndim)
@@ -241,19 +241,19 @@ def filtered_bricks(
 
 
 class _Sum:
-    """A weighted sum of the fields after some steps, for the bricks there are."""
+    """A weighted sum of the fields after certain steps, for the bricks that exist so far."""
 
     def __init__(self, weights: dict[int, float]) -> None:
         self.weights, self.so_far = weights, 0.0
         self.total: Field = np.empty((0, CELLS), dtype=np.float32)
 
     def add(self, bricks: Bricks, step: int) -> None:
-        """Add the field, if the sum takes that of this step."""
+        """Add the field if the sum includes this step."""
         if step in self.weights:
             self._add(bricks, self.weights[step])
 
     def whole(self, bricks: Bricks) -> Field:
-        """Return the sum for all bricks, those kept later on too."""
+        """Return the sum for all bricks, including those that were added later."""
         if len(self.total) < bricks.count:
             self._add(bricks, 0.0)
         return self.total
@@ -279,7 +279,7 @@ class _Sum:
 
 
 def _grown(before: Field, known: int, bricks: Bricks) -> Field:
-    """Return the last but one field with the bricks that came in: until now those were as their data."""
+    """Return the last but one field extended by the new bricks: until now, those were equal to their data."""
     if len(before) < bricks.count:
         larger = np.empty((int(MORE * bricks.count), CELLS), dtype=np.float32)
         larger[:known] = before[:known]
@@ -289,7 +289,7 @@ def _grown(before: Field, known: int, bricks: Bricks) -> Field:
 
 
 def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> None:
-    """Do one step in place; `before` becomes the field as it was."""
+    """Do one step in place; `before` receives the field as it was."""
     in_threads(
         kernels.step,
         bricks.phi,
@@ -312,7 +312,7 @@ def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> N
 
 
 def _unit(smoothing: Smoothing) -> float:
-    """Return the distance that +-1 stands for, cells."""
+    """Return the distance that +-1 represents, cells."""
     return REFINED.scale * smoothing.interface / STEEPNESS
 
 
@@ -342,7 +342,7 @@ def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: i
 def filtered_reference(
     f: NDArray[np.generic], smoothing: Smoothing, *, spacing: float | tuple[float, ...] = 1.0
 ) -> tuple[NDArray[np.float64], ...]:
-    """Return P_0, P_1 and P_2 in float64: what `filtered_bricks` is tested against."""
+    """Return P_0, P_1 and P_2 in float64: the reference that `filtered_bricks` is tested against."""
     schedule = Schedule.of(smoothing.steps)
     phi = f.astype(np.float64)
     weights, decay = smoothing.weights(spacing_of(spacing, phi.ndim)), smoothing.decay
@@ -358,12 +358,12 @@ def filtered_reference(
 def gate(
     low: NDArray[np.float64], high: NDArray[np.float64], weight: NDArray[np.float64], limits: Gate
 ) -> NDArray[np.float64]:
-    """Return low + g r, r = high - low, with g near 1 where the milder field `high` is to be believed.
+    """Return low + g r, r = high - low, with g near 1 where the milder field `high` is to be trusted.
 
         g = max(<r>^4 / (<r>^4 + signed^4), <r²>^4 / (<r²>^4 + unsigned^8))
 
     <.> is the average over a Gaussian of `size` cells, weighted by nearness to the surface. A staircase averages
-    out in <r>, and its <r²> is small; a rounded edge or a wall that melts away does neither.
+    out in <r>, and its <r²> is small; neither is true of a rounded edge or a wall that melts away.
 
     Parameters
     ----------

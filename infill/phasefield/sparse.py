@@ -1,12 +1,12 @@
-"""The compiled scheme on bricks around the surface only; everywhere else nothing moves.
+"""The compiled scheme on bricks around the surface only; nothing moves anywhere else.
 
 Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.kernels.dense`). So
-a brick in which that holds need not be kept, and a step touches a brick only once a neighbour's face has another
-value. The result is that of the dense kernel to the last bit, and cost and memory grow with the surface.
+a brick in which that holds need not be kept, and a step touches a brick only once a neighbour's face has a different
+value. The result equals that of the dense kernel to the last bit, and cost and memory grow with the surface.
 
-The bricks lie on a lattice that begins one cell before the grid and ends at least one cell behind it: there the
-surface of what touches the edge of the grid will close. Those outer cells repeat the value beside them, which is
-the zero Neumann edge.
+The bricks lie on a lattice that begins one cell before the grid and ends at least one cell beyond it: this is where
+the surface closes when the solid touches the edge of the grid. The extra cells repeat the value next to them, which
+is the zero Neumann boundary condition.
 """
 
 from __future__ import annotations
@@ -26,26 +26,26 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
 
-# Bricks to make room for over those there are: at first as for one more layer on both sides of the surface, beyond
-# which it takes 8 steps to get; then by half again, so that all copies together are at most three times the last one.
-# Room that is not used costs no memory until it is written to.
+# Room to reserve for bricks, relative to those there are: at first enough for one more layer on both sides of the
+# surface, to get beyond which takes 8 steps; later half as much again, so that all copies together are at most three
+# times the last one. Room that is not used costs no memory until it is written to.
 ROOM, MORE = 3.0, 1.5
 
 
 @dataclass(frozen=True, kw_only=True)
 class SparseField:
-    """A phase field of which only the bricks around the surface are kept.
+    """A phase field that keeps only the bricks around the surface.
 
     Parameters
     ----------
     shape : (n0, n1, n2)
         Cells of the grid.
     slots : (m0, m1, m2) int32
-        The lattice of bricks: the number of a brick that is kept, else `VOID_BRICK`, `SOLID_BRICK` or `OUTSIDE`.
+        The lattice of bricks: the number of a kept brick, else `VOID_BRICK`, `SOLID_BRICK` or `OUTSIDE`.
     where : (n, 3) int32
-        Place on the lattice of each brick that is kept.
+        Place on the lattice of each kept brick.
     values : (n, 8, 8, 16) float32
-        Its cells; cell 0 of brick 0 lies one cell before the grid.
+        The cells of the bricks; cell 0 of brick 0 lies one cell before the grid.
     data : (n, 8, 8, 16) int8 or float32
         What the cells were smoothed from.
     """
@@ -74,7 +74,7 @@ def smooth_sparse(
 ) -> Field:
     """Return what `infill.phasefield.dense.smooth_dense` returns, to the last bit, for up to three axes.
 
-    Grey data are all surface: there it does what the dense kernel does, with more overhead.
+    Grey data have surface everywhere: there it does what the dense kernel does, with more overhead.
     """
     return smooth_bricks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
@@ -95,7 +95,7 @@ def smooth_bricks(
     Parameters
     ----------
     f : up to three axes
-        bool, True solid; or numbers in [-1, 1]. No copy is made of booleans and of int8 without zeros.
+        bool, True solid; or numbers in [-1, 1]. Booleans, and int8 without zeros, are not copied.
     smoothing, spacing, initial, mask
         As in `infill.smooth`.
     threads : int, optional
@@ -129,7 +129,7 @@ def smooth_bricks(
 
 
 def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
-    """Return the field as the kernels take it, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
+    """Return the field as the kernels expect it, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
     if field.dtype == bool:
         data: Data = field.view(np.int8)
     elif np.issubdtype(field.dtype, np.integer):
@@ -137,13 +137,13 @@ def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[n
     else:
         data = field.astype(np.float32, copy=False)
     data = data.view()
-    data.flags.writeable = False  # compiled once, whether the array may be written to or not
+    data.flags.writeable = False  # compiled once, whether or not the array is writable
     lattice = tuple(math.ceil((count + 2) / size) for count, size in zip(data.shape, BRICK, strict=True))
     state = np.empty(lattice, dtype=np.int8)
     zeros = np.zeros(lattice[:2], dtype=bool)
     if data.dtype == np.int8:
         in_threads(transfer_kernels.fill_states, data, state, zeros, threads=threads)
-        if zeros.any() and field.dtype != bool:  # a whole number between void and solid: that is grey
+        if zeros.any() and field.dtype != bool:  # whole numbers between void and solid: that is grey
             return states_of(data.astype(np.float32), threads)
     else:
         in_threads(transfer_kernels.fill_grey_states, data, state, threads=threads)
@@ -151,7 +151,7 @@ def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[n
 
 
 class Bricks:
-    """The bricks at work: their cells, their data, and copies of their faces before and after a step."""
+    """The bricks in use: their cells, their data, and copies of their faces before and after a step."""
 
     def __init__(self, slots: NDArray[np.int32], where: NDArray[np.int32], data: Data, threads: int) -> None:
         self.slots, self.count, self.shape, self.threads = slots, len(where), data.shape, threads
@@ -161,7 +161,7 @@ class Bricks:
         self.held: Data = np.empty((0, CELLS), dtype=data.dtype)
         self.faces, self.next_faces = (np.empty((0, FACES), dtype=np.float32) for _ in range(2))
         self.flat, self.next_flat = (np.empty((0, 6), dtype=np.int8) for _ in range(2))
-        self.uniform = np.empty(0, dtype=np.int8)  # the value of a brick in which nothing moved yet, else 0
+        self.uniform = np.empty(0, dtype=np.int8)  # the value of a brick in which nothing has moved yet, else 0
         self.beside = np.empty((0, 6), dtype=np.int32)
         self._grow(room)
         self.uniform[: self.count] = 0
@@ -169,7 +169,7 @@ class Bricks:
 
     @classmethod
     def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> Bricks:
-        """Return room for the bricks that are mixed, or beside one of the other phase."""
+        """Return room for the bricks that are mixed or next to one of the other phase."""
         kept = state == MIXED
         for axis in range(3):
             low, high = (
@@ -187,7 +187,7 @@ class Bricks:
         return cls(slots, where, data, threads)
 
     def gather(self, start: Data, data: Data) -> None:
-        """Take over start and data, which may be the same array."""
+        """Copy the cells of start and data, which may be the same array."""
         self._take(data, self.held)
         if start is data:
             self.phi[: self.count] = self.held[: self.count]
@@ -200,7 +200,7 @@ class Bricks:
         in_threads(transfer_kernels.gather, whole, self.where, bricks, self.count, level, threads=self.threads)
 
     def activate(self) -> None:
-        """Begin to keep the bricks beside faces of another value."""
+        """Start keeping the bricks next to faces of a different value."""
         found = np.empty((6 * self.count, 3), dtype=np.int32)
         wanted = found[: kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count, found)]
         if len(wanted) == 0:
@@ -248,7 +248,7 @@ class Bricks:
         self.flat, self.next_flat = self.next_flat, self.flat
 
     def _grow(self, room: int) -> None:
-        """Make room; what is not used of it costs no memory."""
+        """Make room; the part that is not used costs no memory."""
         names = ("phi", "held", "faces", "next_faces", "flat", "next_flat", "uniform", "beside", "where")
         for name in names:
             old = getattr(self, name)

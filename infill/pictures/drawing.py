@@ -1,4 +1,4 @@
-"""A pattern as a drawing: its lines at height 0 in the default block, as pixels or as a text."""
+"""A drawing of a pattern: its lines at height 0 in the default block, as pixels or as text."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from patterns.linework import sample
 from patterns.protocol import lines_of
 
 SIZE = 60.0  # mm: the default block of make
-LINE_WIDTH = 0.45  # mm: its default line
+LINE_WIDTH = 0.45  # mm: the default line width of make
 PIXELS = 600
 SUPERSAMPLING = 3
 INK, PAPER = (40, 40, 40), (255, 255, 255)
 BRAILLE_COLUMNS, PLAIN_COLUMNS = 40, 60
-# A character of braille has 2 x 4 dots; these are their bits, in columns from above.
+# A braille character has 2 x 4 dots; these are their bits, column by column from the top.
 BRAILLE = 0x2800
 DOT_BITS = np.array([[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]])
 
@@ -43,7 +43,7 @@ def write_drawing(pattern: Pattern, file: BinaryIO) -> None:
 
 
 def text_drawing(pattern: Pattern, *, braille: bool = True) -> str:
-    """Return the lines of a pattern as a square of text: dots of braille, or larger, # where there is a line."""
+    """Return the lines of a pattern as a square of text: braille dots, or larger, a # wherever there is a line."""
     columns = BRAILLE_COLUMNS if braille else PLAIN_COLUMNS
     rows = columns // 2  # a character is about twice as high as wide
     across, down = (2, 4) if braille else (1, 1)
@@ -55,7 +55,7 @@ def text_drawing(pattern: Pattern, *, braille: bool = True) -> str:
 
 
 def _dots(lines: shapely.MultiLineString, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Return which dots [x from the left, y from above] a line runs through."""
+    """Return which dots [x from the left, y from the top] a line runs through."""
     points = sample(lines, SIZE / max(shape) / 2)
     place = ((points * (1, -1) / SIZE + 0.5) * shape).astype(int).clip(0, np.array(shape) - 1)
     dots = np.zeros(shape, dtype=bool)

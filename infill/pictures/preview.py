@@ -1,4 +1,4 @@
-"""A picture of a result: the four stages of `make`, or what `smooth` was given and what it made, side by side."""
+"""A picture of a result: the four stages of `make`, or the input and output of `smooth`, side by side."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ SUFFIXES = (".png",)
 
 
 def check_preview(path: str | os.PathLike[str]) -> Path:
-    """Return the path, or raise FormatError if it is not a picture we can write."""
+    """Return the path, or raise FormatError if it does not name a picture format we can write."""
     target = Path(path)
     if target.suffix.lower() not in SUFFIXES:
         raise FormatError(f"a preview cannot be written as {target.name!r}; use a name that ends in {SUFFIXES[0]}")
@@ -100,7 +100,7 @@ def _four_stages(stages: MakeStages, result: Result[Any]) -> Image.Image:
 
 
 def _sheet(panels: Mapping[str, Image.Image], facts: str) -> Image.Image:
-    """Return panels side by side, each with its caption, and a line below."""
+    """Return panels side by side, each with its caption, and a line of text below."""
     sheet = Image.new("RGB", (len(panels) * (PANEL + MARGIN) + MARGIN, PANEL + 2 * CAPTION + MARGIN), BACKGROUND)
     draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(16)
     for i, (caption, panel) in enumerate(panels.items()):

@@ -1,6 +1,6 @@
 """A shaded picture of a mesh, without a display, a GPU or a plotting library.
 
-Every triangle is spread over the pixels of its box, many triangles at once; the nearest wins.
+Every triangle is spread over the pixels of its bounding box, many triangles at once; the nearest one wins.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ def render(
     Parameters
     ----------
     surface : Surface
-        Parallel projection; faces are lit from the upper left and from wherever they face.
+        Drawn in parallel projection; faces are lit from the upper left and by ambient light.
     width, height : int
         Pixels.
     azimuth, elevation : float
-        Where the eye is, seen from the middle of the mesh, in radians: around z from +x, and up.
+        Position of the eye, seen from the middle of the mesh, in radians: around z from +x, and up.
     window : (left, right, bottom, top), optional
-        What the frame shows, in the lengths of the mesh along the first two of `directions`; the mesh fitted to the
-        frame if left out.
+        What the frame shows, in units of the mesh along the first two of `directions`; by default the mesh is fitted to
+        the frame.
     """
     columns, rows = width * SAMPLES, height * SAMPLES
     right, up, eye = directions(azimuth, elevation)
@@ -76,7 +76,7 @@ def render(
     picture = np.full(rows * columns, -1.0, dtype=np.float32)
     depth = np.full(rows * columns, -np.inf, dtype=np.float32)
     for pixel, near, face in _fragments(corners[front], nearness[front], columns, rows):
-        order = np.argsort(near, kind="stable")  # of several writes to one pixel the last, the nearest, stays
+        order = np.argsort(near, kind="stable")  # of several writes to one pixel, the last one, the nearest, remains
         pixel, near, face = pixel[order], near[order], face[order]
         nearer = near > depth[pixel]
         depth[pixel[nearer]] = near[nearer]

@@ -1,4 +1,4 @@
-"""The first stage: enough memory, and no specks."""
+"""The first stage: check that memory suffices, and remove specks."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from infill.volume import Volume
 
 BYTES_PER_SURFACE_CELL = 600  # bricks, faces, labels and mesh, for every cell at the surface; a measured peak
-BYTES_TO_REFINE = 500  # three filtered fields and the last but one, over that
-SAMPLED = 16  # layers that are looked at to guess the surface
-FACES_PER_CROSSING = 1.5  # along two axes of three
+BYTES_TO_REFINE = 500  # three filtered fields and the last but one, on top of that
+SAMPLED = 16  # layers that are sampled to estimate the surface
+FACES_PER_CROSSING = 1.5  # along two of the three axes
 
 
 def require_room(data: Volume, request: Request) -> None:
-    """Raise MemoryLimitError if the surface will not fit into memory; its cells are guessed from some layers."""
+    """Raise MemoryLimitError if the surface will not fit into memory; its cells are estimated from a few layers."""
     values: NDArray[Any] = data.values
     steps = max(1, values.shape[0] // SAMPLED)
     layers = values[::steps] > 0
@@ -37,7 +37,7 @@ def require_room(data: Volume, request: Request) -> None:
 
 
 def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:
-    """Return the data without components up to the volume asked for, and how many those were.
+    """Return the data without components up to the requested volume, and how many were removed.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The third stage: the surface at the level where every component has the volume it has in the data."""
+"""The third stage: the surface at the level at which every component has the volume it has in the data."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Surfaced:
-    """A surface, what it was found from, and its levels in the words of phi.
+    """A surface, what it was found from, and its levels in terms of phi.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ class Surfaced:
     before : Components
         Of the data.
     targets : (b,) float64
-        Volume of each, mm³.
+        Volume of each component, mm³.
     common : float
-        Level of phi of all that has none of its own.
+        Level of phi of everything that has no level of its own.
     levels : (b,) float64
         Level of phi of each component.
     """
@@ -42,14 +42,14 @@ class Surfaced:
 
     @property
     def volume(self) -> float:
-        """Volume that the surface encloses, mm³."""
+        """Volume enclosed by the surface, mm³."""
         return float(self.found.shells.volume.sum())
 
 
 def levelled(field: SparseField, request: Request, *, spacing: tuple[float, ...]) -> Surfaced:
-    """Return the surface of a smoothed field: at the level of the volume, or at the one asked for.
+    """Return the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
 
-    A field that is straightened on the way gives up its values.
+    If the field is straightened along the way, its values are overwritten.
     """
     threads, level = request.threads, request.level
     if isinstance(level, str):

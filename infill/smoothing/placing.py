@@ -1,4 +1,4 @@
-"""A result beside the data it was made from: where it lies, what it looked like before, and how far it moved."""
+"""A result and the data it was made from: where it lies, what it looked like before, and how far it moved."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ if TYPE_CHECKING:
     from infill.smoothing.request import Request
     from infill.smoothing.stages import SmoothStages
 
-COMPARED = 5_000  # vertices of which the distance is measured
-SIMPLER = 0.05  # of the volume: what simplifying may change
+COMPARED = 5_000  # vertices whose distance is measured
+SIMPLER = 0.05  # of the volume: how much simplification may change
 
 
 def placed(surface: Surface, data: Volume) -> Surface:
-    """Return the surface where the volume lies in space."""
+    """Return the surface placed in space where the volume lies."""
     return surface.moved(data.place(surface.vertices), space=data.space, mirrored=data.mirrored)
 
 
 def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] | None]:
-    """Return the surface with as few triangles as asked for, and what that cost; None if nothing was asked for.
+    """Return the surface simplified as requested, and what that cost; None if no simplification was requested.
 
     Raises
     ------
@@ -61,14 +61,14 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
 
 
 def staircase(stages: SmoothStages) -> Surface:
-    """Return the surface of the data that a result was smoothed from, in the same place."""
+    """Return the surface of the data that a result was smoothed from, in the same place as the result."""
     return raw_surface(stages.levelled.against, stages.data, None)
 
 
 def field_volume(result: Result[SmoothStages]) -> Volume:
-    """Return the field of a result as a whole, less its level, so that the surface lies at 0: float32, [x, y, z].
+    """Return the whole field of a result, minus its level, so that the surface lies at 0: float32, [x, y, z].
 
-    Of a surface at the level of the volume it is the distance from the surface, +-1 some cells away from it.
+    For a surface at the level that keeps the volume, it is the distance from the surface, +-1 some cells away from it.
     """
     data, found = result.stages.data, result.stages.levelled
     require_memory(4 * data.values.size, None, "write a mesh instead of the field, or use larger voxels")
@@ -79,7 +79,7 @@ def field_volume(result: Result[SmoothStages]) -> Volume:
 
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
-    """Return the surface of the data in bricks, placed in space."""
+    """Return the surface of the data in the bricks, placed in space."""
     grey = replace(field, values=field.data.astype(np.float32))
     return placed(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
 
@@ -87,7 +87,7 @@ def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surfac
 def moved(
     surface: Surface, field: SparseField, data: Volume, reference: Surface | None, threads: int | None
 ) -> dict[str, Any]:
-    """Return how far the voxels and the result lie from the mesh they were made from, or from one another, mm."""
+    """Return how far the voxels and the result lie from the mesh they were made from, or from each other, mm."""
     raw = raw_surface(field, data, threads)
     if reference is None:
         return {"from": "voxels", "result": summary(distances(some(surface.vertices), raw, threads=threads))}
@@ -99,12 +99,12 @@ def moved(
 
 
 def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return as many of the vertices as are compared, spread evenly over them."""
+    """Return the vertices that are compared, spread evenly over all of them."""
     return vertices[:: max(1, len(vertices) // COMPARED)]
 
 
 def summary(distance: NDArray[np.float64]) -> dict[str, float]:
-    """Return mean, root mean square and largest of distances."""
+    """Return the mean, root mean square and maximum of the distances."""
     return {
         "mean": float(distance.mean()),
         "rms": float(np.sqrt((distance**2).mean())),

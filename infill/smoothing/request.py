@@ -1,4 +1,4 @@
-"""What `smooth_volume`, `smooth_mesh` and `smooth_points` take alike, checked."""
+"""The options that `smooth_volume`, `smooth_mesh` and `smooth_points` have in common, checked."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from infill.volume import Volume
 
 LevelMethod = Literal["volume"] | float
-HIGHEST, HIGHEST_REFINED = 0.999, 0.99  # of a fixed level of phi: beyond, there is no profile to find it on
+HIGHEST, HIGHEST_REFINED = 0.999, 0.99  # of a fixed level of phi; beyond these, there is no profile to find it on
 
 
 class Options(TypedDict, total=False):
-    """What the three functions take alike; see `infill.smooth_volume`."""
+    """The options that the three functions have in common; see `infill.smooth_volume`."""
 
     smoothing: Smoothing
     refine: bool
@@ -38,7 +38,7 @@ class Options(TypedDict, total=False):
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """The same, checked, with defaults.
+    """The same options, checked, with defaults.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class Request:
     Raises
     ------
     ParameterError
-        For a level that is neither "volume" nor a number in its range, and a despeckling volume below 0.
+        For a level that is neither "volume" nor a number in its range, or a despeckling volume below 0.
     """
 
     smoothing: Smoothing = Smoothing(steps=20)  # noqa: RUF009 - frozen
@@ -73,11 +73,11 @@ class Request:
 
     @property
     def profile(self) -> Profile:
-        """The profile on which the level of the volume is found."""
+        """The profile on which the level that keeps the volume is found."""
         return REFINED if self.refine else STRAIGHT
 
     def facts(self) -> dict[str, Any]:
-        """Return what was asked for, as plain numbers; refinement uses no fidelity."""
+        """Return the request as plain values; refinement does not use fidelity."""
         smoothing = self.smoothing
         return {
             "steps": smoothing.steps,
@@ -94,20 +94,20 @@ class Request:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Given:
-    """What is solid, and what is known of where it came from.
+    """What is solid, and what is known about its origin.
 
     Parameters
     ----------
     data : Volume
         Booleans, or a phase field.
     facts : mapping
-        For the report: `source`, and what else there is to say.
+        For the report: `source`, and anything else worth reporting.
     reference : Surface, optional
-        The mesh that the volume was made from, closed, mm.
+        The closed mesh that the volume was made from, mm.
     volume : float, optional
-        What that mesh encloses, mm³.
+        The volume that this mesh encloses, mm³.
     overlapping : bool
-        Whether parts of the mesh may overlap: then its volume counts some places twice.
+        Whether parts of the mesh may overlap: its volume then counts some places twice.
     """
 
     data: Volume

@@ -2,13 +2,13 @@
 
     data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
-What is solid is found by the three functions, each its own way. The rest is one story in five stages, `_smooth`:
+Each of the three functions finds what is solid in its own way. The rest is the same, five stages in `_smooth`:
 
     cleaned     the data without specks
     smoothed    the field in bricks
-    levelled    the surface at the level where every component has its volume
-    judged      what smoothing did to components, cavities, tunnels and walls, and what of that is a problem
-    delivered   the surface in its place, simplified if asked, and how far it lies from the data
+    levelled    the surface at the level at which every component has its volume
+    judged      what smoothing did to components, cavities, tunnels and walls, and which of it is a problem
+    delivered   the surface in its place, simplified if requested, and how far it lies from the data
 """
 
 from __future__ import annotations
@@ -46,9 +46,9 @@ if TYPE_CHECKING:
 
     from infill.phasefield.sparse import SparseField
 
-MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid is not felt
-OFF = 0.01  # of the volume: what the level of the volume may miss, by specks that are gone
-ROUGH = 0.03  # of the volume: what voxels may hold more or less than a mesh
+MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
+OFF = 0.01  # of the volume: how far the volume may be off, because of specks that are gone
+ROUGH = 0.03  # of the volume: how much more or less than a mesh its voxels may hold
 ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
 ADVICE_REFINED = "use finer voxels or fewer steps (or --allow-broken, to have it anyway)"
 
@@ -63,58 +63,60 @@ def smooth_volume(
     grey: bool = False,
     **options: Unpack[Options],
 ) -> Result[SmoothStages]:
-    """Return the smooth surface of what is solid in a volume.
+    """Return a smooth surface around what is solid in a volume.
 
     Parameters
     ----------
     volume : (nx, ny, nz) array or Volume
         Booleans, a mask, a phase field in [-1, 1], labels or grey values, [x, y, z].
     spacing : float or (hx, hy, hz)
-        Cell size, mm; of an array.
+        Cell size, mm; only for an array.
     origin : (x, y, z)
-        Lower corner of the first cell, mm; of an array.
+        Lower corner of the first cell, mm; only for an array.
     threshold : float, (low, high) or "otsu", optional
-        Solid is what has at least this value, or one in this range, or lies above the threshold by Otsu's method.
+        Solid is what has at least this value, has a value in this range, or lies above the threshold that Otsu's
+        method finds.
     label : int or tuple of int, optional
-        Solid is what has this label.
+        Solid is what has this label, or one of these labels.
     grey : bool
-        Keep the grey levels around the threshold (2): they tell where between two cells the surface lies.
+        Keep the grey levels around the threshold (2): they show where between two cells the surface lies.
     smoothing : Smoothing
-        20 steps if left out, as the paper takes for complex models; 30 for medical data.
+        By default 20 steps, which the paper uses for complex models; it uses 30 for medical data.
     refine : bool
-        Keep edges, curvature and thin walls better: see `infill.phasefield.refining`. Smoothing takes five times as
-        long, the whole twice. For clean data: specks are kept too, so despeckle. It takes 4 steps or more, and no
-        fidelity.
+        Preserve edges, curvature and thin walls better: see `infill.phasefield.refining`. Smoothing takes five times
+        as long, the whole run twice as long. Meant for clean data: specks are preserved too, so despeckle. Requires at
+        least 4 steps, and does not use fidelity.
     level : "volume" or float
         "volume" puts the surface where every component has the volume it has in the data; 0 is the paper's surface.
     despeckle : float
-        Components up to this volume are taken out first, mm³.
+        Components up to this volume are removed first, mm³.
     allow_broken : bool
         Return a result in which walls broke or components vanished, and say so in the report, instead of raising.
     tolerance, max_triangles : float (mm) and int, optional
         Simplify the mesh.
     threads, max_memory : int, optional
-        Threads to work with, and bytes to use; what there is if left out.
+        Threads and bytes to use; by default, all that are available.
     progress : callable, optional
         Called with the name of a stage and the share of the work done.
 
     Returns
     -------
     Result
-        In the place of the volume in space. The report has lengths in mm.
+        Placed in space where the volume lies. The report gives lengths in mm.
 
     Raises
     ------
     ParameterError
-        If the values do not tell what is solid, or a number is out of its range.
+        If the values do not show what is solid, or a number is out of range.
     GeometryError
         If a component or a wall more than one cell thick breaks or vanishes.
     MemoryLimitError
-        Before anything is computed.
+        If memory will not suffice; raised before anything is computed.
 
     Notes
     -----
-    Source: Wang et al. 2020, sections 2.2 and 3.3. The level is this package's own: see `infill.surfaces.levels`.
+    Source: Wang et al. 2020, sections 2.2 and 3.3. Choosing the level is this package's own addition: see
+    `infill.surfaces.levels`.
 
     >>> ball = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 100
     >>> result = smooth_volume(ball)
@@ -156,7 +158,7 @@ def smooth_mesh(
     Parameters
     ----------
     mesh : trimesh.Trimesh or Surface, mm
-        It may be open, inside out, pass through itself, or have several components.
+        It may be open, inside out, intersect itself, or have several components.
     resolution : int, optional
         Cells along the longest side; 200 if neither this nor `voxel` is given.
     voxel : float, optional
@@ -194,8 +196,8 @@ def smooth_points(
     voxel : float
         Cell size, mm.
     shell : float, optional
-        Width of the narrow volume around the points, mm (section 3.5 of the paper); the solid that the points
-        enclose if left out.
+        Width of the narrow volume around the points, mm (section 3.5 of the paper); if left out, the solid that
+        the points enclose.
     **options
         See `smooth_volume`.
     """
@@ -214,7 +216,7 @@ def smooth_points(
 
 @told_of_compiling("the smoother, about 15 s")
 def _smooth(given: Given, request: Request) -> Result[SmoothStages]:
-    """Tell the story of the five stages, which all three functions have in common."""
+    """Run the five stages, which all three functions have in common."""
     clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
         require_room(given.data, request)
@@ -272,7 +274,7 @@ def _smoothed(data: Volume, request: Request, clock: Clock) -> SparseField:
 def _judged(
     surfaced: Surfaced, given: Given, request: Request, *, spacing: tuple[float, ...]
 ) -> tuple[Verdict, list[str]]:
-    """Return what smoothing did, and what of that is a problem: the fourth stage.
+    """Return what smoothing did, and which of it is a problem: the fourth stage.
 
     Raises
     ------
@@ -298,18 +300,18 @@ def _judged(
 
 
 def _of_voxels(total: float, given: Given) -> list[str]:
-    """Say whether the voxels hold much more or less than the mesh they stand for."""
+    """Report whether the voxels hold much more or less than the mesh they represent."""
     if not given.volume:
         return []
     off = total / given.volume - 1
-    if off > ROUGH or (off < -ROUGH and not given.overlapping):  # components that overlap are united
+    if off > ROUGH or (off < -ROUGH and not given.overlapping):  # overlapping components are united
         word = "more" if off > 0 else "less"
         return [f"the voxels hold {abs(off):.0%} {word} than the mesh, whose walls are thin for them"]
     return []
 
 
 def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
-    """Return at which levels of phi the surface lies, for the report."""
+    """Return the levels of phi at which the surface lies, for the report."""
     return {
         "method": "volume" if request.level == "volume" else "fixed",
         "common": surfaced.common,
@@ -320,7 +322,7 @@ def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
 
 
 def _walls(judged: Verdict, surfaced: Surfaced, data: Volume, *, spacing: tuple[float, ...]) -> dict[str, Any]:
-    """Return how thin the walls are, and which are lost, for the report."""
+    """Return how thin the walls are, and which were lost, for the report."""
     found = surfaced.found
     before, after = thinnest_walls(found.against, found.surface, spacing, found.height)
     lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in judged.lost]

@@ -1,4 +1,4 @@
-"""What `infill smooth` can be given: a mesh, points or a volume, told apart by the file, and smoothed each its way."""
+"""What `infill smooth` accepts: a mesh, points or a volume, recognised by the file, and smoothed accordingly."""
 
 from __future__ import annotations
 
@@ -49,28 +49,28 @@ def read_source(
     array: str | None = None,
     series: str | None = None,
 ) -> Source:
-    """Return what a file or folder holds, in mm.
+    """Return the contents of a file or folder, in mm.
 
     Parameters
     ----------
     path : str or Path
     kind : {"mesh", "points", "volume"}, optional
-        What to take it for; told by the file if left out.
+        What to read it as; inferred from the file if left out.
     units : {"um", "mm", "cm", "m", "in"}, optional
-        Unit of the coordinates of a mesh or of points, whatever the file says; if left out, the one that a .3mf or
-        .glb says, else mm if the size is credible.
+        Unit of the coordinates of a mesh or of points, whatever the file says. If left out, the unit that a .3mf or
+        .glb states, or else mm if the size is plausible.
     spacing : float or (hx, hy, hz), optional
-        Cell size of a volume, mm; what the file says if left out.
+        Cell size of a volume, mm; if left out, the one stated in the file.
     array, series : str, optional
         See `infill.formats.volume_files.read_volume`.
 
     Raises
     ------
     FormatError
-        For a file that cannot be read, or whose kind cannot be told.
+        For a file that cannot be read, or whose kind cannot be determined.
     ParameterError
-        If no unit is given and the part would be smaller than 2 mm, as one in metres is (one over 2 m is only
-        told of); for a unit of a volume, or a spacing of something else.
+        If no unit is given and the part would be smaller than 2 mm, as a part in metres would be (for one over
+        2 m there is only a warning); if a unit is given for a volume, or a spacing for anything else.
     """
     source = Path(path)
     if kind is not None and kind not in KINDS:
@@ -108,7 +108,7 @@ def smooth_source(
     grey: bool = False,
     **options: Unpack[Options],
 ) -> Result[SmoothStages]:
-    """Smooth what `read_source` returned; raise ParameterError for what does not fit its kind."""
+    """Smooth what `read_source` returned; raise ParameterError for options that do not fit its kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
     kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
@@ -145,7 +145,7 @@ def smooth_source(
 
 
 def _kind_of(path: Path) -> Kind:
-    """Return what a file holds, by its suffix, and where that does not tell by its contents."""
+    """Return what a file holds, judging by its suffix or, where that is ambiguous, by its contents."""
     suffix = path.suffix.lower()
     if path.is_dir():
         return "volume"
@@ -159,11 +159,11 @@ def _kind_of(path: Path) -> Kind:
 
 
 def _axes_of_npy(path: Path) -> int | None:
-    """Return how many axes the array of a file has, or None if it is not one that can be read."""
+    """Return how many axes the array in a file has, or None if it cannot be read."""
     try:
         return np.load(path, mmap_mode="r", allow_pickle=False).ndim  # type: ignore[no-any-return]
     except (OSError, ValueError, EOFError):
-        return None  # whoever reads it will say what is wrong
+        return None  # whoever reads it will report what is wrong
 
 
 def _ply_has_faces(path: Path) -> bool:
@@ -179,12 +179,12 @@ def _ply_has_faces(path: Path) -> bool:
 
 
 def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float:
-    """Return mm per unit; without a unit, question what would be very small in mm."""
+    """Return mm per unit; if no unit is given, question sizes that would be very small in mm."""
     if units is not None:
         return UNITS[units]
     longest = float(np.ptp(points, axis=0).max())
     unit = guess_unit(longest)
-    if unit == "µm":  # as likely to be large on purpose as not, and easily seen
+    if unit == "µm":  # as likely to be large on purpose as not, and easy to notice
         LOG.warning(
             "%s is %.4g mm long if its numbers are millimetres; give --units um if they are micrometres", path, longest
         )

@@ -1,1 +1,1 @@
-"""From a field to triangles, levels of the right volume, and triangles put in order."""
+"""From a field to triangles, to levels of the right volume, and to meshes in good order."""

@@ -1,4 +1,4 @@
-"""A mesh that is closed as a sum: neighbours agree, and every hole gets a cap."""
+"""A mesh that is closed as a sum: neighbouring faces agree, and every hole gets a cap."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from numpy.typing import NDArray
 from infill.surface import Edges
 from infill.surfaces.shells import vertex_components
 
-FLAT = 1e-9  # a component of less than this share of its longest side cubed has no volume
+FLAT = 1e-9  # a component with less than this share of its longest side cubed has no volume
 
-WELD = 0.01  # of a cell: corners of open edges that are nearer to one another are one
+WELD = 0.01  # of a cell: corners of open edges that are closer together than this are merged
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 
 def open_edges(faces: Integers) -> Integers:
-    """Return the edges (E, 2) that faces run along more often in this direction than back, as often as that."""
+    """Return the edges (E, 2) that faces run along more often in this direction than back, repeated that many times."""
     edges = Edges.of(faces)
     directed = np.where(edges.surplus[:, None] > 0, edges.ends, edges.ends[:, ::-1])
     return np.repeat(directed, np.abs(edges.surplus), axis=0)
 
 
 def agreeing(faces: Integers) -> Integers:
-    """Return the faces, some of them turned over, so that neighbours across an edge of two faces agree on a side.
+    """Return the faces, some of them reversed, so that neighbours across an edge of two faces have one orientation.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ def agreeing(faces: Integers) -> Integers:
 
     Notes
     -----
-    Every face stands for two, as it is and turned over; edges of two faces tie those together that agree.
-    A patch then is two components, of which the one with more faces as they are is kept. A patch with one
-    side only (a Möbius strip) is one component, and is left as it is.
+    Every face is represented twice, as it is and reversed; edges shared by two faces link those copies that agree.
+    A patch is then two components, and the one with more faces as they are is kept. A one-sided patch
+    (a Möbius strip) is a single component, and is left as it is.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
@@ -60,7 +60,7 @@ def agreeing(faces: Integers) -> Integers:
 
 
 def welded(vertices: Floats, faces: Integers) -> Integers:
-    """Return the faces with corners that lie on open edges, nearer than `WELD`, made one: cracks are closed."""
+    """Return the faces with corners on open edges merged where they are closer than `WELD`: this closes cracks."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
@@ -113,14 +113,14 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
     -------
     vertices : (V + n, 3) float64
     faces : (F + m, 3) int
-        The caps come last. Every edge is run along as often in one direction as in the other.
+        The caps come last. Every edge is traversed as often in one direction as in the other.
     holes : int
 
     Notes
     -----
-    Cracks are closed and faces that disagree with their neighbours about the side turned over first: see
-    `welded` and `agreeing`. A cap is a fan from the middle of the hole's edge. Where a triangle stands
-    twice, its three edges are a "hole" whose cap undoes it.
+    First, cracks are closed and faces whose orientation disagrees with their neighbours' are reversed: see
+    `welded` and `agreeing`. A cap is a fan from the centre of the hole's rim. Where a triangle occurs
+    twice, its three edges are a "hole" whose cap cancels it.
     """
     if len(open_edges(faces)) == 0:
         return vertices, faces, 0
@@ -136,7 +136,7 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
         points = vertices[ring]
         lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
         middle = np.average((np.roll(points, -1, axis=0) + points) / 2, axis=0, weights=lengths)
-        # No sum is rounded out of a plane of the axes.
+        # Rounding must not move the sum out of a plane of the axes.
         apexes.append(np.clip(middle, points.min(axis=0), points.max(axis=0)))
         apex = np.full(len(ring), len(vertices) + len(apexes) - 1)
         caps.append(np.column_stack([np.roll(ring, -1), ring, apex]).tolist())
@@ -147,7 +147,7 @@ def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
 
 
 def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
-    """Return for every face the component it belongs to, by shared vertices, and the signed volume of each component.
+    """Return the component of every face, by shared vertices, and the signed volume of each component.
 
     Parameters
     ----------
@@ -163,7 +163,7 @@ def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
     """
     of_vertex, count = vertex_components(faces, len(vertices))
     component = of_vertex[faces[:, 0]]
-    # Seen from a corner of its own, so that a small component far out loses no digits.
+    # Relative to one of its own corners, so that a small component far out loses no digits.
     first = np.unique(component, return_index=True)[1]
     a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][component] for i in range(3))
     sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))

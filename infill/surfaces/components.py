@@ -1,7 +1,7 @@
 """Components of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
 
-Everything is found from rows of sixteen bits and from the bricks that are kept, so that cost grows with the surface.
-Cells of solid are joined by faces, cells of void by faces and edges, as marching cubes joins them on raw data.
+Everything is found from rows of sixteen bits and from the bricks that are kept, so that the cost grows with the
+surface. Solid cells are joined by faces, void cells by faces and edges, as marching cubes joins them on raw data.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ class Components:
     cells : (b,) int64
         Cells of each component.
     thick : (b,) bool
-        Whether a component holds 2 x 2 x 2 cells somewhere, and so is more than one cell thick; empty if not asked for.
+        Whether a component contains 2 x 2 x 2 cells somewhere, so is more than one cell thick; empty if not requested.
     bits, bricks, starts, alone, names
-        How a cell finds its component: bits of every row, numbers of runs, of bricks of one value, and names of both.
+        How a cell finds its component: bits of every row, numbers of runs, bricks of one value, and names for both.
     """
 
     cells: NDArray[np.int64]
@@ -83,7 +83,7 @@ class Shells:
 
     @property
     def tunnels(self) -> int:
-        """Handles: holes that lead through."""
+        """Handles: holes that pass through."""
         return int((2 - self.euler).sum() // 2)
 
 
@@ -98,19 +98,19 @@ def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.u
 
 
 def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return the cells that are the lower corner of 2 x 2 x 2 solid ones: what is more than one cell thick."""
+    """Return the cells at the lower corner of 2 x 2 x 2 solid ones: what is more than one cell thick."""
     return _meet_or_spread(field, bits, True, 1, threads)
 
 
 def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
-    """Return the cells of those 2 x 2 x 2 cells."""
+    """Return the cells of those 2 x 2 x 2 blocks."""
     return _meet_or_spread(field, core, False, -1, threads)
 
 
 def grown(
     field: SparseField, bits: NDArray[np.uint16], cells: int, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
-    """Return the cells within so many of those that are set, along each axis."""
+    """Return the cells within a given number of cells of those that are set, along each axis."""
     for _ in range(cells):
         bits = _meet_or_spread(field, _meet_or_spread(field, bits, False, -1, threads), False, 1, threads)
     return bits
@@ -139,8 +139,8 @@ def components(
 ) -> Components:
     """Return the components of solid of a field whose solid cells are `bits`, or those of void, the outside first.
 
-    Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, it is
-    told which components are more than one cell thick.
+    Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, the
+    result says which components are more than one cell thick.
     """
     alone = np.full(field.slots.shape, -1, dtype=np.int32)
     if void:
@@ -166,7 +166,7 @@ def components(
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
     np.add.at(cells, names[alone[single]], _sides_within(np.argwhere(single), field.shape).prod(axis=1))
-    if not void:  # run 0 stands for what lies beyond the grid, which is no solid
+    if not void:  # run 0 is whatever lies beyond the grid, which is not solid
         cells, names = cells[1:], names - 1
     every = Components(
         cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
@@ -175,20 +175,20 @@ def components(
 
 
 def with_thickness(field: SparseField, every: Components, *, void: bool = False) -> Components:
-    """Return the components, with which of them are more than one cell thick."""
+    """Return the components together with which of them are more than one cell thick."""
     thick = np.zeros(every.count, dtype=bool)
     kind = VOID_BRICK if void else SOLID_BRICK
     core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
     kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
     places = np.argwhere(every.alone >= 0)
-    if not void:  # a brick of solid that the grid cuts off may be a sheet there; void goes on beyond the grid
+    if not void:  # a solid brick that the grid cuts off may be a sheet there; void continues beyond the grid
         places = places[(_sides_within(places, field.shape) > 1).all(axis=1)]
     thick[every.names[every.alone[tuple(places.T)]]] = True
     return replace(every, thick=thick)
 
 
 def _sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
-    """Return how many cells along each axis of whole bricks lie on the grid, (n, 3)."""
+    """Return how many cells of whole bricks lie on the grid along each axis, (n, 3)."""
     low = np.maximum(places * BRICK, 1)
     high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
     sides: NDArray[np.int64] = np.maximum(high - low, 0)
@@ -196,7 +196,7 @@ def _sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> N
 
 
 def shared_cells(one: Components, other: Components) -> NDArray[np.int64]:
-    """Return rows (n, 3) of a component of each and cells they share, on the same bricks; pairs may come again."""
+    """Return rows (n, 3), one component of each and the cells they share, on the same bricks; pairs may recur."""
     found = kernels.overlaps(
         one.bits, one.bricks, one.starts, one.names, other.bits, other.bricks, other.starts, other.names
     )
@@ -224,7 +224,7 @@ def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
 def face_sums(
     surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return for every face the volume between it and a point in the middle, mm³, and its slope over the level."""
+    """Return for every face the volume between it and a central point, mm³, and its slope over the level."""
     own, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
     middle = surface.vertices[len(surface.vertices) // 2]
     in_threads(volumes, surface.vertices, rate, surface.faces, middle, own, change, threads=thread_count(threads))
@@ -244,7 +244,7 @@ def without(values: NDArray[Any], field: SparseField, every: Components, small: 
 
 
 def cells_of(field: SparseField, every: Components, number: int) -> NDArray[np.int64]:
-    """Return the cells (n, 3) of a component that lie in bricks kept, counted from the first of the grid."""
+    """Return the cells (n, 3) of a component that lie in kept bricks, counted from the first cell of the grid."""
     bricks, rows = np.nonzero(every.bits)
     solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
     which, k = np.nonzero(solid)

@@ -11,8 +11,8 @@ from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 
-NEAREST = 6  # samples whose triangles are looked at for every point
-FEW, PER_POINT, MOST = 10_000, 10, 200_000  # samples of a surface, about, beside one for each triangle
+NEAREST = 6  # samples whose triangles are examined for every point
+FEW, PER_POINT, MOST = 10_000, 10, 200_000  # samples of a surface, roughly, in addition to one for each triangle
 
 
 def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | None = None) -> Floats:
@@ -27,8 +27,8 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
 
     Notes
     -----
-    Triangles are found by the samples on them that lie nearest; large triangles have many samples. Where the
-    nearest is not among those, the distance comes out too large, by less than the samples lie apart.
+    Triangles are found by the nearest samples on them; large triangles have many samples. Where the nearest triangle
+    is not among those found, the distance comes out too large, by less than the distance between samples.
     """
     from scipy.spatial import cKDTree
 
@@ -50,21 +50,21 @@ def _samples(corners: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
     corners = np.take_along_axis(corners, order[:, :, None], axis=1)  # the longest side comes first
     a, b, c = (corners[:, i] for i in range(3))
     longest = sides.max(axis=1)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)  # twice of it
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)  # twice the area
     height = np.divide(area, longest, out=np.zeros_like(area), where=longest > 0)
     pitch = max(float(area.sum() / count) ** 0.5, float(longest.sum()) / count, 1e-300)
     along, across = (np.maximum(1, np.ceil(each / pitch)).astype(np.int64) for each in (longest, height))
     face, place = next(spread(along * across))
     u, v = (place % along[face] + 0.5) / along[face], place // along[face] / across[face]
-    u *= 1 - v  # a row of points parallel to the longest side is as long as the triangle is wide there
+    u *= 1 - v  # the row of points parallel to the longest side is as long as the triangle is wide there
     return a[face] + u[:, None] * (b - a)[face] + v[:, None] * (c - a)[face], face
 
 
 def squared(p: Floats, triangles: Floats) -> Floats:
     """Return the squared distance of point i from triangle i.
 
-    That from trimesh.triangles.closest_point, without the time that it takes to load trimesh, which is longer than
-    the distances take.
+    The same as trimesh.triangles.closest_point, without the time it takes to load trimesh, which is longer than
+    computing the distances.
     """
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     normal = np.cross(b - a, c - a)

@@ -1,8 +1,8 @@
 """The level of a field at which the solid has the volume of the data.
 
-Smoothing by the paper's equation shrinks what is convex: by 2 % a sphere of 40 cells after 40 steps. The field
-is not to blame, the level is: {phi > c} with c a little below 0 has the volume of the data, and lies closer to the
-true surface. Components differ, so each one gets a level of its own.
+Smoothing by the paper's equation shrinks what is convex: a sphere of 40 cells by 2 % after 40 steps. The fault is
+not in the field but in the level: {phi > c} with c a little below 0 has the volume of the data, and lies closer to
+the true surface. Components differ, so each one gets a level of its own.
 """
 
 from __future__ import annotations
@@ -24,20 +24,20 @@ from infill.surface import Surface
 from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
 from infill.surfaces.sparse_marching import Level, extract_level, measured
 
-# Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to be found, and a
-# surface this near to it still has cells on both its sides that are not.
+# Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to find, while a
+# surface this close to it still has cells on both sides that are not cut off.
 LIMIT = 0.98
-# Of the volume. A ball of 80 cells with so much too much has a radius 0.0013 cells too large, where smoothing itself
-# leaves 0.02.
+# Of the volume. A ball of 80 cells whose volume is this much too large has a radius 0.0013 cells too large, where
+# smoothing itself is off by 0.02.
 TOLERANCE = 5e-5
 # Of the volume of one component among several, which share the rounds: 0.005 cells on such a ball.
 COMPONENT_TOLERANCE = 2e-4
 # A step moves a surface by at most 0.3 artanh 0.9999 / artanh 0.9 = 1.01 interfaces, two cells: the slope of the volume
-# is that of the surface where it is now, and holds no further. Four steps lead from 0 to the limit, and Newton's method
-# then needs two or three; eight rounds are one more than that.
+# belongs to the surface where it is now, and is valid no further. Four steps lead from 0 to the limit, and Newton's
+# method then needs two or three; eight rounds are one more than that.
 BIGGEST_STEP = 0.3
 ROUNDS = 8
-# Cells from a component in which its level holds: as far as a refined distance reaches, which is cut off
+# Cells from a component within which its level applies: as far as a refined distance reaches, which is cut off
 # artanh 0.995 / artanh 0.9 = 2.03 interfaces of two cells away.
 REACH = 4
 SMALLEST = 8  # cells, 2 x 2 x 2: a smaller component has no level of its own
@@ -50,14 +50,14 @@ class Levelled:
     Parameters
     ----------
     against : SparseField
-        The field, or the field less the level of each component.
+        The field, or the field minus the level of each component.
     surface : Surface
     rate : (V, 3) float32
         How far its vertices move when the level rises by one, mm.
     height : float
         The level of the surface in that field.
     common : float
-        The level of all that has none of its own.
+        The level of everything that has no level of its own.
     levels : (b,) float64
         The level of each component of the data.
     threads : int, optional
@@ -86,7 +86,7 @@ def straightened(
 
 
 def volume_of(found: Level, threads: int) -> tuple[float, float]:
-    """Return the volume a surface encloses, mm³, and how it changes when the level rises by one."""
+    """Return the volume a surface encloses, mm³, and how much it changes when the level rises by one."""
     own, change = face_sums(found.surface, found.rate, threads=threads)
     return float(own.sum()), float(change.sum())
 
@@ -96,7 +96,7 @@ def counted(
 ) -> tuple[Components, SparseField, tuple[float, float] | None]:
     """Return the components of the data, the field on a straight profile, and its volume and slope at level 0.
 
-    Components are looked for meanwhile. A field that is straightened gives up its values.
+    The components are found in parallel. A field that is straightened has its values overwritten.
     """
     threads = thread_count(threads)
     bits = data_bits(field, threads=threads)
@@ -125,7 +125,7 @@ def volumes_of(
 def at_level(
     field: SparseField, data: Components, *, spacing: tuple[float, ...], level: float, threads: int | None = None
 ) -> Levelled:
-    """Return the surface at one level: the paper's is 0."""
+    """Return the surface at one level; the paper's is at 0."""
     found = extract_level(field, spacing=spacing, level=level, threads=threads)
     return Levelled(
         against=field,
@@ -153,7 +153,7 @@ def at_volume(
     ----------
     field : SparseField
     data : Components
-        Of the data's solid.
+        Components of solid in the data.
     spacing : (hx, hy, hz), mm
     targets : (b,) float64
         Volume of each component, mm³.
@@ -163,7 +163,7 @@ def at_volume(
     Raises
     ------
     GeometryError
-        If nothing is left above any level. Where no level gives the volume, what comes nearest is returned.
+        If nothing is left above any level. Where no level gives the volume, the closest match is returned.
     """
     threads = thread_count(threads)
     total = float(targets.sum())
@@ -175,7 +175,7 @@ def at_volume(
         try:
             tried = extract_level(field, spacing=spacing, level=level, threads=threads)
         except GeometryError:
-            level = (level - LIMIT) / 2  # nothing left up there
+            level = (level - LIMIT) / 2  # nothing is left above this level
             if level < -LIMIT + 1e-3:
                 break
             continue
@@ -203,7 +203,7 @@ def at_volume(
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:
-    """Return the level at which the volume would be right if it changed evenly."""
+    """Return the level at which the volume would be right if it changed linearly."""
     change = min(max((total - volume) / slope, -BIGGEST_STEP), BIGGEST_STEP)
     return min(max(level + change, -LIMIT), LIMIT)
 
@@ -217,11 +217,11 @@ def _each_component(
     common: float,
     threads: int,
 ) -> Levelled:
-    """Return the surface at which every component that is large enough has its own volume."""
+    """Return the surface at which every sufficiently large component has its own volume."""
     own = data.cells >= SMALLEST
     group: NDArray[np.integer] = np.arange(data.count)  # components that run together share a level from then on
     levels = np.full(data.count, common)
-    low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # what is known to be below and above
+    low, high = np.full(data.count, -1.0), np.full(data.count, 1.0)  # levels known to be below and above the right one
     best: Levelled | None = None
     least = math.inf
     for _ in range(ROUNDS):
@@ -265,7 +265,7 @@ def _each_component(
 def _lowered(
     field: SparseField, data: Components, levels: NDArray[np.float64], common: float, threads: int
 ) -> SparseField:
-    """Return the field less the level of the nearest component."""
+    """Return the field minus the level of the nearest component."""
     out = np.empty_like(field.values)
     in_threads(
         components_kernels.lower_to_levels,
@@ -287,14 +287,14 @@ def _lowered(
 
 
 def _sums(group: NDArray[np.integer], values: NDArray[np.float64], count: int | None = None) -> NDArray[np.float64]:
-    """Return for every group the sum of what has its number; -1 is no group. Without a count, for every member."""
+    """Return for every group the sum of the values bearing its number; -1 is no group. Without a count, per member."""
     known = group >= 0
     sums = np.bincount(group[known], weights=values[known], minlength=count or len(values)).astype(np.float64)
     return sums if count is not None else sums[group]
 
 
 def _joined(group: NDArray[np.integer], together: NDArray[np.integer]) -> NDArray[np.integer]:
-    """Return the groups with those pairs (n, 2) of members joined, each group named by its first member."""
+    """Return the groups with the given pairs (n, 2) of members joined, each group named by its first member."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -309,9 +309,9 @@ def _joined(group: NDArray[np.integer], together: NDArray[np.integer]) -> NDArra
 def _component_of(
     parts: Shells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return for every shell the component of the data that most of its vertices lie at, -1 for none.
+    """Return for every shell the component of the data nearest to most of its vertices, -1 for none.
 
-    And pairs (n, 2) of components of a size of their own that have a shell in common.
+    Also return pairs (n, 2) of components large enough for a level of their own that have a shell in common.
     """
     cells = surface.vertices / np.array(spacing) + 0.5  # on the lattice of cells, whose first lies beyond the grid
     place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BRICK - 1)
@@ -323,7 +323,7 @@ def _component_of(
     known = label >= 0
     key, votes = np.unique(parts.names[known].astype(np.int64) * count + label[known], return_counts=True)
     shell, component = np.divmod(key, count)
-    order = np.argsort(votes, kind="stable")  # the last to be written has most
+    order = np.argsort(votes, kind="stable")  # the last one written has the most votes
     found = np.full(len(parts.volume), -1, dtype=np.int64)
     found[shell[order]] = component[order]
     other = (found[shell] != component) & (data.cells[component] >= SMALLEST) & (votes >= SMALLEST)

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     import trimesh
 
 # A value nearer to the level than this is moved away from it. Otherwise triangles shrink to a point
-# at the centre of the cell, and a 32-bit file merges what the mesh keeps apart. It moves the surface
-# by at most half this part of a cell.
+# at the centre of the cell, and a 32-bit file merges vertices that the mesh keeps apart. This moves the
+# surface by at most half this fraction of a cell.
 CLEARANCE = 2.0**-10
-# Solid is made weaker by this factor, so that two solid cells that touch at an edge only, void on the
-# other two sides, are apart and not undecided: marching cubes would leave such a saddle open.
+# Solid is weakened by this factor, so that two solid cells that touch only at an edge, with void on the
+# other two sides, are separate rather than undecided: marching cubes would leave such a saddle open.
 TIE = 1 - 1e-5
 
 
@@ -30,8 +30,8 @@ def extract(
     from skimage.measure import marching_cubes
 
     nx, ny, nz = volume.shape
-    # z comes first, so that marching cubes runs along the long axes of a thin stack. Turning (x, y, z)
-    # into (z, x, y) keeps the handedness, and with it the direction of the faces.
+    # z comes first, so that marching cubes runs along the long axes of a thin stack. Permuting (x, y, z)
+    # to (z, x, y) preserves the handedness, and with it the orientation of the faces.
     field = np.full((nz + 2, nx + 2, ny + 2), np.float32(VOID))
     field[1:-1, 1:-1, 1:-1] = np.moveaxis(volume, 2, 0)
     field -= np.float32(level)
@@ -43,7 +43,7 @@ def extract(
     near = np.abs(field) < CLEARANCE
     field[near] = np.where(solid[near], np.float32(CLEARANCE), np.float32(-CLEARANCE))
     np.multiply(field, np.float32(TIE), out=field, where=solid)
-    # Gradient ascent: the solid is above the level, and faces shall point out of it.
+    # Gradient ascent: the solid is above the level, and its faces must point outwards.
     vertices, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")  # type: ignore[no-untyped-call]
     # The centre of the first cell, now at index 1, lies half a cell inside the box.
     placed = (vertices[:, [1, 2, 0]] - 0.5) * np.array(spacing) + np.array(origin)
@@ -85,7 +85,7 @@ def isosurface(
     -----
     Marching cubes (Lewiner et al. 2003, scikit-image) on the volume in a shell of void one cell thick,
     so that solid that touches the edge of the grid is closed there, half a cell beyond the last centre.
-    Cells that touch only along an edge are apart.
+    Cells that touch only along an edge are kept apart.
 
     >>> isosurface(np.ones((2, 2, 2)), spacing=0.5).is_volume
     True

@@ -1,4 +1,4 @@
-"""A mesh as plain arrays, its vertices merged where that is needed to close it."""
+"""A mesh as plain arrays, its vertices merged where necessary to close it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
 
 
 def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
-    """Return the mesh as it stands if it is closed, else with equal vertices merged; unused ones are left out."""
+    """Return the mesh unchanged if it is closed, else with equal vertices merged; unused vertices are dropped."""
     used, index = np.unique(faces, return_inverse=True)
     surface = Surface(vertices=np.asarray(vertices, dtype=np.float64)[used], faces=index.reshape(faces.shape))
     return surface if surface.closed else merged(surface.vertices, surface.faces)
@@ -35,7 +35,7 @@ def closed_or_merged(vertices: NDArray[np.floating], faces: NDArray[np.integer])
 
 def merged(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> Surface:
     """Return the mesh with vertices merged where they are equal."""
-    points = vertices + 0.0  # no -0, which is equal to 0 but has other bits
+    points = vertices + 0.0  # no -0, which equals 0 but has different bits
     order = np.lexsort(points.T)
     differs = np.concatenate([[True], (points[order][1:] != points[order][:-1]).any(axis=1)])
     number = np.empty(len(points), dtype=np.intp)

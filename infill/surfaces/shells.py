@@ -1,4 +1,4 @@
-"""Components of a mesh: what hangs together by shared vertices."""
+"""Components of a mesh: faces connected by shared vertices."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ Names = NDArray[np.int32]
 
 
 def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False) -> tuple[Names, int]:
-    """Return for every vertex the component it belongs to, and how many components there are.
+    """Return the component of every vertex, and how many components there are.
 
     Parameters
     ----------
     faces : (F, 3) int
     vertices : int
-        How many there are.
+        Number of vertices.
     compiled : bool
-        By a kernel, which gives the same six times as fast: for the search for levels, which asks every round.
+        Use a kernel, which gives the same result six times as fast: for the search for levels, which asks every round.
 
     Returns
     -------
     names : (V,) int32
-        0, 1, 2 … in the order of their first vertices; -1 for vertices that no face has.
+        0, 1, 2 … in the order of their first vertices; -1 for vertices that belong to no face.
     count : int
 
     >>> vertex_components(np.array([[4, 2, 1], [3, 5, 6], [1, 2, 7]]), 8)[0].tolist()
@@ -39,7 +39,7 @@ def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False)
 
 
 def _by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:
-    """Return the components, lone vertices among them, and which vertices are used: the specification."""
+    """Return the components, lone vertices included, and which vertices are used: the specification."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 

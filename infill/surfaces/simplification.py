@@ -1,4 +1,4 @@
-"""Fewer triangles, with the mesh as closed as before."""
+"""Fewer triangles, with the mesh still closed."""
 
 from __future__ import annotations
 
@@ -13,34 +13,34 @@ from infill.surfaces.distance import distances
 
 FEWEST = 4
 HALVINGS = 8
-COMPARED = 20_000  # vertices of which the distance is measured
+COMPARED = 20_000  # vertices whose distance is measured
 
 
 def simplified(
     surface: Surface, *, tolerance: float | None = None, triangles: int | None = None, threads: int | None = None
 ) -> Surface:
-    """Return a surface of fewer triangles.
+    """Return the surface with fewer triangles.
 
     Parameters
     ----------
     surface : Surface, closed, mm
     tolerance : float, optional
-        mm by which the surface may move: no vertex lies further from the result, as far as is looked.
+        mm by which the surface may move: none of the vertices checked lies further than this from the result.
     triangles : int, optional
-        Most triangles to have.
+        Maximum number of triangles.
     threads : int, optional
-        To measure distances with; see `infill.kernels.threads.thread_count`.
+        Used to measure distances; see `infill.kernels.threads.thread_count`.
 
     Raises
     ------
     GeometryError
-        If the surface cannot be simplified without opening it, or not to so few triangles.
+        If the surface cannot be simplified without opening it, or not to this few triangles.
 
     Notes
     -----
-    Edges are collapsed by quadric errors (Garland and Heckbert 1997, fast-simplification, MIT), which keep shape and
-    volume best. Where that opens the mesh or changes its Euler number, the manifold library (Apache 2.0)
-    collapses them, which keeps it closed but may take out components smaller than the tolerance it needs.
+    Edges are collapsed by quadric errors (Garland and Heckbert 1997, fast-simplification, MIT), which preserve shape
+    and volume best. Where that opens the mesh or changes its Euler number, the manifold library (Apache 2.0)
+    collapses them, which keeps it closed but may remove components smaller than the tolerance it needs.
     """
     near = None if tolerance is None else positive("tolerance", tolerance, "mm")
     few = None if triangles is None else whole("the number of triangles", triangles, FEWEST)
@@ -65,7 +65,7 @@ def simplified(
 def _by_quadrics(
     surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
 ) -> Surface | None:
-    """Return the surface with few triangles, or as few as fit; None if it would not stay closed."""
+    """Return the surface with the requested number of triangles or as few as fit; None if it would not stay closed."""
     import fast_simplification
 
     vertices, faces = np.asarray(surface.vertices, dtype=np.float64), np.asarray(surface.faces, dtype=np.int32)
@@ -96,7 +96,7 @@ def _by_quadrics(
 def _by_collapse(
     surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
 ) -> Surface | None:
-    """Return the surface with short edges collapsed: by the largest tolerance that fits, or the least that does."""
+    """Return the surface with short edges collapsed, by the largest tolerance that fits or the least that suffices."""
     import manifold3d
 
     # In 64 bits: the mesh is closed by its indices, and vertices that are equal in 32 bits would be merged.
@@ -123,7 +123,7 @@ def _by_collapse(
         small = found is not None and (few is None or len(found.faces) <= few)
         if small and fits(found):
             best = found
-        if few is not None:  # the least tolerance that makes so few
+        if few is not None:  # the smallest tolerance that leaves this few
             low, high = (low, middle) if small or found is None else (middle, high)
         else:  # the largest that fits
             low, high = (middle, high) if fits(found) else (low, middle)

@@ -1,9 +1,9 @@
 """The closed surface of a field in bricks: marching cubes where the surface runs, and nowhere else.
 
-The same surface as `infill.surface.extract` finds on the whole field: the same vertices to rounding and the same
-Euler number. Signs are looked at sixteen cells at a time, as bits of one number; only cubes that the surface
-crosses are looked at one by one. A cube whose signs alone decide its triangles takes them from a table that is
-derived here; the few others are left to scikit-image, so that there is one way to decide saddles (Lewiner 2003).
+It is the same surface as `infill.surface.extract` finds on the whole field: the same vertices, to rounding, and the
+same Euler number. Signs are examined sixteen cells at a time, as bits of one number; only cubes that the surface
+crosses are examined individually. A cube whose signs alone decide its triangles takes them from a table that is
+derived here; the few others are left to scikit-image, so that saddles are decided in only one way (Lewiner 2003).
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ from infill.surfaces.marching import CLEARANCE, TIE
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
 EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]
 CORNERS = 8
-LARGE = 2000  # bricks: fewer make a surface in some milliseconds
+LARGE = 2000  # bricks: fewer than this make a surface in a few milliseconds
 
 
 @dataclass(frozen=True, kw_only=True)
 class Cubes:
-    """What signs say of a cube, by the number whose bits are its solid corners.
+    """What the signs say about a cube, by the number whose bits are its solid corners.
 
     Parameters
     ----------
     triangles : (256, 5, 3) int8
-        Edges at the corners of each triangle, as `EDGES` numbers them.
+        The edges that the corners of each triangle lie on, as `EDGES` numbers them.
     counts : (256,) int8
-        How many triangles; `UNDECIDED` where the signs do not tell.
+        Number of triangles; `UNDECIDED` where the signs do not determine it.
     """
 
     triangles: NDArray[np.int8]
@@ -47,7 +47,7 @@ class Cubes:
 
 @dataclass(frozen=True, kw_only=True)
 class Level:
-    """A surface and how it answers to its level.
+    """A surface and how it responds to its level.
 
     Parameters
     ----------
@@ -145,8 +145,8 @@ def measured(
 ) -> tuple[float, float] | None:
     """Return the volume of the surface at a level, mm³, and its slope over the level, without making the surface.
 
-    None if there is a cube that signs do not decide: then it takes the surface to tell. And None for a small surface,
-    which is made in no time.
+    None if there is a cube that signs do not decide: then only the surface itself can tell. Also None for a small
+    surface, which is made in no time.
     """
     if len(field.where) < LARGE:
         return None
@@ -180,7 +180,7 @@ def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
 def rows_above(
     field: SparseField, values: NDArray[Any], level: float, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
-    """Return which cells of the kept bricks have `values` (n, 8, 8, 16) above the level, a row a number: (n, 64)."""
+    """Return which cells of the kept bricks have `values` (n, 8, 8, 16) above the level, a number per row: (n, 64)."""
     bits = np.empty((len(field.where), kernels.ROWS), dtype=np.uint16)
     flat, limit = values.reshape(-1, CELLS), values.dtype.type(level)
     in_threads(kernels.bits_above, flat, field.where, limit, field.shape, bits, threads=thread_count(threads))
@@ -192,7 +192,7 @@ def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[n
     kind = (slots == SOLID_BRICK).astype(np.int8)
     kind[slots >= 0] = 2
     for axis, (count, size) in enumerate(zip(shape, BRICK, strict=True)):
-        # Solid bricks that reach beyond the grid have void in them.
+        # Solid bricks that reach beyond the grid contain void.
         ends = [0] if (count + 1) % size == 0 else [0, (count + 1) // size]
         edge = tuple(ends if a == axis else slice(None) for a in range(3))
         kind[edge] = np.where(kind[edge] == 1, 2, kind[edge])
@@ -207,7 +207,7 @@ def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[n
 
 @cache
 def cube_table() -> Cubes:
-    """Return the triangles of every cube whose signs decide them, derived by going round its faces."""
+    """Return the triangles of every cube whose signs decide them, derived by tracing around its faces."""
     triangles, counts = np.zeros((256, 5, 3), dtype=np.int8), np.zeros(256, dtype=np.int8)
     number = {edge: n for n, edge in enumerate(EDGES)}
     for signs in range(256):
@@ -217,7 +217,7 @@ def cube_table() -> Cubes:
             for up in range(2):
                 a, b = (axis + 1) % 3, (axis + 2) % 3
                 ring = [up << axis, up << axis | 1 << a, up << axis | 1 << a | 1 << b, up << axis | 1 << b]
-                if up:  # always the same way round, seen from outside
+                if up:  # always in the same rotational sense, seen from outside
                     ring.reverse()
                 leaving, entering = [], []
                 for here, there in zip(ring, ring[1:] + ring[:1], strict=True):
@@ -247,7 +247,7 @@ def cube_table() -> Cubes:
 
 @cache
 def raw_counts() -> NDArray[np.int8]:
-    """Return for the signs of every cube of +-1 data its triangles, less two for each vertex inside of it."""
+    """Return, for the signs of every cube of +-1 data, its triangles minus two for each vertex inside it."""
     counts = cube_table().counts.copy()
     unsure = np.flatnonzero(counts == kernels.UNDECIDED)
     corners = np.where(unsure[:, None] >> np.arange(CORNERS) & 1, np.float32(TIE), np.float32(-1)).astype(np.float32)
@@ -259,7 +259,7 @@ def raw_counts() -> NDArray[np.int8]:
 
 
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
-    """Return the Euler number of the surface that the bricks would have if the cells `bits` were +1, all others -1."""
+    """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
     places = _crossed(field.slots, field.shape)
     masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
     starts = np.empty(masks.shape, dtype=np.int16)
@@ -280,16 +280,16 @@ def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, thread
     return int(vertices - faces // 2)
 
 
-# Two corners across the whole cube, solid in void or void in solid: joined by a tube or not.
+# Two opposite corners of the whole cube, solid in void or void in solid: either joined by a tube or not.
 _OPPOSITE = {1 << c | 1 << 7 - c for c in range(4)} | {255 ^ (1 << c | 1 << 7 - c) for c in range(4)}
 
 
 def _undecided(
     corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Return vertices inside cubes and the triangles of cubes that signs do not decide, by scikit-image.
+    """Return vertices inside cubes, and the triangles of cubes that signs do not decide, by scikit-image.
 
-    The cubes stand in a row, each apart, their axes turned as `infill.surface.extract` turns them.
+    The cubes are lined up in a row, apart from each other, their axes permuted as in `infill.surface.extract`.
     """
     from skimage.measure import marching_cubes
 

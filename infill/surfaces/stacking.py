@@ -30,7 +30,7 @@ def stack(layer: ArrayLike, layers: int) -> NDArray[np.floating]:
     Notes
     -----
     Source: Wang et al. 2020, step 4 of the method. Where phi = 1 the component is exactly `layers` layers
-    tall; where phi = v < 1 its top lies v / (1 + v) of a layer above the centre of the last one.
+    tall; where phi = v < 1 its top lies v / (1 + v) of a layer above the centre of the last layer.
 
     >>> stack(np.ones((2, 2)), 3)[0, 0].tolist()
     [-1.0, 1.0, 1.0, 1.0, -1.0]
@@ -60,8 +60,8 @@ def extrude(
     spacing : float or (hx, hy)
         Cell size, mm.
     layer_height : float, optional
-        Thickness of a stacked layer, mm, rounded so that whole layers make up the height; the smaller
-        cell size if left out. It is the height of the rounding at the top edge of thin walls.
+        Thickness of a stacked layer, mm, rounded so that a whole number of layers makes up the height; by default the
+        smaller cell size. It is the height of the rounding at the top edge of thin walls.
     origin : (x, y, z)
         Lower corner of the component, mm.
 
@@ -76,7 +76,7 @@ def extrude(
 
     Notes
     -----
-    Between equal layers the surface is vertical. So two layers with caps, the middle stretched, have
+    Between equal layers the surface is vertical. Two layers with caps, stretched in the middle, therefore have
     the surface of any number of layers; the volume agrees to rounding.
 
     >>> round(float(extrude(np.ones((4, 4)), 600, 0.5).extents[2]), 3)

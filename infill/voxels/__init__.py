@@ -1,1 +1,1 @@
-"""What is solid on a grid: stamped patterns, meshes, points and scans as cells."""
+"""What is solid on a grid: stamped patterns, meshes, points and scans turned into cells."""

@@ -1,4 +1,4 @@
-"""What the outside of a grid can reach, by runs of cells rather than cell by cell."""
+"""What can be reached from outside the solid, found by runs of cells rather than cell by cell."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
     Notes
     -----
-    The void of a row is a few runs of cells. Runs that touch in neighbouring rows are one component of void,
-    so that the memory goes with the surface and not with the cells.
+    The void of a row consists of a few runs of cells. Runs that touch in neighbouring rows belong to one component of
+    void, so that memory grows with the surface and not with the number of cells.
 
     >>> shell = np.zeros((5, 5, 5), dtype=bool)
     >>> shell[1:4, 1:4, 1:4] = True
@@ -34,7 +34,7 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     from scipy.sparse.csgraph import connected_components
 
     _, ny, nz = solid.shape
-    width = nz + 1  # one place more than cells keeps the runs of different rows apart
+    width = nz + 1  # one place more than there are cells keeps the runs of different rows apart
     start, end = _void_runs(solid)
     ones, others = [], []
     for shift in (width, ny * width):

@@ -17,9 +17,9 @@ from infill.volume import Volume
 from infill.voxels.nesting import inside_out
 from infill.voxels.scanlines import SLAB, crossings, filled
 
-RESOLUTION = 200  # cells along the longest side if nothing is said
+RESOLUTION = 200  # cells along the longest side by default
 FEWEST = 2  # voxels along the longest side
-ROUNDING = 1e-6  # of a cell: what a side may be longer than whole cells without a cell more
+ROUNDING = 1e-6  # of a cell: how far a side may exceed whole cells without getting another cell
 CROSSING_BYTES, FACE_BYTES = 60, 420  # measured peaks, sorting included
 
 
@@ -32,13 +32,13 @@ class Repairs:
     components : int
         Parts of the mesh that share no vertex.
     turned : int
-        Components that faced inwards beside others that faced outwards.
+        Components that faced inwards while others faced outwards.
     holes : int
-        Loops of open edges that got a cap. A triangle that stands twice or faces the wrong way is one too.
+        Loops of open edges that got a cap. A triangle that occurs twice or faces the wrong way counts as one too.
     hole_share : float
         Area of the caps over the area of mesh and caps. The inside is a guess where this is large.
     volume : float
-        Volume that the mesh and its caps enclose, mm³; where components overlap it counts for each.
+        Volume that the mesh and its caps enclose, mm³; where components overlap, it counts for each of them.
     """
 
     components: int
@@ -59,8 +59,8 @@ class Voxelised:
     repairs : Repairs
         What had to be assumed.
     closed : Surface
-        The mesh whose inside they are, mm: equal vertices merged where that is needed to close it, else with caps on
-        its holes.
+        The mesh whose inside these cells are, mm: equal vertices merged where that closes it, else with caps on its
+        holes.
     """
 
     volume: Volume
@@ -81,20 +81,20 @@ def voxelise(
     Parameters
     ----------
     surface : Surface
-        It may be open, inside out, pass through itself, or have several components.
+        It may be open, inside out, intersect itself, or have several components.
     voxel : float, optional
         Cell size, mm.
     resolution : int, optional
-        Cells along the longest side of the mesh's box instead; 200 if neither is given.
+        Cells along the longest side of the mesh's bounding box instead; 200 if neither is given.
     margin : int
-        Empty cells beyond the box on every side.
+        Empty cells beyond the bounding box on every side.
     max_memory : int, optional
-        Bytes; what is at hand if left out.
+        Bytes; by default, whatever is available.
 
     Returns
     -------
     Volume
-        Booleans, True inside; the mesh's box lies in the middle of the grid.
+        Booleans, True inside; the mesh's bounding box is centred in the grid.
 
     Raises
     ------
@@ -107,18 +107,18 @@ def voxelise(
 
     Notes
     -----
-    A cell is inside if the mesh goes around its centre at least once, counted with sign: the winding
-    number w = sum of the signed crossings of a ray is not 0. Components that overlap so are united, an
-    inverted mesh is what it would be the right way out, and a component that faces inwards within another is
-    a cavity. Components that face inwards on their own are turned first, and what lies in them with them.
+    A cell is inside if the mesh winds around its centre at least once, counted with sign: the winding
+    number w = sum of the signed crossings of a ray is not 0. Overlapping components are therefore united, an
+    inverted mesh gives the same result as the right way out, and a component that faces inwards within another is
+    a cavity. Components that face inwards on their own are turned first, together with everything inside them.
 
-    Corners of open edges less than a hundredth of a cell apart are one. Holes are closed by fans from the
-    middle of their edge before anything is counted, so that w is a whole number everywhere. For flat holes
-    in a mesh that faces one way the result is that of the generalised winding number (Jacobson et al. 2013,
+    Corners of open edges less than a hundredth of a cell apart are merged. Holes are closed by fans from the
+    centre of their rim before anything is counted, so that w is a whole number everywhere. For flat holes in a
+    consistently oriented mesh, the result is that of the generalised winding number (Jacobson et al. 2013,
     "Robust inside-outside segmentation using generalized winding numbers", doi:10.1145/2461912.2461916) cut
     at 1/2, at the cost of one ray per row of cells.
 
-    A wall thinner than a cell is found where a cell centre happens to lie in it.
+    A wall thinner than a cell is found only where a cell centre happens to lie in it.
 
     >>> corners = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])
     >>> faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
@@ -136,7 +136,7 @@ def voxelise_reported(
     margin: int = 2,
     max_memory: int | None = None,
 ) -> Voxelised:
-    """Return the cells inside a mesh, what had to be assumed, and the mesh that was: see `voxelise`."""
+    """Return the cells inside a mesh, what had to be assumed, and the mesh actually used: see `voxelise`."""
     if voxel is not None and resolution is not None:
         raise ParameterError("both voxel and resolution are given; give one of them")
     margin = whole("margin", margin, 0)
@@ -160,7 +160,7 @@ def voxelise_reported(
             )
     shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
     advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels or a lower resolution"
-    require_memory(math.prod(shape), max_memory, advice)  # before anything is laid out
+    require_memory(math.prod(shape), max_memory, advice)  # before anything is allocated
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
 
     vertices, faces, holes = capped((mesh.vertices - origin) / size - 0.5, mesh.faces)

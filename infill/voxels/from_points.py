@@ -20,19 +20,19 @@ if TYPE_CHECKING:
     from scipy.spatial import KDTree
 
 FEWEST = 4  # points that can enclose a volume
-FLAT = 1e-6  # of the largest extent: points that leave their plane by less lie in it
-AT_ONCE = 2**18  # spans of cells laid out at a time
-# Points spread evenly over a surface have six around them; the spacing is the distance to the sixth that 95 % of them
-# do not exceed, so that a shell laid by it is whole but for a few gaps. Taken from 20 000 points it is that of
-# 95 % give or take 0.15 %.
+FLAT = 1e-6  # of the largest extent: points that deviate from their plane by less than this count as lying in it
+AT_ONCE = 2**18  # spans of cells handled at a time
+# Points spread evenly over a surface have six others around them; the spacing is the distance to the sixth that 95 %
+# of them do not exceed, so that a shell laid by it is whole except for a few gaps. Measured on 20 000 points, the
+# share is 95 % give or take 0.15 %.
 NEIGHBOUR, QUANTILE, SAMPLED = 6, 0.95, 20_000
-# Half widths of the shell that are tried, in spacings: half of one is the least at which balls around neighbours touch;
-# each next one has twice the cross section, and after 2.8 it fills grooves that are five spacings wide.
+# Half widths of the shell to try, in spacings: half a spacing is the least at which balls around neighbours touch;
+# each further one has twice the cross section, and after 2.8 it fills grooves that are five spacings wide.
 WIDENING = (0.5, 0.7, 1.0, 1.4, 2.0, 2.8)
-RIDGE = 0.2  # cells: eight times what balls leave between them, s² / 8 R with s² = RIDGE R, so a fortieth of a cell
-REACH = 0.5  # cells: over gaps that the balls leave between them, for they are one cell or more apart
-# Points with an inside behind them over points with an outside before them. In a shell that is whole it is nearly one,
-# and a wider shell can add nothing; where it leaks the inside is a few pockets, and under 0.3 most of it is outside.
+RIDGE = 0.2  # cells: eight times the ridge between balls, s² / 8 R with s² = RIDGE R, so a fortieth of a cell
+REACH = 0.5  # cells: to bridge the gaps that the balls leave between them, since they are one cell or more apart
+# Points with an inside behind them over points with an outside in front of them. In a whole shell this is nearly one,
+# and a wider shell can add nothing; where it leaks, the inside is a few pockets, and under 0.3 most of it is outside.
 BACKED, ENOUGH = 0.3, 0.9
 SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 7, 400  # per cell and per point, measured peaks
 
@@ -57,14 +57,14 @@ def voxelise_points(
     voxel : float
         Cell size, mm.
     shell : float, optional
-        Full width of the shell, mm: cells are True whose centre is within half of it of a point. If left
+        Full width of the shell, mm: cells are True if their centre is within half of it of a point. If left
         out, the solid is filled.
     margin : int
         Empty cells beyond the points, or beyond their shell, on every side.
     max_memory : int, optional
-        Bytes; what is at hand if left out.
+        Bytes; by default, whatever is available.
     threads : int, optional
-        To look for neighbours with; see `infill.kernels.threads.thread_count`.
+        Used to look for neighbours; see `infill.kernels.threads.thread_count`.
 
     Returns
     -------
@@ -82,15 +82,15 @@ def voxelise_points(
 
     Notes
     -----
-    The shell is that of the points: the narrow volume around them. To fill it, a shell is laid around the
-    points whose half width R is, with h the cell size and d the distance from a point to its sixth
-    neighbour (its 95 % quantile), sqrt(d² / 4 + h²), or wider, up to sqrt(8 d² + h²), where the outside gets in.
-    What the outside does not reach is filled, and the outer half of the shell is taken off with balls of radius R
-    that roll over the points from outside. Where balls that roll over them from inside come as close, the
-    nearer centre decides, so that the surface runs through the points and does not sag between them.
+    The shell is the narrow volume around the points. To fill the solid, a shell is laid around the points whose
+    half width R is, with h the cell size and d the distance from a point to its sixth neighbour (its 95 %
+    quantile), sqrt(d² / 4 + h²), or wider, up to sqrt(8 d² + h²), where the outside gets in. What the outside
+    does not reach is filled, and the outer half of the shell is removed with balls of radius R that roll over
+    the points from outside. Where balls that roll over them from inside come just as close, the nearer centre
+    decides, so that the surface runs through the points and does not sag between them.
 
-    Grooves narrower than the shell and walls thinner than it are filled or lost: more points, or more evenly
-    spread ones, make it thinner.
+    Grooves and walls narrower than the shell are filled or lost: more points, or more evenly spread ones,
+    make the shell thinner.
 
     >>> voxelise_points([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]], voxel=1, shell=3).values.shape
     (12, 12, 12)
@@ -115,7 +115,7 @@ def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
 
     Notes
     -----
-    A ball cuts a row of cells in one span, so that the work is N times the rows across a ball.
+    A ball cuts a row of cells in one span, so that the work is N times the number of rows across a ball.
 
     >>> balls(np.array([[1.0, 1, 1]]), 1.2, (3, 3, 3)).sum()
     np.int64(7)
@@ -160,7 +160,7 @@ def _checked(points: ArrayLike) -> Floats:
 
 
 def _grid(positions: Floats, size: float, pad: int) -> tuple[tuple[int, ...], Floats, Floats]:
-    """Return shape and origin of a grid with `pad` cells around the points' box, and the points in cells of it."""
+    """Return the shape and origin of a grid with `pad` cells around the points' box, and the points in its cells."""
     lower, upper = positions.min(axis=0), positions.max(axis=0)
     shape = tuple(max(1, math.ceil(side / size - 1e-6)) + 2 * pad for side in (upper - lower).tolist())
     origin = (lower + upper) / 2 - np.array(shape) * size / 2
@@ -231,9 +231,9 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None, threa
 def _filled(
     points: Floats, radius: float, shape: tuple[int, ...], least: float, threads: int
 ) -> tuple[Cells | None, float]:
-    """Return the solid inside a shell, or None, and how many points have an inside, per point with an outside.
+    """Return the solid inside a shell, or None, and the ratio of points with an inside to points with an outside.
 
-    None if that share is under `least`.
+    The solid is None if that ratio is below `least`.
     """
     from scipy.spatial import KDTree
 
@@ -273,11 +273,11 @@ def _beside(cells: Cells, others: Cells) -> NDArray[np.int64]:
 
 
 def _rolled(tree: KDTree, cells: NDArray[np.int64], radius: float, threads: int) -> tuple[Floats, int]:
-    """Return centres of balls that touch the points from the side of the cells, and how many points they touch."""
+    """Return centres of balls touching the points from the side of the cells, and how many points they touch."""
     distance, nearest = tree.query(cells, workers=threads)
     # On the ball around the nearest point, not at the cell: no part of a cell is lost.
     centres = tree.data[nearest] + (cells - tree.data[nearest]) * (radius / distance)[:, None]
-    # Between balls s apart a ridge of s² / 8 R is left: large balls need not stand in every cell.
+    # Between balls s apart, a ridge of s² / 8 R remains: large balls need not be placed in every cell.
     apart = max(1.0, math.sqrt(RIDGE * radius))
     _, kept = np.unique(np.floor(centres / apart).astype(np.int64), axis=0, return_index=True)
     return centres[kept], len(np.unique(nearest))

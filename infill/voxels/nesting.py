@@ -1,4 +1,4 @@
-"""Which components of a mesh lie in which, and which of them are inside out."""
+"""Which components of a mesh lie inside which others, and which of them are inside out."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from numpy.typing import NDArray
 
 from infill.voxels.scanlines import Crossings
 
-SAMPLES = 9  # crossings of a component that are looked at to learn what it lies in
+SAMPLES = 9  # crossings of a component that are examined to find out what it lies in
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
 
 
 def inside_out(found: Crossings, component: Integers, volumes: Floats) -> NDArray[np.bool_]:
-    """Return which components are to be turned: those that face inwards and lie in no other, and all inside them.
+    """Return which components must be turned: those that face inwards and lie in no other, and everything inside them.
 
     Parameters
     ----------
@@ -30,8 +30,8 @@ def inside_out(found: Crossings, component: Integers, volumes: Floats) -> NDArra
 
     Notes
     -----
-    A component lies in another if the rows go around it there at every one of some crossings looked at. What
-    faces against the component it lies in is its cavity, and turns with it.
+    A component lies in another if the rows wind around it at every one of the crossings examined. One that faces
+    the opposite way from the component it lies in is a cavity of it, and turns with it.
     """
     turned = np.zeros(len(volumes), dtype=bool)
     if (volumes >= 0).all() or (volumes <= 0).all():

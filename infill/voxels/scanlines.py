@@ -1,8 +1,8 @@
 """Where the rows of a grid pass through triangles, exactly enough that closed meshes have no leaks.
 
 The rows run along z through the cell centres. Each of the two edges of a triangle that a plane y = j cuts
-is cut in the same arithmetic for both triangles that share it, so what one triangle gains at a rounded
-place its neighbour loses: over a closed mesh the signs along every row add up to 0, always.
+is cut by the same arithmetic for both triangles that share it, so whatever one triangle gains through rounding
+its neighbour loses: over a closed mesh, the signs along every row always add up to 0.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from infill.ragged import spread
 
-AT_ONCE = 2**17  # crossings worked on at a time: some ten arrays of so many numbers
+AT_ONCE = 2**17  # crossings processed at a time: some ten arrays of this length
 SLAB = 2**21  # cells filled at a time
 
 Floats = NDArray[np.float64]
@@ -29,11 +29,11 @@ class Crossings:
     row : (N,) int
         x * ny + y of the row.
     place : (N,) int
-        First cell of the row whose centre is not before the crossing; nz if none is.
+        First cell of the row whose centre is not before the crossing; nz if there is none.
     face : (N,) int
-        The triangle.
+        The triangle crossed.
     sign : (N,) int
-        +1 where the row enters what the triangle bounds, -1 where it leaves.
+        +1 where the row enters what the triangle bounds, -1 where it leaves it.
     """
 
     row: NDArray[np.int32]
@@ -48,14 +48,14 @@ def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ..
     Parameters
     ----------
     vertices : (V, 3) float64
-        In cells: the centre of the first cell is 0, of the next 1. All within the grid.
+        In cells: the centre of the first cell is 0, that of the next 1. All lie within the grid.
     faces : (F, 3) int, counter-clockwise seen from outside
     shape : (nx, ny, nz)
 
     Notes
     -----
-    The cut of plane y = j with a triangle is the span between two of its edges; an edge is cut if
-    y_low <= j < y_high. A row passes if x_left <= i < x_right. Ties so go the same way for every triangle.
+    The plane y = j cuts a triangle in the span between two of its edges; an edge is cut if
+    y_low <= j < y_high. A row passes through if x_left <= i < x_right. So ties go the same way for every triangle.
 
     >>> square = np.array([[0, 0, 0.5], [1, 0, 0.5], [1, 1, 0.5], [0, 1, 0.5]])
     >>> found = crossings(square, np.array([[0, 2, 1], [0, 3, 2]]), (2, 2, 2))
@@ -109,7 +109,7 @@ def _cut(
     """Return x and z where edges from a lower to a higher y pass through planes of that y."""
     (x0, y0, z0), (x1, y1, z1) = vertices[start].T, vertices[end].T
     part = (plane - y0) / (y1 - y0)
-    # Kept between the ends: rounded beyond, it could lie in a column that the box of the triangle leaves out.
+    # Kept between the ends: rounded beyond them, it could lie in a column that the box of the triangle leaves out.
     x = np.clip(x0 + part * (x1 - x0), np.minimum(x0, x1), np.maximum(x0, x1))
     return x, z0 + part * (z1 - z0)
 

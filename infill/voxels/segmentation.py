@@ -1,4 +1,4 @@
-"""From a volume of grey values to what is solid: by threshold, range, label or Otsu's method, or with grey edges."""
+"""From a volume of grey values to a solid: by threshold, range, label or Otsu's method, or with grey edges."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from infill.volume import Volume
 
 MASKS = ((0, 1), (-1, 1), (0, 255))  # two values that can only mean void and solid
 EXACT = 65536  # a histogram of whole numbers up to this range has one bin per value
-BINS = 4096  # else
+BINS = 4096  # bins otherwise
 NAMED = 12  # labels listed in a message
-STRAIGHT = 2 / 3  # mean of 1 / (|x| + |y| + |z|) over a surface's unit normals, weighed by their sum
-SLAB = 2**22  # cells looked at in one go
+STRAIGHT = 2 / 3  # mean of 1 / (|x| + |y| + |z|) over a surface's unit normals, weighted by that sum
+SLAB = 2**22  # cells examined in one go
 
 
 def threshold(
@@ -30,14 +30,14 @@ def threshold(
     label: int | tuple[int, ...] | None = None,
     otsu: bool = False,
 ) -> tuple[Volume, dict[str, Any]]:
-    """Return which cells are solid, and what was used to tell.
+    """Return which cells are solid, and the criterion that was used.
 
     Parameters
     ----------
     volume : Volume
         Numbers or booleans. It is not changed.
     low, high : float, optional
-        Solid is low <= value <= high; one of them alone leaves the other side open.
+        Solid is low <= value <= high; giving only one leaves the other side open.
     label : int or tuple of int, optional
         Solid is every cell with one of these values.
     otsu : bool
@@ -48,19 +48,19 @@ def threshold(
     Volume
         Booleans, True is solid, in the same place.
     dict
-        "method" (range, label, otsu, mask or phase), the numbers it used, "values" the lowest and the highest
-        value, and "solid" the solid part of all cells.
+        "method" (range, label, otsu, mask or phase), the numbers it used, "values", the lowest and the highest
+        value, and "solid", the solid share of all cells.
 
     Raises
     ------
     ParameterError
-        If more than one way is given; if none is, and the values do not say by themselves what is solid; if
+        If more than one way is given; if none is, and the values do not show by themselves what is solid; if
         nothing or everything would be solid; if values are NaN or infinite.
 
     Notes
     -----
-    With no way given, booleans stay, two values of which one must be void ({0, 1}, {-1, 1}, {0, 255}) are a
-    mask, and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
+    If no way is given, booleans are used as they are, two values one of which must be void ({0, 1}, {-1, 1}, {0, 255})
+    are a mask, and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
 
     >>> threshold(Volume(values=np.arange(8.0).reshape(2, 2, 2)), low=6)[1]["solid"]
     0.25
@@ -96,13 +96,13 @@ def threshold(
 
 
 def otsu_threshold(volume: Volume) -> float:
-    """Return the threshold by Otsu's method: it lies between two classes of values that each vary least.
+    """Return the threshold by Otsu's method: it separates two classes that each vary as little as possible.
 
     Notes
     -----
     Source: Otsu, IEEE Transactions on Systems, Man and Cybernetics 9 (1979). The histogram has one bin per
-    value for whole numbers that span up to 65,536, else 4,096 bins. The threshold is the upper edge of the
-    last bin below; where bins are empty beside it, the middle of those. value >= threshold is the upper class.
+    value for whole numbers that span up to 65,536, else 4,096 bins. The threshold is the upper edge of the last
+    bin of the lower class or, if empty bins follow, the middle of those. value >= threshold is the upper class.
 
     >>> otsu_threshold(Volume(values=np.array([[[0, 1, 9, 10]]])))
     5.0
@@ -121,7 +121,7 @@ def otsu_threshold(volume: Volume) -> float:
 
 
 def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
-    """Return grey values as data in [-1, 1] that keep where between two cells the surface lies.
+    """Return grey values as data in [-1, 1] that preserve where between two cells the surface lies.
 
     Parameters
     ----------
@@ -130,12 +130,12 @@ def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
     level : float
         Value at the surface.
     window : float, optional
-        Difference of values that goes from void to solid; `edge_window(volume, level)` if left out.
+        Difference of values from void to solid; by default, `edge_window(volume, level)`.
 
     Returns
     -------
     Volume
-        float32, +1 solid and -1 void, grey between, in the same place. The only copy that is made.
+        float32, +1 solid and -1 void, grey between, in the same place. This is the only copy made.
 
     Raises
     ------
@@ -144,11 +144,11 @@ def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
 
     Notes
     -----
-    f = clip((v - level) / (window / 2), -1, 1), the scaling of Wang et al. 2020, Eq. (2), held to a window
-    so that bright and dark spots far from the surface do not weigh. With the default the grey edge is
-    about one cell wide, as for a shape whose edge cells are filled in part. On a ball of 20 cells so made,
-    f = 0 lies 0.05 cells rms from it, that of a mask 0.19. A smaller window ends in the stairs of a
-    mask; a larger one leaves cells inside grey, and holes where the part is faint.
+    f = clip((v - level) / (window / 2), -1, 1), the scaling of Wang et al. 2020, Eq. (2), confined to a window
+    so that bright and dark spots far from the surface carry no weight. With the default, the grey edge is
+    about one cell wide, as for a shape whose edge cells are partly filled. On a ball of 20 cells made this way,
+    f = 0 lies 0.05 cells rms from the true surface, and that of a mask 0.19. A smaller window ends in the
+    staircase of a mask; a larger one leaves interior cells grey, and holes where the part is faint.
 
     >>> grey(Volume(values=np.array([[[0, 25, 100]]])), 50, 100).values.tolist()
     [[[-1.0, -0.5, 1.0]]]
@@ -164,10 +164,10 @@ def grey(volume: Volume, level: float, window: float | None = None) -> Volume:
 
 
 def edge_window(volume: Volume, level: float) -> float:
-    """Return how much values change over one cell straight across the surface, for `grey`.
+    """Return how much values change over one cell perpendicular to the surface, for `grey`.
 
-    It is the `contrast` of neighbours divided by 2/3, the mean of how straight the axes of the grid cross
-    a surface that faces all ways alike; but not more than the mean of the values above the level is over
+    It is the `contrast` of neighbours divided by 2/3, the mean of how squarely the axes of the grid cross
+    a surface that faces all directions equally; but at most the mean of the values above the level minus
     the mean of those below, so that the two values of a mask stay +1 and -1.
 
     >>> edge_window(Volume(values=np.array([[[0, 0, 255, 255]]])), 127.5)
@@ -184,15 +184,15 @@ def edge_window(volume: Volume, level: float) -> float:
 
 
 def contrast(volume: Volume, level: float) -> float:
-    """Return the mean difference of values across the surface: of all pairs of neighbours with the level between.
+    """Return the mean difference of values across the surface, over all pairs of neighbours with the level between.
 
-    For a sharp picture it is the full step from void to solid, and for a blurred one how much values change
-    from one cell to the next, the mean over the directions that the surface takes.
+    For a sharp picture it is the full step from void to solid; for a blurred one, it is how much values change
+    from one cell to the next, averaged over the directions that the surface takes.
 
     Raises
     ------
     ParameterError
-        If no two neighbours lie on two sides of the level.
+        If no two neighbours lie on opposite sides of the level.
 
     >>> contrast(Volume(values=np.array([[[0, 0, 40, 100, 100]]])), 50)
     60.0
@@ -206,7 +206,7 @@ def contrast(volume: Volume, level: float) -> float:
             part = along[start : start + rows + 1]
             above: NDArray[np.bool_] = part > level
             across = above[1:] != above[:-1]
-            # Only the pairs at the surface are copied: they are few, and types without a sign need more room.
+            # Only the pairs at the surface are copied: they are few, and unsigned types need more room.
             step = part[1:][across].astype(np.float64) - part[:-1][across].astype(np.float64)
             total, pairs = total + float(np.abs(step).sum()), pairs + step.size
     if pairs == 0:
@@ -216,7 +216,7 @@ def contrast(volume: Volume, level: float) -> float:
 
 
 def _plain(volume: Volume, least: float, most: float) -> tuple[NDArray[np.bool_], dict[str, Any]]:
-    """Return what values say by themselves, or raise ParameterError that offers the ways."""
+    """Return what the values mean by themselves, or raise ParameterError that offers the ways to choose."""
     values: NDArray[Any] = volume.values
     if (least, most) in MASKS and all(bool(((part == least) | (part == most)).all()) for part in _slabs(values)):
         return values == most, {"method": "mask"}
@@ -238,7 +238,7 @@ def _check_ends(low: float | None, high: float | None) -> None:
 
 
 def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
-    if values.dtype.kind in "iu":  # compared as whole numbers: nothing is turned into another type
+    if values.dtype.kind in "iu":  # compared as whole numbers: nothing is converted
         low = math.ceil(low) if low is not None and math.isfinite(low) else low
         high = math.floor(high) if high is not None and math.isfinite(high) else high
     solid = np.ones_like(values, dtype=bool) if low is None else values >= low
@@ -282,7 +282,7 @@ def _histogram(values: NDArray[Any]) -> tuple[NDArray[np.float64], NDArray[np.fl
 
 
 def _slabs(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
-    """Yield all cells, some at a time, in the order of memory."""
+    """Yield all cells, some at a time, in memory order."""
     ordered = _in_memory_order(values)
     rows = max(1, SLAB * len(ordered) // ordered.size)
     for start in range(0, len(ordered), rows):
@@ -290,12 +290,12 @@ def _slabs(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
 
 
 def _in_memory_order(values: NDArray[Any]) -> NDArray[Any]:
-    """Return a view with the axes from the widest step in memory to the smallest."""
+    """Return a view with the axes ordered from the widest step in memory to the smallest."""
     return values.transpose(np.argsort([-abs(step) for step in values.strides], kind="stable"))
 
 
 def _labels(values: NDArray[Any]) -> str:
-    """Return the values there are, for a message, where they are few."""
+    """Return the values that occur, for a message, if they are few."""
     if values.dtype.kind not in "iu" or int(values.max()) - int(values.min()) >= EXACT:
         return ""
     counts, edges = _histogram(values)

@@ -1,8 +1,8 @@
 """Stamping: a pattern as a phase field on a grid.
 
-`stamp` is the paper's: every point marks the cell it lies in and the block of cells around it.
+`stamp` is the paper's method: every point marks the cell it lies in and the block of cells around it.
 A line comes out `block` cells wide along the axes and up to 41 % wider on the diagonal.
-`stamp_lines` is exact: it gives every cell its distance to the nearest line, as grey data.
+`stamp_lines` is exact: it gives every cell its distance from the nearest line, as grey data.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from infill.errors import ParameterError
 from infill.grid import SOLID, VOID, Grid
 from infill.ragged import spread
 
-ROUNDING = 1e-9  # of a cell: a point this little outside still counts as on the edge
+ROUNDING = 1e-9  # of a cell: a point this far outside still counts as on the edge
 CANDIDATES_AT_ONCE = 2_000_000  # pairs of a cell and a piece of a line: about 100 bytes each
 
 
@@ -35,8 +35,8 @@ def stamp(
     block : int
         Cells across the stamp, odd, so that it is centred on the point's own cell.
     outside : {"error", "clip"}
-        What becomes of points outside the grid: an error, or left out. The part of a block that
-        reaches over the edge of the grid is always cut off.
+        What happens to points outside the grid: they raise an error, or are left out. The part of a block
+        that extends beyond the grid is always cut off.
 
     Returns
     -------
@@ -85,9 +85,9 @@ def stamp(
 
 
 def widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool_]:
-    """Return `marked` grown by `reach` cells both ways along one axis.
+    """Return `marked` grown by `reach` cells in both directions along one axis.
 
-    What scipy.ndimage.maximum_filter1d returns, four times as fast for the blocks of 3 and 5 cells.
+    The same result as scipy.ndimage.maximum_filter1d, four times as fast for blocks of 3 and 5 cells.
     """
     along = np.moveaxis(marked, axis, 0)
     grown = along.copy()
@@ -98,7 +98,7 @@ def widened(marked: NDArray[np.bool_], axis: int, reach: int) -> NDArray[np.bool
 
 
 def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[np.float32]:
-    """Return f = clip((w/2 - d) / (h/2), -1, 1), d the distance of a cell's centre to the lines.
+    """Return f = clip((w/2 - d) / (h/2), -1, 1), d the distance of a cell's centre from the lines.
 
     Parameters
     ----------
@@ -112,8 +112,8 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     -------
     (grid.shape) float32 in [-1, 1]
         The zero level of f lies within 9 % of a cell of the wall's edge, and smoothing evens that
-        out: walls of five cells keep their width to 1 % in any direction. Eq. (2) of Wang et al.
-        2020 allows such grey data.
+        out: walls of five cells keep their width to within 1 % in any direction. Eq. (2) of Wang et al.
+        2020 permits such grey data.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
     half_cell = float(grid.cell_size.min()) / 2
     reach = width / 2 + half_cell
     nearest = np.full(grid.cells, np.float32(reach))
-    # Short pieces keep the boxes of candidate cells close to the band of cells they can reach.
+    # Short pieces keep the bounding boxes of candidate cells close to the band of cells they can reach.
     pieces, owner = shapely.get_coordinates(shapely.segmentize(lines.geoms, 2 * width), return_index=True)
     follows = owner[1:] == owner[:-1]
     start, end = pieces[:-1][follows], pieces[1:][follows]
@@ -143,7 +143,7 @@ def stamp_lines(lines: MultiLineString, grid: Grid, *, width: float) -> NDArray[
 
 
 def _distance(points: NDArray[np.float64], start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the distance of each point to its own segment."""
+    """Return the distance of each point from its own segment."""
     along, out = end - start, points - start
     length = np.einsum("ij,ij->i", along, along)
     part = np.einsum("ij,ij->i", out, along) / np.where(length > 0, length, 1)
