@@ -49,7 +49,7 @@ test: .venv/test
 
 # What a change needs while it is being made: no coverage, no slicers, nothing slow (see tests/conftest.py).
 quick: .venv/test
-	@$(BIN)/python -m pytest -q -n auto -m "not slow" -p no:cov
+	@$(BIN)/python -m pytest -q -n auto -m "not slow" -p no:cov tests infill patterns
 
 # The suite on the oldest dependencies that pyproject.toml allows.
 oldest: .venv-oldest/test
