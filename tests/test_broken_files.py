@@ -139,7 +139,7 @@ def test_what_data_make_our_lines_raise_is_a_broken_file(error: type[Exception],
     space: dict[str, Any] = {"__name__": "infill.formats.made_up", "error": error}
     exec("def parse():\n    raise error('no number')", space)
     with (
-        pytest.raises(FormatError, match=r"x.stl is broken or no .stl file \(no number\); save it again"),
+        pytest.raises(FormatError, match=r"x.stl is broken or not a .stl file \(no number\); save it again"),
         told_broken(Path("x.stl")),
     ):
         space["parse"]()

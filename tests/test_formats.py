@@ -254,7 +254,7 @@ def test_3mf_parts_in_other_files(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("<model", "is no 3MF file"),
+        ("<model", "is not a 3MF file"),
         ("<model></model>", "nothing to build"),
         (model("", '<item objectid="4"/>'), "refers to an object 4"),
         (model('<object id="1"></object>', '<item objectid="1"/>'), "no triangles"),

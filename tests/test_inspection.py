@@ -98,7 +98,7 @@ def test_vertices_without_a_face_do_not_count(tmp_path: Path) -> None:
 def test_what_is_no_mesh_is_told(faces: np.ndarray) -> None:
     with pytest.raises(GeometryError, match="no faces|do not exist"):
         check(Surface(vertices=BOX.vertices, faces=faces))
-    with pytest.raises(GeometryError, match="is no mesh"):
+    with pytest.raises(GeometryError, match="is not a mesh"):
         check(trimesh.Scene(BOX))
 
 

@@ -220,7 +220,7 @@ def test_bad_lengths_are_refused(name: str, bad: float) -> None:
             PatternError,
             "honeycomb has no parameter 'waves'; it has cell, angle, phase, frame",
         ),
-        (Honeycomb(), {"cell": 3}, ParameterError, "beside a ready-made pattern"),
+        (Honeycomb(), {"cell": 3}, ParameterError, "together with a ready-made pattern"),
         (Honeycomb, {}, ParameterError, "give a name, or a pattern such as"),
         (7, {}, ParameterError, "7 is not a pattern"),
         ("honeycomb", {"phase": (1, 2, 3)}, PatternError, "it must be 2 numbers"),

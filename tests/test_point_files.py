@@ -118,7 +118,7 @@ def test_ply_of_trimesh(encoding: Any, tmp_path: Path) -> None:
         ("a.csv", "x,y,z\n1,2,3\n4,nan,6\n7,8,inf\n", r"2 point\(s\) with NaN .* number 2"),
         ("a.txt", "some words only\nand more of them\n", "broken or holds no points"),
         ("a.xyz", "2\nwater\nO 0 0 0\nH 0 0 1\n", "broken or holds no points"),
-        ("a.ply", "plx\n", "is no PLY"),
+        ("a.ply", "plx\n", "is not a PLY"),
         ("a.ply", "ply\n", "header that is broken"),
         ("a.ply", "ply\nformat ascii 1.0\nend_header\n", "no vertices"),
         ("a.ply", "ply\nformat odd 1.0\nend_header\n", "is broken"),

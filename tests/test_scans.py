@@ -157,7 +157,7 @@ def test_objects_are_never_unpickled(tmp_path: Path) -> None:
     np.save(tmp_path / "a.npy", objects, allow_pickle=True)
     np.savez(tmp_path / "a.npz", a=objects)
     for name in ("a.npy", "a.npz"):
-        with pytest.raises(FormatError, match="broken or no"):
+        with pytest.raises(FormatError, match="broken or not a"):
             read_volume(tmp_path / name)
 
 

@@ -332,7 +332,7 @@ BAD = [
         (f"s.stl --{option}", f"{option.split()[0]} is for")
         for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")
     ],
-    *[(f"s.stl --{option} 1", "for volumes, and s.stl is taken for") for option in ("spacing", "array", "series")],
+    *[(f"s.stl --{option} 1", "for volumes, and s.stl is read as") for option in ("spacing", "array", "series")],
     *[(f"ball.npy --{option} 2", f"{option} is for") for option in ("shell", "resolution", "voxel")],
     ("ball.npy --units mm", "give the spacing of a volume in mm"),
     *[(f"p.xyz --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey")],

@@ -33,7 +33,7 @@ def list_patterns(
     from patterns import PATTERNS
 
     if pattern is None and preview is not None:
-        raise typer.BadParameter("a preview shows one pattern; name it")
+        raise typer.BadParameter("a preview shows a single pattern; name one")
     kinds = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
     if preview is not None:
         _write_preview(kinds[str(pattern)], preview, overwrite=force)

@@ -39,7 +39,7 @@ def make(
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     config: Annotated[
         Path | None,
-        typer.Option(help="TOML file of options; flags win over it.", rich_help_panel=FILES),
+        typer.Option(help="TOML file of options; flags override it.", rich_help_panel=FILES),
     ] = None,
     save_config: Annotated[
         Path | None,
@@ -104,7 +104,7 @@ def make(
     ] = None,
     fidelity: Annotated[
         float | None,
-        typer.Option(help="How strongly the stamp holds, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK),
+        typer.Option(help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK),
     ] = None,
     interface: Annotated[
         float | None,
@@ -127,7 +127,7 @@ def make(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
     ] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but errors.", rich_help_panel=RUN)] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
@@ -215,7 +215,7 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
     width, change = report["wall_width"], report["changes"]
     size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
     measured = (
-        "not measured: no wall stands clear of others"
+        "not measured: every wall is too close to another"
         if width["mean"] is None
         else f"{width['mean']:.3f} mm mean, {width['p5']:.3f} to {width['p95']:.3f} (5 to 95 %), "
         f"{width['requested']:g} asked for"
@@ -226,7 +226,7 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
         "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
-        f"volume {report['volume_change']:+.2%} (rims apart)",
+        f"volume {report['volume_change']:+.2%} (excluding rims)",
     }
     if change["pinholes"]:
         share = f"{change['pinhole_share']:.2%} of the void"

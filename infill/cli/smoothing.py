@@ -45,7 +45,7 @@ def smooth(
     kind: Annotated[
         str | None,
         typer.Option(
-            "--as", help="Take INPUT for: mesh, points or volume. (default: told by the file)", rich_help_panel=FILES
+            "--as", help="Read INPUT as mesh, points or volume. (default: inferred from the file)", rich_help_panel=FILES
         ),
     ] = None,
     units: Annotated[
@@ -94,7 +94,7 @@ def smooth(
         bool, typer.Option("--grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
     ] = False,
     despeckle: Annotated[
-        float, typer.Option(help="Take out components up to this volume first, mm³.", rich_help_panel=SOLID)
+        float, typer.Option(help="First remove components up to this volume, mm³.", rich_help_panel=SOLID)
     ] = 0.0,
     steps: Annotated[
         int, typer.Option(help="Smoothing steps: 20 for models, 30 for medical data.", rich_help_panel=SURFACE)
@@ -129,14 +129,14 @@ def smooth(
         typer.Option(help="Simplify the mesh: move it by at most about this, mm.", rich_help_panel=SURFACE),
     ] = None,
     max_triangles: Annotated[
-        int | None, typer.Option(help="Simplify the mesh to so many triangles at most.", rich_help_panel=SURFACE)
+        int | None, typer.Option(help="Simplify the mesh to at most this many triangles.", rich_help_panel=SURFACE)
     ] = None,
     allow_broken: Annotated[
         bool,
         typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN),
     ] = False,
     threads: Annotated[
-        int | None, typer.Option(help="Threads to use. (default: one a core)", rich_help_panel=RUN)
+        int | None, typer.Option(help="Threads to use. (default: one per core)", rich_help_panel=RUN)
     ] = None,
     max_memory: Annotated[
         str | None,
@@ -145,7 +145,7 @@ def smooth(
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
     ] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing but errors.", rich_help_panel=RUN)] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""

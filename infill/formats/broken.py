@@ -75,7 +75,7 @@ def told_broken(path: Path, what: str | None = None, advice: str = "save it agai
     except BROKEN as error:
         if is_ours(error) and not isinstance(error, BY_DATA):
             raise
-        said = what or f"is broken or no {path.suffix} file"
+        said = what or f"is broken or not a {path.suffix} file"
         raise FormatError(f"{path} {said} ({one_line(error)}); {advice}") from error
 
 

@@ -175,7 +175,7 @@ def _ply_header(path: Path, file: BinaryIO) -> tuple[list[tuple[str, int, Proper
     elements: list[tuple[str, int, Properties]] = []
     order = None
     if file.readline(PLY_HEAD).strip() != b"ply":
-        raise FormatError(f"{path} is no PLY; export the points again")
+        raise FormatError(f"{path} is not a PLY file; export the points again")
     while file.tell() < PLY_HEAD:
         words = file.readline(PLY_HEAD).decode("ascii", errors="replace").split()
         match words:

@@ -44,7 +44,7 @@ TAIL = """</triangles></mesh></object></resources>
 def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     """Read the build of a 3MF: objects, components and their transforms; core specification."""
     # The standard parser fetches nothing from outside, and its output is only counted and multiplied.
-    with told_broken(path, "is no 3MF file", AGAIN), zipfile.ZipFile(path) as package:
+    with told_broken(path, "is not a 3MF file", AGAIN), zipfile.ZipFile(path) as package:
         models = [name for name in package.namelist() if name.lower().endswith(".model")]
         roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
         start = _start_part(package)
@@ -84,7 +84,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
             joined = np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]])
             place(_path(component, part), component.get("objectid"), joined, depth + 1)
 
-    with told_broken(path, "holds a number that is none", AGAIN):
+    with told_broken(path, "holds a number that is not one", AGAIN):
         for item in root.iterfind("{*}build/{*}item"):
             if item.get("printable") == "0":
                 continue

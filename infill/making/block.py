@@ -188,7 +188,7 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
     for count, what in (
         (found.broken + found.voids_joined + found.walls_pierced, "wall(s) broke"),
         (found.vanished, "part(s) vanished"),
-        (found.appeared, "part(s) came out of nothing"),
+        (found.appeared, "part(s) appeared from nowhere"),
         (found.fused + found.voids_cut, "gap(s) between walls closed up"),
         (found.voids_closed, "hole(s) closed"),
     ):

@@ -293,7 +293,7 @@ def _judged(
     problems = [*found.problems, *_of_voxels(total, given)]
     off = surfaced.volume / total - 1
     if request.level == "volume" and abs(off) > OFF:
-        problems.append(f"the volume is off by {off:+.1%}, which no level mends")
+        problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
     if problems and not request.allow_broken:
         raise GeometryError(f"{'; '.join(problems)}; {ADVICE_REFINED if request.refine else ADVICE}")
     return found, problems

@@ -84,7 +84,7 @@ def read_source(
         volume = read_volume(source, array=array, series=series)
         return volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
     if spacing is not None or array is not None or series is not None:
-        raise ParameterError(f"spacing, array and series are for volumes, and {source} is taken for {found}")
+        raise ParameterError(f"spacing, array and series are for volumes, and {source} is read as {found}")
     if found == "points":
         points = read_points(source)
         return points * _scale(source, points, units)
@@ -125,7 +125,7 @@ def smooth_source(
     wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
     if wrong:
         fits = [each for each in KINDS if wrong[0] in FITTING[each]]
-        raise ParameterError(f"{wrong[0]} is for {' and '.join(fits)}, and the input is taken for {kind}; leave it out")
+        raise ParameterError(f"{wrong[0]} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
     if isinstance(source, Volume):
         ways = [name for name in ("threshold", "range", "otsu") if given[name]]
         if len(ways) > 1:
@@ -191,6 +191,6 @@ def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float
     elif unit != "mm" and longest > 0:
         raise ParameterError(
             f"{path} is {longest:.3g} mm long if its numbers are millimetres; "
-            f"give --units m if they are metres ({longest * 1000:.3g} mm), or --units mm if it is so small"
+            f"give --units m if they are metres ({longest * 1000:.3g} mm), or --units mm if it really is that small"
         )
     return 1.0

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
     """Return the mesh as plain arrays, or raise GeometryError if there is nothing to write or read."""
     if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
-        raise GeometryError(f"a {type(mesh).__name__} is no mesh; give a trimesh.Trimesh or a Surface")
+        raise GeometryError(f"a {type(mesh).__name__} is not a mesh; give a trimesh.Trimesh or a Surface")
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     if len(faces) == 0 or not np.isfinite(vertices).all():
         raise GeometryError("the mesh has no faces, or corners that are not finite numbers; make it again")

@@ -111,7 +111,7 @@ def otsu_threshold(volume: Volume) -> float:
 
     least, most = _ends(volume.values)
     if least == most:
-        raise ParameterError(f"all values are {least:g}; there is nothing that Otsu's method could part")
+        raise ParameterError(f"all values are {least:g}; there is nothing for Otsu's method to separate")
     counts, edges = _histogram(volume.values)
     middles = (edges[:-1] + edges[1:]) / 2
     highest = threshold_otsu(hist=(counts, middles))  # type: ignore[no-untyped-call]
