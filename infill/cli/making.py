@@ -104,7 +104,9 @@ def make(
     ] = None,
     fidelity: Annotated[
         float | None,
-        typer.Option(help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK),
+        typer.Option(
+            help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK
+        ),
     ] = None,
     interface: Annotated[
         float | None,

@@ -45,7 +45,9 @@ def smooth(
     kind: Annotated[
         str | None,
         typer.Option(
-            "--as", help="Read INPUT as mesh, points or volume. (default: inferred from the file)", rich_help_panel=FILES
+            "--as",
+            help="Read INPUT as mesh, points or volume. (default: inferred from the file)",
+            rich_help_panel=FILES,
         ),
     ] = None,
     units: Annotated[
