@@ -284,7 +284,7 @@ def test_make_tells_pinholes_and_problems(tmp_path: Path) -> None:
 
 def test_walls_that_cannot_be_measured_are_said_so(tmp_path: Path) -> None:
     words = ["--size", "1.8", "--cell", "1.35", "--height", "1", "-o", tmp_path / "a.stl"]
-    assert "not measured: no wall stands clear" in run("make", "honeycomb", *words).stderr
+    assert "not measured: every wall is too close" in run("make", "honeycomb", *words).stderr
     assert json.loads(run("make", "honeycomb", *words, "--force", "--json").stdout)["wall_width"]["mean"] is None
 
 
@@ -532,7 +532,7 @@ def test_a_full_memory_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         raise MemoryError
 
     monkeypatch.setattr(MakeSettings, "make", full)
-    one_line_error(run("make", "honeycomb", "-o", tmp_path / "a.stl"), "memory is used up")
+    one_line_error(run("make", "honeycomb", "-o", tmp_path / "a.stl"), "out of memory; use larger cells")
 
 
 def test_a_broken_plugin_is_one_line_on_stderr(tmp_path: Path) -> None:

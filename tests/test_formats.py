@@ -260,7 +260,7 @@ def test_3mf_parts_in_other_files(tmp_path: Path) -> None:
         (model('<object id="1"></object>', '<item objectid="1"/>'), "no triangles"),
         (
             model(f'<object id="1">{CUBE_XML.replace("0.5", "half", 1)}</object>', '<item objectid="1"/>'),
-            "number that is none",
+            "number that is not one",
         ),
         (
             model(

@@ -46,7 +46,7 @@ def reports_errors(command: Function) -> Function:
         except (InfillError, PatternError) as error:
             say(f"error: {error}")
         except MemoryError:
-            say("error: out of memory; use fewer cells per line or a smaller block")
+            say("error: out of memory; use larger cells or voxels, or a smaller part")
         raise typer.Exit(1)
 
     return run  # type: ignore[return-value]

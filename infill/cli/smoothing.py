@@ -46,7 +46,7 @@ def smooth(
         str | None,
         typer.Option(
             "--as",
-            help="Read INPUT as mesh, points or volume. (default: inferred from the file)",
+            help="Read INPUT as mesh, points or volume. (default: by the file)",
             rich_help_panel=FILES,
         ),
     ] = None,

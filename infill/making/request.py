@@ -219,7 +219,8 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
             raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
         if parameters:
             raise ParameterError(
-                f"{', '.join(parameters)} given together with a ready-made pattern; set parameters where the pattern is made"
+                f"{', '.join(parameters)} given together with a ready-made pattern; "
+                "set parameters where the pattern is made"
             )
         return pattern
     kind = PATTERNS.find(pattern)

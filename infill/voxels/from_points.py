@@ -224,7 +224,8 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None, threa
         return found
     raise GeometryError(
         f"the points do not enclose a solid: no more than {leaking:.0%} of them have an inside behind them in "
-        f"a shell of {2 * radii[0]:.3g} to {2 * radii[-1]:.3g} mm; give more points, more evenly spread ones, or a shell"
+        f"a shell of {2 * radii[0]:.3g} to {2 * radii[-1]:.3g} mm; "
+        "give more points, more evenly spread ones, or a shell"
     )
 
 
