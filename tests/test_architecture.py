@@ -108,7 +108,7 @@ def room_of(name: str) -> str | None:
     package, *rest = name.split(".")
     if package == "patterns":
         return "patterns"
-    if not rest:
+    if not rest or rest == ["__main__"]:
         return "front"
     if len(rest) == 1 and rest[0] in HALL:
         return "hall"

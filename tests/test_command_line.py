@@ -25,7 +25,7 @@ from infill.cli.console import as_bytes
 from infill.cli.listing import BRAILLE_BLANK
 from infill.cli.words import parse_bytes
 from infill.making.settings import MakeSettings, parse_size, resolve
-from patterns import PATTERNS, parameters
+from patterns import PATTERNS, gives, parameters
 from patterns.shared import SHARED
 
 COMMANDS = ["make", "smooth", "list", "check"]
@@ -100,6 +100,12 @@ def test_the_readme_names_every_command() -> None:
         assert f"infill {command}" in readme
 
 
+@pytest.mark.parametrize("package", ["infill", "infill.cli"])
+def test_python_runs_the_package(package: str) -> None:
+    done = subprocess.run([sys.executable, "-m", package, "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout == f"infill {infill.__version__} (phasefill)\n"
+
+
 # --- list ------------------------------------------------------------------------------------------------
 
 
@@ -112,15 +118,20 @@ def test_list_is_one_line_a_pattern() -> None:
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_list_shows_one_pattern(name: str) -> None:
-    text = run("list", name).stdout
-    assert text.startswith(f"{name}: {PATTERNS[name].summary}\n  lines, the same at every height\n")
-    for option, (_, described) in parameters(PATTERNS[name]).items():
+    text, kind = run("list", name).stdout, PATTERNS[name]
+    height = "the same at every height" if kind.prismatic else "changing with height"
+    assert text.startswith(f"{name}: {kind.summary}\n  {' and '.join(gives(kind))}, {height}\n")
+    for option, (_, described) in parameters(kind).items():
         (line,) = [line for line in text.splitlines() if line.split("  ")[1:2] == [_typed(option)]]
         assert line.endswith(described.help)
         assert described.range in text
+    assert all(len(line) <= 80 for line in text.splitlines())
+
+
+def test_list_shows_defaults_with_their_units_and_ranges() -> None:
+    text = run("list", "honeycomb").stdout
     assert "6 mm; a number from 0.001 to 10000 mm" in text
     assert "0 degrees; a number from -180 to 180 degrees" in text
-    assert all(len(line) <= 80 for line in text.splitlines())
 
 
 def _typed(option: str) -> str:

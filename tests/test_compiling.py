@@ -44,5 +44,5 @@ def test_compiling_is_told_once_in_a_process(tmp_path: Path) -> None:
         )
         for _ in range(2)
     )
-    assert first.stderr == "compiling one, the first time on this machine only\n"
+    assert first.stderr == "compiling one: up to a minute, and kept for later runs\n"
     assert second.stderr == ""  # found compiled

@@ -829,7 +829,7 @@ def test_the_log_tells_once_of_compiling(caplog: pytest.LogCaptureFixture, monke
             return numba.njit(lambda x: x + 1)(1) + numba.njit(lambda x: x * 2.5)(1)
 
     assert work() == work() == 4.5
-    assert caplog.messages == ["compiling all, the first time on this machine only"]
+    assert caplog.messages == ["compiling all: up to a minute, and kept for later runs"]
 
 
 @pytest.mark.parametrize("function", [smooth_volume, smooth_bricks])

@@ -42,7 +42,7 @@ def told_of_compiling(what: str) -> Iterator[None]:
         def on_start(self, event: object) -> None:  # noqa: ARG002 - what is compiled does not matter
             if not TOLD.is_set():
                 TOLD.set()
-                LOG.warning("compiling %s, the first time on this machine only", what)
+                LOG.warning("compiling %s: up to a minute, and kept for later runs", what)
 
         def on_end(self, event: object) -> None:
             pass

@@ -214,7 +214,7 @@ def smooth_points(
     return _smooth(Given(data=solid, facts=facts), Request(**options))
 
 
-@told_of_compiling("the smoother, about 15 s")
+@told_of_compiling("the smoother")
 def _smooth(given: Given, request: Request) -> Result[SmoothStages]:
     """Run the five stages, which all three functions have in common."""
     clock = Clock(request.progress)

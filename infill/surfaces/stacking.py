@@ -1,4 +1,4 @@
-"""From a layer to a component: stack it with caps, or take the shortcut for equal layers."""
+"""From a layer to a solid: stack it with caps, or take the shortcut for equal layers."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def stack(layer: ArrayLike, layers: int) -> NDArray[np.floating]:
 
     Notes
     -----
-    Source: Wang et al. 2020, step 4 of the method. Where phi = 1 the component is exactly `layers` layers
+    Source: Wang et al. 2020, step 4 of the method. Where phi = 1 the solid is exactly `layers` layers
     tall; where phi = v < 1 its top lies v / (1 + v) of a layer above the centre of the last layer.
 
     >>> stack(np.ones((2, 2)), 3)[0, 0].tolist()
@@ -56,14 +56,14 @@ def extrude(
     layer : (nx, ny) array
         Phase field, +1 solid.
     height : float
-        Height of the component, mm.
+        Height of the solid, mm.
     spacing : float or (hx, hy)
         Cell size, mm.
     layer_height : float, optional
         Thickness of a stacked layer, mm, rounded so that a whole number of layers makes up the height; by default the
         smaller cell size. It is the height of the rounding at the top edge of thin walls.
     origin : (x, y, z)
-        Lower corner of the component, mm.
+        Lower corner of the solid, mm.
 
     Returns
     -------
