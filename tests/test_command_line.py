@@ -343,7 +343,8 @@ def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_settings_survive_the_file(name: str, tmp_path: Path) -> None:
-    settings = resolve({"pattern": name, "size": "30x20", "cell": 5, "angle": 20, "alpha": 0.2})
+    given = {option: value for option, value in (("cell", 5), ("angle", 20)) if option in parameters(PATTERNS[name])}
+    settings = resolve({"pattern": name, "size": "30x20", "alpha": 0.2, **given})
     (tmp_path / "a.toml").write_text(settings.to_toml())
     again = resolve({}, tmp_path / "a.toml")
     assert again.to_toml() == settings.to_toml()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import os
@@ -162,9 +163,10 @@ def test_the_list_shows_every_parameter_with_its_help(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", BUILT_IN)
 def test_what_a_tuple_takes_is_told_when_it_is_no_tuple(kind: str) -> None:
-    for value in (3, "1,2", [1, "b"], [], {}):
-        with pytest.raises(PatternError, match=f"phase of {kind} is .*; it must be 2 numbers from"):
-            value_of(KINDS[kind], "phase", value)
+    tuples = [name for name, (field, _) in parameters(KINDS[kind]).items() if isinstance(field.default, tuple)]
+    for name, value in itertools.product(tuples, (3, "1,2", [1, "b"], [], {})):
+        with pytest.raises(PatternError, match=f"{name} of {kind} is .*; it must be 2 numbers from"):
+            value_of(KINDS[kind], name, value)
 
 
 # --- how they are written --------------------------------------------------------------------------------

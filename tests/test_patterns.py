@@ -343,7 +343,7 @@ def test_shared_parameters_are_the_same_everywhere() -> None:
     """But for their defaults, and in their order."""
     found = [parameters(kind) for kind in (*PATTERNS.built_in.values(), Ripples)]
     for name in SHARED:
-        assert len({each[name][1] for each in found}) == 1
+        assert len({each[name][1] for each in found if name in each}) == 1
     assert list(parameters(Zigzag)) == ["cell", "waves", "angle", "phase", "frame"]
     assert not ConcentricHeart().frame
     assert Zigzag().frame
