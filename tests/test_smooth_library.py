@@ -225,8 +225,8 @@ def test_threads_and_runs_give_the_same_bits() -> None:
         # The sum that gives the level runs in parts, one a thread: another last digit.
         levels = other.report["solid"].pop("level")
         assert levels == pytest.approx(one.report["solid"]["level"], abs=1e-12)
-        solid = {name: value for name, value in one.report["solid"].items() if name != "level"}
-        assert other.report == one.report | {"solid": solid}
+        facts = {name: value for name, value in one.report["solid"].items() if name != "level"}
+        assert other.report == one.report | {"solid": facts}
 
 
 def variants(values: NDArray[Any], folder: Path) -> dict[str, NDArray[Any]]:
