@@ -31,7 +31,9 @@ from infill import (
 )
 from infill.kernels.compiling import told_of_compiling
 from infill.phasefield.sparse import smooth_bricks
+from infill.smoothing.solids import OFF
 from infill.surfaces.distance import distances
+from infill.surfaces.levels import SMALLEST
 
 Solid = NDArray[np.bool_]
 
@@ -126,8 +128,10 @@ def test_every_solid_gives_a_closed_mesh_and_an_honest_report(solid: Solid, step
     # Nothing leaves the grid but by the half cell that marching cubes may add.
     assert mesh.bounds[0].min() >= -0.5
     assert (mesh.bounds[1] <= np.array(solid.shape) + 0.5).all()
-    if components == 1:
+    if components == 1 and solid.sum() >= SMALLEST:
         assert abs(report["volume_change"]) <= 5 * VOLUME  # crumbs of a few cells are not found as closely
+    elif components == 1 and abs(report["volume_change"]) > OFF:
+        assert any("the volume is off by" in problem for problem in report["problems"])
     json.dumps(report, allow_nan=False)
 
 
