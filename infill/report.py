@@ -7,6 +7,7 @@ mm², volumes in mm³, angles in degrees.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from typing import Any
 
 from infill.inspection.changes import Changes, Counts
@@ -89,18 +90,8 @@ def report_of(
         **{name: dict(section) for name, section in more.items()},
         "mesh": mesh,
         "solid": filled,
-        "topology": {"data": counts(data), "result": counts(result)},
+        "topology": {"data": asdict(data), "result": asdict(result)},
         "changes": changes.facts(),
         "walls": dict(walls),
         "seconds": {**seconds, "total": sum(seconds.values())},
-    }
-
-
-def counts(found: Counts) -> dict[str, int]:
-    """Return counts by name."""
-    return {
-        "components": found.components,
-        "cavities": found.cavities,
-        "tunnels": found.tunnels,
-        "euler_number": found.euler_number,
     }

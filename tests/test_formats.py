@@ -6,6 +6,7 @@ import errno
 import math
 import os
 import re
+import shutil
 import struct
 import zipfile
 from pathlib import Path
@@ -105,6 +106,38 @@ def test_files_of_one_run_take_their_places_together(
             file.write(b"new")
     assert paths[0].read_text() == "precious"
     assert list(tmp_path.iterdir()) == paths[:1]
+
+
+@pytest.mark.parametrize("linked", [True, False])
+def test_files_that_take_their_places_leave_nothing_behind(
+    linked: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the file system has no links, the old file is copied; a copy that fails leaves no part of itself."""
+    paths = [tmp_path / "a.stl", tmp_path / "b.stl"]
+    paths[0].write_text("precious")
+
+    def refused(*names: Path) -> None:
+        raise OSError(errno.EPERM, "Operation not permitted")
+
+    if not linked:
+        monkeypatch.setattr(os, "link", refused)
+    with whole_files(paths) as files:
+        for file in files:
+            file.write(b"new")
+    assert [path.read_bytes() for path in paths] == [b"new"] * 2
+    assert sorted(tmp_path.iterdir()) == paths
+
+    def full(source: Path, target: Path) -> None:
+        target.write_bytes(b"hal")
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "link", refused)
+    monkeypatch.setattr(shutil, "copy2", full)
+    with pytest.raises(OutputError, match="disk is full"), whole_files(paths) as files:
+        for file in files:
+            file.write(b"newer")
+    assert [path.read_bytes() for path in paths] == [b"new"] * 2
+    assert sorted(tmp_path.iterdir()) == paths
 
 
 def test_other_errors_are_told_by_the_system(tmp_path: Path) -> None:

@@ -89,8 +89,7 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
     finally:
         for target, partial in zip(targets, partials, strict=True):
             if partial != target:
-                with contextlib.suppress(OSError):
-                    partial.unlink(missing_ok=True)
+                _remove(partial)
 
 
 @contextlib.contextmanager
@@ -120,38 +119,40 @@ def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
 
 def _take_places(moves: Sequence[tuple[Path, Path]]) -> None:
     """Put each file in the place of its target; if one of them fails, all targets are restored."""
-    old: list[tuple[Path, Path | None]] = []
-    try:
+    with contextlib.ExitStack() as tidy, contextlib.ExitStack() as undo:
         for partial, target in moves:
             with told(target):
                 if len(moves) > 1:
-                    old.append((target, _kept(target)))
+                    kept = target.with_name(f".{secrets.token_hex(4)}.kept")
+                    tidy.callback(_remove, kept)
+                    undo.callback(_restore, target, kept if _keep(target, kept) else None)
                 os.replace(partial, target)
-    except BaseException:
-        for target, kept in reversed(old):
-            with contextlib.suppress(OSError):
-                if kept is None:
-                    target.unlink(missing_ok=True)
-                else:
-                    os.replace(kept, target)
-        raise
-    finally:
-        for _, kept in old:
-            if kept is not None:
-                with contextlib.suppress(OSError):
-                    kept.unlink(missing_ok=True)
+        undo.pop_all()  # all are in place
 
 
-def _kept(target: Path) -> Path | None:
-    """Return a second name for what exists at a target, or None if nothing does."""
+def _keep(target: Path, kept: Path) -> bool:
+    """Give what exists at a target a second name; return whether anything does."""
     if not target.exists():
-        return None
-    kept = target.with_name(f".{secrets.token_hex(4)}.kept")
+        return False
     try:
         os.link(target, kept)
     except OSError:  # a file system without links
         shutil.copy2(target, kept)
-    return kept
+    return True
+
+
+def _restore(target: Path, kept: Path | None) -> None:
+    """Put back what was at a target, or nothing."""
+    with contextlib.suppress(OSError):
+        if kept is None:
+            target.unlink(missing_ok=True)
+        else:
+            os.replace(kept, target)
+
+
+def _remove(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        path.unlink(missing_ok=True)
 
 
 def _partial(target: Path) -> Path:
