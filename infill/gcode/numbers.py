@@ -19,7 +19,7 @@ ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
 
 
 def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return the numbers that begin at `places` in `text`, and whether each is one.
+    r"""Return the numbers that begin at `places` in `text`, and whether each is one.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
     good : (M,) bool
         False if there is no digit, something strange follows, or there are more digits than a float holds.
 
-    >>> text = np.frombuffer(b"X-1.25 E.5 FNaN\\n", dtype=np.uint8)
+    >>> text = np.frombuffer(b"X-1.25 E.5 FNaN\n", dtype=np.uint8)
     >>> values, good = read_numbers(text, np.array([1, 8, 12]))
     >>> values.tolist(), good.tolist()
     ([-1.25, 0.5, nan], [True, True, False])
@@ -79,11 +79,12 @@ def _ends_a_number(byte: Bytes) -> NDArray[np.bool_]:
     """Return whether a byte may follow a number: a space, a line end, a comment, a checksum, the next word."""
     letter = (byte & 0xDF >= ord("A")) & (byte & 0xDF <= ord("Z")) & (byte & 0xDF != ord("E"))
     rest = (byte == SPACE) | (byte == TAB) | (byte == NEWLINE) | (byte == RETURN) | (byte == SEMICOLON)
-    return letter | rest | (byte == OPENING) | (byte == STAR)
+    ends: NDArray[np.bool_] = letter | rest | (byte == OPENING) | (byte == STAR)
+    return ends
 
 
 def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Bytes:
-    """Return rows of text, each `head`, a word for every column, and `tail`.
+    r"""Return rows of text, each `head`, a word for every column, and `tail`.
 
     Parameters
     ----------
@@ -97,8 +98,8 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
     -------
     (N,) uint8
 
-    >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\\n").tobytes()
-    b'G1 X1.5\\nG1 X-.25 F900\\n'
+    >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").tobytes()
+    b'G1 X1.5\nG1 X-.25 F900\n'
     """
     rows = len(columns[0][1])
     parts = [_constant(head, rows)]
@@ -108,7 +109,7 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
         word[absent] = 0
         parts.append(word)
     parts.append(_constant(tail, rows))
-    text = np.concatenate(parts, axis=1).ravel()
+    text: Bytes = np.concatenate(parts, axis=1).ravel()
     return text[text != 0]
 
 

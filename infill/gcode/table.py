@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -146,7 +147,7 @@ class Table:
 
 
 def read(data: bytes, state: State) -> Table:
-    """Read a batch of whole lines, beginning in `state`.
+    r"""Read a batch of whole lines, beginning in `state`.
 
     Parameters
     ----------
@@ -159,7 +160,7 @@ def read(data: bytes, state: State) -> Table:
     -------
     Table
 
-    >>> table = read(b"M83\\nG1 X1 Y2 E.5\\nG1 Y3\\n", State())
+    >>> table = read(b"M83\nG1 X1 Y2 E.5\nG1 Y3\n", State())
     >>> table.kind.tolist(), table.y.tolist(), table.extruded.tolist()
     ([0, 1, 1], [nan, 2.0, 3.0], [0.0, 0.5, 0.0])
     """
@@ -332,7 +333,7 @@ def _stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: F
     """Follow the moves of some lines in which nothing else changes, and return the state after them."""
     if lines.start >= lines.stop:
         return state
-    now: dict[str, float] = {}
+    now: dict[str, Any] = {}
     for axis, name in enumerate("xyz"):
         column = values[lines, axis]
         if state.relative:
@@ -379,25 +380,25 @@ def _changed(state: State, command: Command) -> State:
         case "M82" | "M83":
             return replace(state, relative_e=command.code == "M83")
         case "G92":
-            named = {letter: command.words.get(letter) for letter in "XYZE" if letter in command.words}
-            if not named:  # all of them
-                named = dict.fromkeys("XYZE", 0.0)
-            return replace(state, **{letter.lower(): 0.0 if v is None else v for letter, v in named.items()})
+            named = [letter for letter in "XYZE" if letter in command.words] or list("XYZE")  # without a word, all
+            reset: dict[str, Any] = {letter.lower(): command.words.get(letter) or 0.0 for letter in named}
+            return replace(state, **reset)
         case "G28":
             homed = [letter for letter in AXES if letter in command.words] or list(AXES)
-            return replace(state, **dict.fromkeys(map(str.lower, homed), NAN))
+            unknown: dict[str, Any] = dict.fromkeys(map(str.lower, homed), NAN)
+            return replace(state, **unknown)
         case _ if command.code[1:].isdigit():
             return replace(state, tool=int(command.code[1:]))
         case _:
             return state
 
 
-def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, float | bool]:
+def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, Any]:
     """Return how far the filament is drawn back at the end, and whether by firmware."""
     total = np.cumsum(np.append(-before.retracted, extruded))
-    retracted = float(np.maximum.accumulate(total)[-1] - total[-1]) if total.max() > 0 else float(-total[-1])
+    retracted = round(float(max(0.0, total.max()) - total[-1]), 9)
     firmware = before.firmware_retracted
     for command in commands:
         if command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words):
             firmware = command.code == "G10"
-    return {"retracted": max(0.0, retracted), "firmware_retracted": firmware}
+    return {"retracted": retracted, "firmware_retracted": firmware}
