@@ -6,6 +6,8 @@ power of ten once, so the value is the very float that `float` returns.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,14 @@ MOST_DIGITS = 15  # a float64 holds them exactly
 LONGEST = MOST_DIGITS + 2  # with a sign and a point
 SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR = b" \t\n\r;(*"
 ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rows:
+    """Lines of text, and where each begins: (N + 1,) int, the last entry being the length."""
+
+    text: bytes
+    start: NDArray[np.int64]
 
 
 def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -83,7 +93,7 @@ def _ends_a_number(byte: Bytes) -> NDArray[np.bool_]:
     return ends
 
 
-def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Bytes:
+def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Rows:
     r"""Return rows of text, each `head`, a word for every column, and `tail`.
 
     Parameters
@@ -96,9 +106,9 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
 
     Returns
     -------
-    (N,) uint8
+    Rows
 
-    >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").tobytes()
+    >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").text
     b'G1 X1.5\nG1 X-.25 F900\n'
     """
     rows = len(columns[0][1])
@@ -109,12 +119,14 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
         word[absent] = 0
         parts.append(word)
     parts.append(_constant(tail, rows))
-    text: Bytes = np.concatenate(parts, axis=1).ravel()
-    return text[text != 0]
+    wide: Bytes = np.concatenate(parts, axis=1)
+    shown = wide != 0
+    return Rows(text=wide[shown].tobytes(), start=np.concatenate([[0], np.cumsum(shown.sum(axis=1))]))
 
 
 def _constant(text: bytes, rows: int) -> Bytes:
-    return np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
+    repeated: Bytes = np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
+    return repeated
 
 
 def _number(values: NDArray[np.float64], decimals: int) -> Bytes:

@@ -100,6 +100,8 @@ class Table:
         OTHER, MOVE (G0, G1), ARC (G2, G3), COMMENT, BLANK or ODD.
     code : (N,) int8
         0 to 3 for G0 to G3, -1 else.
+    numbered : (N,) bool
+        The line begins with a line number, N12.
     x, y, z : (N,) float64
         Position after the line, NaN while unknown.
     e : (N,) float64
@@ -124,6 +126,7 @@ class Table:
     start: NDArray[np.int64]
     kind: NDArray[np.uint8]
     code: NDArray[np.int8]
+    numbered: NDArray[np.bool_]
     x: Floats
     y: Floats
     z: Floats
@@ -169,16 +172,16 @@ def read(data: bytes, state: State) -> Table:
     start[-1] = len(data)
     lines = len(start) - 1 if len(data) else 0
     start = start[: lines + 1]
-    kind, code, begin = _kinds(text, start)
+    kind, code, begin, numbered = _kinds(text, start)
     values, given = _words(text, start, kind, begin)
     commands = tuple(_commands(data, start, kind))
-    return _replayed(data, start, kind, code, values, given, commands, state)
+    return _replayed(data, start, kind, code, numbered, values, given, commands, state)
 
 
 def _kinds(
     text: NDArray[np.uint8], start: NDArray[np.int64]
-) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64]]:
-    """Return the kind of every line, its code, and where its words begin."""
+) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64], NDArray[np.bool_]]:
+    """Return the kind of every line, its code, where its words begin, and whether it has a line number."""
     first = start[:-1].copy()
     last = len(text) - 1
 
@@ -212,7 +215,7 @@ def _kinds(
     code = np.where(plain, digit.astype(np.int16) - ord("0"), -1).astype(np.int8)
     kind[plain & (digit <= ord("1"))] = MOVE
     kind[plain & (digit >= ord("2"))] = ARC
-    return kind, code, first + 2 + padded
+    return kind, code, first + 2 + padded, numbered
 
 
 def _is_digit(byte: NDArray[np.uint8]) -> NDArray[np.bool_]:
@@ -285,6 +288,7 @@ def _replayed(
     start: NDArray[np.int64],
     kind: NDArray[np.uint8],
     code: NDArray[np.int8],
+    numbered: NDArray[np.bool_],
     values: Floats,
     given: NDArray[np.bool_],
     commands: tuple[Command, ...],
@@ -316,6 +320,7 @@ def _replayed(
         start=start,
         kind=kind,
         code=code,
+        numbered=numbered,
         **where,
         f=feed,
         extruded=extruded,
