@@ -103,7 +103,7 @@ def rounded(
 
     >>> corner = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
     >>> done = rounded(corner, np.array([0, 3]), radius=2.0)
-    >>> done.radius[1], len(done.points)
+    >>> float(done.radius[1]), len(done.points)
     (2.0, 11)
     """
     machine = machine or Machine()
