@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import Contact, Samples, contact, sampled
 from infill.filling.corners import Machine, Rounded, rounded
+from infill.filling.curves import recut
 from infill.filling.surroundings import beads, bounded_deviation
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.splicing import UNIT, Redrawn
@@ -81,19 +82,54 @@ def rounded_strokes(
             infill.points[at], first, walls, deviation=rounding.deviation, line_width=width
         )
     commanded = marks.acceleration[opens]
-    machine = Machine(
-        acceleration=np.repeat(np.where(np.isnan(commanded), acceleration, commanded), count),
-        speed=np.repeat(np.maximum(table.f[opens] / 60, 1.0), count),
-        corner=rounding.corner,
+    known = np.where(np.isnan(commanded), acceleration, commanded)
+    speed = np.maximum(table.f[opens] / 60, 1.0)
+    return smoothed(
+        infill.points, infill.first, deviation=deviation, acceleration=known, speed=speed, rounding=rounding
     )
-    return rounded(infill.points, infill.first, deviation=deviation, radius=rounding.radius, machine=machine, unit=UNIT)
+
+
+def smoothed(
+    points: Floats, first: Places, *, deviation: Floats, acceleration: Floats, speed: Floats, rounding: Rounding
+) -> Rounded:
+    """Cut the curves of some paths anew and round the corners.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    first : (M + 1,) int
+    deviation : (N,) float64, mm
+        How far each corner may move.
+    acceleration, speed : (M,) float64
+        Of the paths, mm/s² and mm/s.
+    rounding : Rounding
+    """
+
+    def machine(begins: Places) -> Machine:
+        count = np.diff(begins)
+        return Machine(
+            acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=rounding.corner
+        )
+
+    curves = recut(points, first, machine(first))
+    allowed = np.where(curves.curved, 0.0, deviation[curves.source])
+    done = rounded(
+        curves.points,
+        curves.first,
+        deviation=allowed,
+        radius=rounding.radius,
+        machine=machine(curves.first),
+        unit=UNIT,
+    )
+    return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=done.radius)
 
 
 def _points_of(first: Places, some: Places) -> Places:
     """Return the numbers of the points of some paths, one path after another."""
     number = first[some + 1] - first[some]
     begins = np.repeat(first[some] - np.concatenate([[0], np.cumsum(number)[:-1]]), number)
-    return np.arange(int(number.sum())) + begins
+    places: Places = np.arange(int(number.sum())) + begins
+    return places
 
 
 def lengths(points: Floats, first: Places) -> Floats:
@@ -105,7 +141,7 @@ def lengths(points: Floats, first: Places) -> Floats:
 def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: Rounding) -> Redrawn:
     """Return the strokes to draw anew: those chosen that rounding changed."""
     number = np.diff(new.first)
-    which = np.flatnonzero(chosen & (number != np.diff(infill.first)))
+    which = np.flatnonzero(chosen & _changed(infill, new))
     at = _points_of(new.first, which)
     length = lengths(new.points, new.first)[which]
     rate = infill.filament[which] / infill.length[which]
@@ -119,6 +155,17 @@ def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: 
         source=new.source[at],
         filament=filament,
     )
+
+
+def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
+    """Return which strokes have other points than before."""
+    changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
+    alike = np.flatnonzero(~changed)
+    old, now = infill.points[_points_of(infill.first, alike)], new.points[_points_of(new.first, alike)]
+    moved = np.abs(old - now).max(axis=1) > UNIT / 2
+    owner = np.repeat(alike, np.diff(infill.first)[alike])
+    changed[owner[moved]] = True
+    return changed
 
 
 @dataclass(frozen=True, kw_only=True)
