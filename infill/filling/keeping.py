@@ -188,15 +188,16 @@ class Layer:
         return np.concatenate([self.infill.points, self.walls])
 
 
-def layer_of(table: Table, marks: Marks, infill: Strokes, points: Floats, first: Places, number: int) -> Layer:
-    """Return one layer with the infill drawn along `points`, `first`: the old paths or new ones."""
+def layer_of(marks: Marks, infill: Strokes, walls: Floats, points: Floats, first: Places, number: int) -> Layer:
+    """Return one layer with the infill drawn along `points`, `first`: the old paths or new ones.
+
+    `walls` is what `beads` gives of it.
+    """
     some = np.flatnonzero(marks.layer[first_moves(infill)] == number)
-    at = _points_of(first, some)
     ends = np.concatenate([[0], np.cumsum((first[1:] - first[:-1])[some])])
-    walls = beads(table, infill, marks.layer == number, 0.1)
-    return Layer(infill=sampled(points[at], ends), walls=walls)
+    return Layer(infill=sampled(points[_points_of(first, some)], ends), walls=walls)
 
 
 def contact_of(layer: Layer, below: Layer, width: float) -> Contact:
     """Measure what holds up the infill of a layer."""
-    return contact(layer.infill, layer.walls, below.all_points, width)
+    return contact(layer.infill, below.all_points, width)
