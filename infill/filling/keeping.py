@@ -69,54 +69,31 @@ def rounded_strokes(
         Where no command tells it.
     """
     opens = first_moves(infill)
-    layer = marks.layer[opens]
-    count = np.diff(infill.first)
-    deviation = np.full(len(infill.points), rounding.deviation)
-    for number in np.unique(layer):
-        some = np.flatnonzero(layer == number)
-        at = _points_of(infill.first, some)
-        walls = beads(table, infill, marks.layer == number)
-        first = np.concatenate([[0], np.cumsum(count[some])])
-        width = float(np.median(line_width(marks, opens[some])))
-        deviation[at] = bounded_deviation(
-            infill.points[at], first, walls, deviation=rounding.deviation, line_width=width
-        )
     commanded = marks.acceleration[opens]
     known = np.where(np.isnan(commanded), acceleration, commanded)
     speed = np.maximum(table.f[opens] / 60, 1.0)
-    return smoothed(
-        infill.points, infill.first, deviation=deviation, acceleration=known, speed=speed, rounding=rounding
-    )
-
-
-def smoothed(
-    points: Floats, first: Places, *, deviation: Floats, acceleration: Floats, speed: Floats, rounding: Rounding
-) -> Rounded:
-    """Cut the curves of some paths anew and round the corners.
-
-    Parameters
-    ----------
-    points : (N, 2) float64, mm
-    first : (M + 1,) int
-    deviation : (N,) float64, mm
-        How far each corner may move.
-    acceleration, speed : (M,) float64
-        Of the paths, mm/s² and mm/s.
-    rounding : Rounding
-    """
 
     def machine(begins: Places) -> Machine:
         count = np.diff(begins)
-        return Machine(
-            acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=rounding.corner
-        )
+        return Machine(acceleration=np.repeat(known, count), speed=np.repeat(speed, count), corner=rounding.corner)
 
-    curves = recut(points, first, machine(first))
-    allowed = np.where(curves.curved, 0.0, deviation[curves.source])
+    curves = recut(infill.points, infill.first, machine(infill.first))
+    inner = ~curves.curved
+    inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
+    corner = np.flatnonzero(inner)
+    layer = np.repeat(marks.layer[opens], np.diff(curves.first))[corner]
+    others = beads(table, marks, infill)
+    width = float(np.median(line_width(marks, opens)))
+    deviation = np.zeros(len(curves.points))
+    for number in np.unique(layer):
+        some = corner[slice(*np.searchsorted(layer, [number, number + 1]))]
+        deviation[some] = bounded_deviation(
+            curves.points, some, others.of(number), deviation=rounding.deviation, line_width=width
+        )
     done = rounded(
         curves.points,
         curves.first,
-        deviation=allowed,
+        deviation=deviation,
         radius=rounding.radius,
         machine=machine(curves.first),
         unit=UNIT,

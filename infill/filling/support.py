@@ -41,7 +41,8 @@ class Sample:
     def walls(self) -> dict[int, Floats]:
         """Points on everything but the infill, by layer."""
         layers = {number for pair in self.pairs for number in pair}
-        return {number: beads(self.table, self.infill, self.marks.layer == number, STEP) for number in layers}
+        others = beads(self.table, self.marks, self.infill)
+        return {number: others.of(number, STEP) for number in layers}
 
     @cached_property
     def pairs(self) -> list[tuple[int, int]]:
