@@ -1,4 +1,4 @@
-"""Concentric hearts: nested copies of one outline about the middle of the box."""
+"""Concentric hearts: nested copies of one outline about one point."""
 
 from __future__ import annotations
 
@@ -18,12 +18,14 @@ FEWEST, MOST = 9, 513  # points on a lobe
 class ConcentricHeart:
     """Hearts inside one another, `cell` apart at their straight sides and up to twice that at their lobes.
 
-    They lie about the middle of the box, which is therefore that of the whole part, in every layer.
+    They lie about `middle`, mm, which is to be that of the whole part in every layer, or else about the middle of the
+    box.
     """
 
     name: str = "concentric-heart"
     summary: str = "nested hearts; lines that follow an outline and never cross"
     prismatic: bool = True
+    middle: tuple[float, float] | None = None
 
     def strands(
         self,
@@ -38,11 +40,11 @@ class ConcentricHeart:
         """Return one closed line per heart; see `Family`."""
         from patterns.heart import outline
 
-        x0, y0, x1, y1 = bounds
+        box = np.array(bounds).reshape(2, 2)
+        middle = box.mean(axis=0) if self.middle is None else np.array(self.middle)
         # The heart on a square of side s contains the disc of radius s / 2 about the middle of the square.
-        count = math.ceil(math.hypot(x1 - x0, y1 - y0) / (2 * cell)) + 1
+        count = math.ceil(math.hypot(*np.abs(box - middle).max(axis=0)) / cell) + 1
         sides = cell * (2 * np.arange(count) + 1)
-        middle = np.array([(x0 + x1) / 2, (y0 + y1) / 2])
         return [
             side * (outline(_lobe_points(side / 2)) - 0.5) + middle for side in sides if side >= SMALLEST * line_width
         ]
