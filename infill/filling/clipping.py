@@ -87,13 +87,12 @@ def _cut(paths: Sequence[Path], outline: Outline) -> tuple[Path, Numbers, Number
     divisor = np.where(parallel, (along**2).sum(axis=-1), cross)
     divisor[divisor == 0] = 1.0  # a path that stands still
     part = np.where(parallel, ((b - a) * along).sum(axis=-1), _cross(b - a, side)) / divisor
-    share = np.where(parallel, 0.0, _cross(b - a, along) / divisor)
-    part, share = part.clip(0, 1), share.clip(0, 1)
-    cut = a + part[:, None] * along
-    place = outline.place[edge] + share * np.hypot(*side.T)
+    cut = a + part.clip(0, 1)[:, None] * along
+    length = np.hypot(*side.T)
+    place = outline.place[edge] + (((cut - b) * side).sum(axis=-1) / length).clip(0, length)
 
     key = np.concatenate([np.arange(len(points), dtype=np.float64), start[segment].astype(np.float64)])
-    fraction = np.concatenate([np.zeros(len(points)), part])
+    fraction = np.concatenate([np.zeros(len(points)), part.clip(0, 1)])
     order = np.lexsort((fraction, key))
     everything = np.concatenate([points, cut])[order]
     whose = np.concatenate([owner, owner[start[segment]]])[order]

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
 ANCHOR, ANCHOR_MAX = 2.5, 12.0  # mm, as slicers have them
 CLOSE = 0.005  # of the length asked for: near enough
-MOST_STEPS = 10
+SECANTS = 6
+AROUND = 1.008  # cells around the nearest one are this factor apart, if secants found none
+MOST_AROUND = 10
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,13 +138,13 @@ def solve_cell(
             / wanted
         )
 
-    best, nearest = math.inf, math.nan
+    found: list[tuple[float, float]] = []
     for cell, share in _steps(ratio, max(least, family.cell_for(wanted * least / area, line_width)), least):
-        if abs(share - 1) < abs(best - 1):
-            best, nearest = share, cell
-        if abs(best - 1) <= CLOSE:
+        found.append((share, cell))
+        if abs(share - 1) <= CLOSE:
             break
-    return Solved(cell=nearest, length=best * wanted, error=best - 1)
+    share, cell = min(found, key=lambda pair: abs(pair[0] - 1))
+    return Solved(cell=cell, length=share * wanted, error=share - 1)
 
 
 def total_length(paths: Sequence[Path]) -> float:
@@ -155,20 +157,28 @@ def total_length(paths: Sequence[Path]) -> float:
 
 
 def _steps(ratio: Callable[[float], float], first: float, least: float) -> Iterator[tuple[float, float]]:
-    """Yield cells, from `first` on, and the shares of the length asked for that they give."""
+    """Yield cells, from `first` on, and the shares of the length asked for that they give.
+
+    Secants first; where they jump over 1, cells around the one that came nearest: between jumps lengths drift.
+    """
     low, high = least, math.inf  # cells known to give too much and too little
     cell, slope = first, -1.0
-    before: tuple[float, float] | None = None
-    for _ in range(MOST_STEPS):
+    found: list[tuple[float, float]] = []
+    for _ in range(SECANTS):
         share = ratio(cell)
         yield cell, share
         low, high = (max(low, cell), high) if share > 1 else (low, min(high, cell))
-        if before is not None and share > 0 and before[1] > 0 and share != before[1] and cell != before[0]:
-            slope = min(-0.5, max(-2.0, math.log(share / before[1]) / math.log(cell / before[0])))
-        before = (cell, share)
+        if found and share > 0 and found[-1][1] > 0 and cell != found[-1][0]:
+            slope = math.log(share / found[-1][1]) / math.log(cell / found[-1][0])
+            slope = min(-0.5, max(-2.0, slope))
+        found.append((cell, share))
         cell *= max(share, 0.1) ** (-1 / slope)
         if not low < cell < high:
             cell = math.sqrt(low * high) if high < math.inf else 2 * low
+    nearest = min(found, key=lambda pair: abs(pair[1] - 1))[0]
+    for step in range(2, MOST_AROUND + 2):
+        cell = max(least, nearest * AROUND ** (step // 2 * (-1) ** step))
+        yield cell, ratio(cell)
 
 
 def _joined(

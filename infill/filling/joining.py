@@ -8,7 +8,8 @@ it along the same path.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +20,7 @@ from infill.filling.families.protocol import TOUCH, Path
 from infill.filling.outlines import Floats, Numbers, Outline
 
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
-NEXT = 3.0  # line widths along a path within which it may come near itself, in a corner
+NEXT = 3.5  # line widths along a path within which it may come near itself: corners of 30° and more
 SHORTEST = 2.0  # line widths; a path shorter than this is a dot
 STEPS = 4  # per line width, in which the outline is examined
 
@@ -56,8 +57,7 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     Returns
     -------
     list of (N, 2) float64, mm
-        Open paths, and those that were closed before; joining closes none. Those shorter than two line widths
-        are left out.
+        Joining closes a path only where its ends would overlap. Those shorter than two line widths are left out.
     """
     gaps = _gaps(pieces, outline, line_width)
     link: dict[int, tuple[int, Path]] = {}
@@ -77,9 +77,12 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     chains = _chains(len(pieces.paths), link)
     lengths = np.array([np.hypot(*np.diff(path, axis=0).T).sum() for path in pieces.paths])
     kept = [chain for chain in chains if len(chain) > 1 or lengths[chain[0] // 2] >= SHORTEST * line_width]
-    free = [end for chain in kept for end in (chain[0], chain[-1] ^ 1)]
-    anchors = _anchors(free, gaps, walked, outline, anchor, TOUCH * line_width)
-    return [_laid(chain, pieces.paths, link, anchors) for chain in kept]
+    apart = TOUCH * line_width
+    rings = _closing(kept, gaps, walked, outline, CLEAR * apart)
+    free = [end for chain in kept if chain[0] not in rings for end in (chain[0], chain[-1] ^ 1)]
+    heading = {end: _heading(pieces.paths[end // 2], end) for end in free}
+    anchors = _anchors(heading, gaps, walked, outline, anchor, apart)
+    return [_laid(chain, pieces.paths, link, anchors, rings.get(chain[0])) for chain in kept]
 
 
 def _gaps(pieces: Pieces, outline: Outline, line_width: float) -> _Gaps:
@@ -203,33 +206,71 @@ def _chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:
     return chains
 
 
-def _anchors(
-    free: Sequence[int], gaps: _Gaps, walked: NDArray[np.bool_], outline: Outline, anchor: float, apart: float
+def _closing(
+    chains: Sequence[list[int]], gaps: _Gaps, walked: NDArray[np.bool_], outline: Outline, apart: float
 ) -> dict[int, Path]:
-    """Return the anchors of free ends, by end, from the end on."""
+    """Return the walls that close chains whose ends are nearer than `apart`, by the end that they are entered at."""
+    short = np.flatnonzero(~walked & (gaps.length < apart))
+    between = {(int(gaps.begin[gap]), int(gaps.end[gap])): gap for gap in short.tolist()}
+    walls: dict[int, Path] = {}
+    for chain in chains:
+        begin, end = chain[0], chain[-1] ^ 1
+        for one, other in ((begin, end), (end, begin)):
+            if begin != end and (one, other) in between:
+                gap = between[one, other]
+                place = float(gaps.place[gap])
+                wall = outline.stretch(int(gaps.ring[gap]), place, place + float(gaps.length[gap]))[1:-1]
+                walls[begin] = wall if one == end else wall[::-1]
+    return walls
+
+
+def _heading(path: Path, end: int) -> Path:
+    """Return the direction in which a path arrives at one of its ends, (2,)."""
+    step = path[-1] - path[-2] if end % 2 else path[0] - path[1]
+    direction: Path = step / max(float(np.hypot(*step)), 1e-12)
+    return direction
+
+
+def _anchors(
+    heading: Mapping[int, Path],
+    gaps: _Gaps,
+    walked: NDArray[np.bool_],
+    outline: Outline,
+    anchor: float,
+    apart: float,
+) -> dict[int, Path]:
+    """Return the anchors of free ends, by end, from the end on: the longer way, or the blunter one if it is clear."""
     after = dict(zip(gaps.begin.tolist(), range(len(gaps.begin)), strict=True))
     before = dict(zip(gaps.end.tolist(), range(len(gaps.end)), strict=True))
-    left = np.where(walked, 0.0, gaps.length - apart)
+    # Two anchors in a gap keep apart around a right angle too.
+    left = np.where(walked, 0.0, gaps.length - math.sqrt(2) * apart)
     anchors: dict[int, Path] = {}
-    for end in free:
+    for end, direction in heading.items():
         if end not in after:
             continue
         onwards, back = after[end], before[end]
-        reach = [min(anchor, left[onwards], gaps.forwards[onwards]), min(anchor, left[back], gaps.backwards[back])]
-        way = int(reach[1] > reach[0])
-        if reach[way] < apart:
-            continue
-        left[(onwards, back)[way]] -= reach[way] + apart
-        place = gaps.place[onwards]
-        to = place - reach[1] if way else place + reach[0]
-        anchors[end] = outline.stretch(int(gaps.ring[onwards]), place, to)[1:]
+        ways: list[tuple[float, float, int, Path]] = []
+        for gap, clear, sign in ((onwards, gaps.forwards, 1.0), (back, gaps.backwards, -1.0)):
+            reach = min(anchor, float(left[gap]), float(clear[gap]))
+            if reach >= apart:
+                place = float(gaps.place[onwards])
+                wall = outline.stretch(int(gaps.ring[onwards]), place, place + sign * reach)
+                blunt = bool((_heading(wall[:2], 1) * direction).sum() >= 0)
+                ways.append((reach + blunt * anchor, reach, gap, wall[1:]))
+        if ways:
+            _, reach, gap, anchors[end] = max(ways, key=lambda way: way[0])
+            left[gap] -= reach
     return anchors
 
 
 def _laid(
-    chain: list[int], paths: Sequence[Path], link: dict[int, tuple[int, Path]], anchors: dict[int, Path]
+    chain: list[int],
+    paths: Sequence[Path],
+    link: dict[int, tuple[int, Path]],
+    anchors: dict[int, Path],
+    closing: Path | None,
 ) -> Path:
-    """Return the path along a chain, with the walls between its pieces and the anchors at its ends."""
+    """Return the path along a chain, with the walls between its pieces, and the anchors at its ends or what closes it."""
     parts: list[Path] = []
     if chain[0] in anchors:
         parts.append(anchors[chain[0]][::-1])
@@ -240,4 +281,6 @@ def _laid(
             parts.append(link[entry ^ 1][1])
     if chain[-1] ^ 1 in anchors:
         parts.append(anchors[chain[-1] ^ 1])
+    if closing is not None:
+        parts += [closing, parts[0][:1]]
     return np.concatenate(parts)
