@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from infill.formats.volume_files import read_volume
     from infill.grid import Grid
     from infill.inspection.printability import Inspection, check
+    from infill.inspection.printing_time import Motion, motion
     from infill.inspection.width import WallWidth, wall_width
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
@@ -48,6 +49,7 @@ _HOMES = {
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
+    "inspection.printing_time": ("Motion", "motion"),
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
@@ -70,6 +72,7 @@ __all__ = [
     "InfillError",
     "Inspection",
     "MemoryLimitError",
+    "Motion",
     "OutputError",
     "ParameterError",
     "RefillResult",
@@ -82,6 +85,7 @@ __all__ = [
     "extrude",
     "isosurface",
     "make",
+    "motion",
     "read_mesh",
     "read_points",
     "read_volume",
