@@ -23,6 +23,7 @@ if TYPE_CHECKING:
         OutputError,
         ParameterError,
     )
+    from infill.filling.refilling import RefillResult, refill
     from infill.formats.mesh_files import read_mesh, save
     from infill.formats.point_files import read_points
     from infill.formats.volume_files import read_volume
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "phasefield.allen_cahn": ("Smoothing", "rescale"),
     "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
+    "filling.refilling": ("RefillResult", "refill"),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
@@ -73,6 +75,7 @@ __all__ = [
     "Motion",
     "OutputError",
     "ParameterError",
+    "RefillResult",
     "Result",
     "Smoothing",
     "Surface",
@@ -86,6 +89,7 @@ __all__ = [
     "read_mesh",
     "read_points",
     "read_volume",
+    "refill",
     "rescale",
     "save",
     "smooth",

@@ -103,7 +103,7 @@ def rounded(
 
     >>> corner = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
     >>> done = rounded(corner, np.array([0, 3]), radius=2.0)
-    >>> done.radius[1], len(done.points)
+    >>> float(done.radius[1]), len(done.points)
     (2.0, 11)
     """
     machine = machine or Machine()
@@ -197,7 +197,7 @@ def _drawn(
     new[on_arc] += along + normal * (arc[which] * (1 - np.cos(angle)))[:, None]
     if unit:
         new = np.rint(new / unit) * unit
-    # Arcs that meet in the middle of a leg share a point there; an arc may also end at a point of the path, which stays.
+    # Arcs that meet in the middle of a leg share a point there; an arc may end at a point of the path, which stays.
     keep = np.ones(len(new), dtype=bool)
     near = np.flatnonzero(np.abs(np.diff(new, axis=0)).max(axis=1) <= max(unit * 5, 1e-9)) + 1
     fixed = ~bent[source]
