@@ -23,7 +23,8 @@ from infill.gcode.columns import chained, part
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, found_limits
 from infill.gcode.limits import LIMITING_CODES, Limits, commanded
 from infill.gcode.timeline import Timeline
-from infill.inspection.printing_time import FeatureMotion, layer_motion
+from infill.inspection.layer_speeds import PIECE, layer_speeds
+from infill.inspection.printing_time import FeatureMotion
 from infill.pictures.speeds import colours
 from tests import slicers
 from tests.prints import FAST, box, cura_print, prusa_print
@@ -431,14 +432,23 @@ def test_a_layer_is_drawn(tmp_path: Path) -> None:
     assert run(path, "--layer", 1).exit_code == 2
 
 
-def test_the_moves_of_a_layer(tmp_path: Path) -> None:
-    layer = layer_motion(written(tmp_path, SQUARE), 1)
-    assert layer.draws.tolist() == [True] * 4 + [False] + [True] * 3
-    assert (layer.start[1:] == layer.end[:-1]).all()
+def test_the_pieces_of_a_layer(tmp_path: Path) -> None:
+    """They follow each other, no longer than a piece; at full speed in the middle, slow at corners, as ramps say."""
+    layer = layer_speeds(written(tmp_path, SQUARE), 1)
+    assert layer.start[1:] == pytest.approx(layer.end[:-1])
+    long = np.linalg.norm(layer.end - layer.start, axis=1)
+    assert long.max() <= PIECE * (1 + 1e-9)
     assert set(layer.role) == {"external perimeter", "sparse infill"}
-    assert (layer.speed > 0).all()
-    shades = colours(np.linspace(0, 1, 9), 1)
-    assert len(np.unique(shades, axis=0)) == 9
+    side = layer.draws & (layer.start[:, 1] == 0) & (layer.end[:, 1] == 0)
+    middle = (layer.start[side, 0] + layer.end[side, 0]) / 2
+    near = np.minimum(middle, 20 - middle)  # from 8 mm/s at both ends, with 1000 mm/s² up to 50 mm/s
+    assert layer.speed[side] == pytest.approx(np.minimum(np.sqrt(64 + 2000 * near), 50))
+    assert layer.draws.sum() > 200
+    assert (~layer.draws).any()
+
+
+def test_colours_tell_speeds_apart() -> None:
+    assert len(np.unique(colours(np.linspace(0, 1, 9), 1), axis=0)) == 9
 
 
 # --- columns ---------------------------------------------------------------------------------------------
