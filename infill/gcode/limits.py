@@ -12,7 +12,8 @@ from typing import Final, Literal, get_args
 
 from infill.errors import ParameterError
 
-Model = Literal["jerk", "junction", "klipper"]
+Model = Literal["jerk", "vector-jerk", "junction", "klipper"]
+JERKS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
@@ -33,11 +34,12 @@ class Limits:
 
     Parameters
     ----------
-    model : {"jerk", "junction", "klipper"}
-        What bounds the speed at a corner: the jump of each axis' velocity, as PrusaSlicer and CuraEngine estimate and
-        Marlin does with CLASSIC_JERK; Marlin's junction deviation; Klipper's square corner velocity.
+    model : {"jerk", "vector-jerk", "junction", "klipper"}
+        What bounds the speed at a corner: the jump of each axis' velocity, as PrusaSlicer estimates and Marlin does
+        with CLASSIC_JERK; that of x and y together, as CuraEngine estimates and Marlin did until 2016; Marlin's
+        junction deviation; Klipper's square corner velocity.
     feedrate, axis_acceleration, jerk : tuple of 4 float
-        Of x, y, z, e. The jerk is used by "jerk" only.
+        Of x, y, z, e. The jerk is used by "jerk" and "vector-jerk", by the latter that of x for x and y.
     acceleration, travel_acceleration, retract_acceleration : float
         Along the path: of moves that extrude, that do not, and that only turn the extruder.
     highest_acceleration, highest_travel_acceleration, highest_retract_acceleration : float
