@@ -1,0 +1,238 @@
+"""Binary G-code (.bgcode) as text and metadata, and written anew: the meaning of the blocks of `block_file`.
+
+What comes back from a file that was written with MeatPack is not every byte that went in: see `meatpack`.
+"""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import BinaryIO
+
+from infill.errors import FormatError, ParameterError
+from infill.gcode import heatshrink, meatpack
+from infill.gcode.block_file import (
+    AGAIN,
+    HEAD,
+    MAGIC,
+    Block,
+    Compression,
+    Encoding,
+    Kind,
+    blocks,
+    is_binary,
+    stored,
+)
+
+__all__ = [
+    "Block",
+    "Compression",
+    "Encoding",
+    "Kind",
+    "blocks",
+    "decoded",
+    "edited",
+    "encoded",
+    "is_binary",
+    "metadata",
+    "rewritten",
+    "stored",
+    "text_pieces",
+]
+
+LONGEST_TEXT = 65_536  # bytes of G-code in one block, as libbgcode and PrusaSlicer write them
+WINDOWS = {Compression.HEATSHRINK_11: 11, Compression.HEATSHRINK_12: 12}
+METADATA = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kind.PRINT_METADATA)
+
+
+def decoded(block: Block) -> bytes:
+    """Give what a block holds: G-code text, metadata as key=value lines, or an image.
+
+    Raises
+    ------
+    FormatError
+        The data does not decompress to the size that the block states, or does not unpack.
+    """
+    try:
+        data = _decompressed(block)
+        packed = block.kind == Kind.GCODE and block.encoding != Encoding.NONE
+        return meatpack.unpacked(data) if packed else data
+    except FormatError as told:
+        raise FormatError(f"{block.name}: {told}") from None
+
+
+def encoded(text: bytes, *, like: Block) -> Block:
+    """Make a block that holds a text, encoded and compressed as another block is.
+
+    MeatPack leaves out what `meatpack.normalised` says: blank lines, blanks, comments behind commands. A block is
+    decoded again before it is given back. Where MeatPack would change anything else, the text is stored as it is.
+
+    Parameters
+    ----------
+    text : bytes
+        Whole lines of G-code, or key=value lines of metadata.
+    like : Block
+        Where kind, encoding and compression come from.
+    """
+    plain = replace(like, compression=Compression.NONE, data=text, size=len(text), number=0)
+    if like.kind == Kind.GCODE:
+        plain = replace(plain, parameters=struct.pack("<H", Encoding.NONE))
+        if like.encoding != Encoding.NONE and meatpack.packable(text):
+            comments = like.encoding == Encoding.MEATPACK_COMMENTS
+            wanted = meatpack.normalised(text, comments=comments)
+            data = meatpack.packed(wanted, comments=comments)
+            if meatpack.unpacked(data) == wanted:
+                plain = replace(plain, parameters=like.parameters, data=data, size=len(data))
+    data = _compressed(plain.data, like.compression)
+    result = replace(plain, compression=like.compression, data=data)
+    return result if _decompressed(result) == plain.data else plain
+
+
+def metadata(block: Block) -> dict[str, str]:
+    """Read the keys and values of a block of metadata."""
+    lines = _metadata_text(block).decode(errors="surrogateescape").split("\n")
+    return {key: value for key, equals, value in (line.partition("=") for line in lines) if equals}
+
+
+def edited(block: Block, changes: Mapping[str, str]) -> Block:
+    """Change values of a block of metadata; keys that it has not stay away, and all else stays as it is.
+
+    Raises
+    ------
+    ParameterError
+        A new value has a line break in it.
+    """
+    for key, value in changes.items():
+        if "\n" in value or "\r" in value:
+            raise ParameterError(
+                f"the value of {key} is {value!r}, and metadata has one line each; take the breaks out"
+            )
+    lines = _metadata_text(block).split(b"\n")
+    named = {_bytes(key): _bytes(value) for key, value in changes.items()}
+    new = []
+    for line in lines:
+        word = line.partition(b"=")[0]
+        new.append(word + b"=" + named[word] if b"=" in line and word in named else line)
+    return block if new == lines else replace(encoded(b"\n".join(new), like=block), number=block.number)
+
+
+def text_pieces(file: BinaryIO) -> Iterator[bytes]:
+    """Read the G-code text of a file in pieces that end at line ends, all but perhaps the last one.
+
+    Raises
+    ------
+    FormatError
+        As `blocks`; or the file has no G-code in it.
+    """
+    rest, empty = b"", True
+    for block in blocks(file):
+        if block.kind != Kind.GCODE:
+            continue
+        empty = False
+        text = rest + decoded(block)
+        cut = text.rfind(b"\n") + 1
+        rest = text[cut:]
+        if cut:
+            yield text[:cut]
+    if empty:
+        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+    if rest:
+        yield rest
+
+
+def rewritten(
+    source: BinaryIO, target: BinaryIO, text: Iterable[bytes], changes: Mapping[str, str] | None = None
+) -> frozenset[str]:
+    """Write a file anew with other G-code text; everything else is copied byte for byte.
+
+    The new blocks of G-code stand where the first old one stood, are encoded as that one is, and hold at most
+    LONGEST_TEXT bytes of text each in whole lines.
+
+    Parameters
+    ----------
+    source, target : BinaryIO
+        The old file at its start, and the new one.
+    text : iterable of bytes
+        The new text in pieces of any length, taken one by one; it may come from `text_pieces` of the same file
+        opened once more.
+    changes : mapping, optional
+        New values of metadata of the print and of the printer.
+
+    Returns
+    -------
+    frozenset of str
+        The keys of `changes` that the file has.
+    """
+    changes = changes or {}
+    found: set[str] = set()
+    started = copied = False
+    for block in blocks(source):
+        if not started:
+            target.write(HEAD.pack(MAGIC, 1, block.summed))
+            started = True
+        if block.kind == Kind.GCODE:
+            if not copied:
+                copied = True
+                target.writelines(stored(each) for each in _recoded(text, like=block))
+            continue
+        if changes and block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
+            found |= metadata(block).keys() & changes.keys()
+            block = edited(block, changes)
+        target.write(stored(block))
+    if not copied:
+        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+    return frozenset(found)
+
+
+def _recoded(pieces: Iterable[bytes], *, like: Block) -> Iterator[Block]:
+    """Put text into blocks of whole lines; a line that is longer than a block gets one of its own."""
+    rest = b""
+    for piece in pieces:
+        rest += piece
+        while len(rest) > LONGEST_TEXT:
+            cut = rest.rfind(b"\n", 0, LONGEST_TEXT) + 1 or rest.find(b"\n") + 1
+            if not cut:
+                break
+            yield encoded(rest[:cut], like=like)
+            rest = rest[cut:]
+    if rest:
+        yield encoded(rest, like=like)
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode(errors="surrogateescape")
+
+
+def _metadata_text(block: Block) -> bytes:
+    if block.kind not in METADATA:
+        raise ParameterError(f"{block.name} holds no metadata; take one of metadata")
+    if block.encoding != 0:
+        raise FormatError(f"{block.name} has encoding {block.encoding}, and only 0 (INI) is read here; {AGAIN}")
+    return decoded(block)
+
+
+def _decompressed(block: Block) -> bytes:
+    match block.compression:
+        case Compression.NONE:
+            return block.data
+        case Compression.DEFLATE:
+            inflating = zlib.decompressobj()
+            try:
+                data = inflating.decompress(block.data, block.size + 1)
+            except zlib.error as trouble:
+                raise FormatError(f"its data cannot be inflated ({trouble}); {AGAIN}") from None
+            if len(data) != block.size or not inflating.eof:
+                raise FormatError(f"its data does not inflate to the {block.size} bytes that it states; {AGAIN}")
+            return data
+    return heatshrink.decompressed(block.data, size=block.size, window=WINDOWS[block.compression])
+
+
+def _compressed(data: bytes, compression: Compression) -> bytes:
+    match compression:
+        case Compression.NONE:
+            return data
+        case Compression.DEFLATE:
+            return zlib.compress(data)
+    return heatshrink.compressed(data, window=WINDOWS[compression])
