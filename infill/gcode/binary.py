@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import BinaryIO
 
@@ -83,11 +83,18 @@ def encoded(text: bytes, *, like: Block) -> Block:
             comments = like.encoding == Encoding.MEATPACK_COMMENTS
             wanted = meatpack.normalised(text, comments=comments)
             data = meatpack.packed(wanted, comments=comments)
-            if meatpack.unpacked(data) == wanted:
+            if _reads_back(lambda: meatpack.unpacked(data), wanted):
                 plain = replace(plain, parameters=like.parameters, data=data, size=len(data))
     data = _compressed(plain.data, like.compression)
     result = replace(plain, compression=like.compression, data=data)
-    return result if _decompressed(result) == plain.data else plain
+    return result if _reads_back(lambda: _decompressed(result), plain.data) else plain
+
+
+def _reads_back(read: Callable[[], bytes], wanted: bytes) -> bool:
+    try:
+        return read() == wanted
+    except FormatError:
+        return False
 
 
 def metadata(block: Block) -> dict[str, str]:
@@ -119,27 +126,14 @@ def edited(block: Block, changes: Mapping[str, str]) -> Block:
 
 
 def text_pieces(file: BinaryIO) -> Iterator[bytes]:
-    """Read the G-code text of a file in pieces that end at line ends, all but perhaps the last one.
+    """Read the G-code text of a file in pieces of whole lines, LONGEST_TEXT bytes at most but for a longer line.
 
     Raises
     ------
     FormatError
-        As `blocks`; or the file has no G-code in it.
+        As `blocks` and `decoded`; or the file has no G-code in it.
     """
-    rest, empty = b"", True
-    for block in blocks(file):
-        if block.kind != Kind.GCODE:
-            continue
-        empty = False
-        text = rest + decoded(block)
-        cut = text.rfind(b"\n") + 1
-        rest = text[cut:]
-        if cut:
-            yield text[:cut]
-    if empty:
-        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
-    if rest:
-        yield rest
+    return _whole_lines(_texts(file))
 
 
 def rewritten(
@@ -175,7 +169,7 @@ def rewritten(
         if block.kind == Kind.GCODE:
             if not copied:
                 copied = True
-                target.writelines(stored(each) for each in _recoded(text, like=block))
+                target.writelines(stored(encoded(piece, like=block)) for piece in _whole_lines(text))
             continue
         if changes and block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
             found |= metadata(block).keys() & changes.keys()
@@ -186,19 +180,29 @@ def rewritten(
     return frozenset(found)
 
 
-def _recoded(pieces: Iterable[bytes], *, like: Block) -> Iterator[Block]:
-    """Put text into blocks of whole lines; a line that is longer than a block gets one of its own."""
-    rest = b""
-    for piece in pieces:
-        rest += piece
+def _texts(file: BinaryIO) -> Iterator[bytes]:
+    empty = True
+    for block in blocks(file):
+        if block.kind == Kind.GCODE:
+            empty = False
+            yield decoded(block)
+    if empty:
+        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+
+
+def _whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
+    """Join texts and cut them at line ends, as late as LONGEST_TEXT allows; a longer line is a piece of its own."""
+    rest = bytearray()
+    for text in texts:
+        rest += text
         while len(rest) > LONGEST_TEXT:
-            cut = rest.rfind(b"\n", 0, LONGEST_TEXT) + 1 or rest.find(b"\n") + 1
+            cut = rest.rfind(b"\n", 0, LONGEST_TEXT) + 1 or rest.find(b"\n", LONGEST_TEXT) + 1
             if not cut:
                 break
-            yield encoded(rest[:cut], like=like)
-            rest = rest[cut:]
+            yield bytes(rest[:cut])
+            del rest[:cut]
     if rest:
-        yield encoded(rest, like=like)
+        yield bytes(rest)
 
 
 def _bytes(text: str) -> bytes:

@@ -21,7 +21,7 @@ from infill.errors import FormatError
 
 MAGIC = b"GCDE"
 HEAD = struct.Struct("<4sIH")
-LARGEST = 1 << 26  # bytes; real blocks stay below 1 MB, and a damaged size should not fill the memory
+LARGEST, LARGEST_PACKED = 1 << 28, 1 << 24  # bytes; real blocks are below 1 MB, or all G-code in one plain block
 AGAIN = "copy or slice the file again"
 
 
@@ -141,22 +141,30 @@ def _block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
         raise FormatError(f"{name} has compression {compression_number}, and only 0 to 3 are known; {AGAIN}")
     compression = Compression(compression_number)
     packed_size = b"" if compression == Compression.NONE else file.read(4)
+    parameters = file.read(6 if kind == Kind.THUMBNAIL else 2)
+    encoding = int.from_bytes(parameters[:2], "little")
+    if kind == Kind.GCODE and encoding not in Encoding.__members__.values():
+        raise FormatError(f"{name} has encoding {encoding}, and only 0 to 2 are known; export it as plain G-code")
     length = int.from_bytes(packed_size, "little") if packed_size else size
-    if max(size, length) > LARGEST:
-        raise FormatError(f"{name} states {max(size, length)} bytes, and {LARGEST} are the most that we read; {AGAIN}")
+    limit = LARGEST if compression == Compression.NONE and (kind != Kind.GCODE or encoding == 0) else LARGEST_PACKED
+    if max(size, length) > limit:
+        raise FormatError(f"{name} states {max(size, length)} bytes, and {limit} are the most that we read; {AGAIN}")
+    data, sum_bytes = file.read(length), file.read(4 * summed)
     wanted = (0 if compression == Compression.NONE else 4, 6 if kind == Kind.THUMBNAIL else 2, length, 4 * summed)
-    parameters, data, sum_bytes = (file.read(each) for each in wanted[1:])
     if (got := (len(packed_size), len(parameters), len(data), len(sum_bytes))) != wanted:
         raise FormatError(f"{name} is cut off: {8 + sum(got)} of its {8 + sum(wanted)} bytes; {AGAIN}")
     body = head + packed_size + parameters + data
     if summed and zlib.crc32(body) != int.from_bytes(sum_bytes, "little"):
         raise FormatError(f"{name} is damaged: its checksum does not fit; {AGAIN}")
-    block = Block(
-        kind=kind, compression=compression, size=size, parameters=parameters, data=data, summed=summed, number=number
+    return Block(
+        kind=kind,
+        compression=compression,
+        size=size,
+        parameters=parameters,
+        data=data,
+        summed=summed,
+        number=number,
     )
-    if kind == Kind.GCODE and block.encoding not in Encoding.__members__.values():
-        raise FormatError(f"{name} has encoding {block.encoding}, and only 0 to 2 are known; export it as plain G-code")
-    return block
 
 
 def stored(block: Block) -> bytes:

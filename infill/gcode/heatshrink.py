@@ -3,7 +3,8 @@
     1 + 8 bits              the byte itself
     0 + window + lookahead  copy `lookahead bits + 1` bytes from `window bits + 1` bytes back
 
-Bits come highest first; zero bits fill the last byte. Facts from the documentation and the test vectors of
+Bits come highest first; zero bits fill the last byte. Before the start all bytes count as zero, and encoders do
+copy from there. Facts from the documentation and the test vectors of
 https://github.com/atomicobject/heatshrink.
 """
 
@@ -28,12 +29,12 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
     size : int
         How many bytes it stands for; the stream itself does not say.
     window, lookahead : int
-        Bits of a distance and of a length, together at most 16.
+        Bits of a distance and of a length, together 8 to 16.
 
     Raises
     ------
     FormatError
-        The stream ends early, goes on after `size` bytes, or copies from before its start.
+        The stream ends before it has made `size` bytes, or goes on after them.
 
     Examples
     --------
@@ -41,17 +42,16 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
     b'aaaaa'
     """
     padded = np.frombuffer(data + b"\0\0", np.uint8).astype(np.int32)
-    words = (
-        padded[:-2] << 16 | padded[1:-1] << 8 | padded[2:]
-    ).tolist()  # 24 bits hold a token of 17 that starts at any of 8 bits
+    # 24 bits from every byte on hold a token of 17 that starts at any bit of it.
+    words = (padded[:-2] << 16 | padded[1:-1] << 8 | padded[2:]).tolist()
     token_bits = 1 + window + lookahead
     spare, mask, literal, literal_shift = 24 - token_bits, (1 << token_bits) - 1, 1 << token_bits - 1, token_bits - 9
     length_mask = (1 << lookahead) - 1
-    result = bytearray()
-    position = made = 0
+    result = bytearray(1 << window)
+    position, made, total = 0, len(result), len(result) + size
     append = result.append
     try:
-        while made < size:
+        while made < total:
             token = words[position >> 3] >> spare - (position & 7) & mask
             if token & literal:
                 append(token >> literal_shift & 255)
@@ -61,8 +61,6 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
             position += token_bits
             length, back = (token & length_mask) + 1, (token >> lookahead) + 1
             start = made - back
-            if start < 0:
-                raise FormatError(f"Heatshrink data copies from {back} bytes back after {made} bytes; it is damaged")
             if back >= length:
                 result += result[start : start + length]
             else:  # a copy that reads what it writes repeats the last `back` bytes
@@ -71,10 +69,10 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
     except IndexError:
         position = 8 * len(data) + 1
     left = 8 * len(data) - position
-    if left < 0 or left >= 8 or made != size:
+    if left < 0 or left >= 8 or made != total:
         trouble = "ends before" if left < 0 else "does not end after"
         raise FormatError(f"Heatshrink data {trouble} the {size} bytes that it should hold; it is damaged")
-    return bytes(result)
+    return bytes(result[1 << window :])
 
 
 def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
@@ -85,7 +83,7 @@ def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
     data : bytes
         What to compress.
     window, lookahead : int
-        Bits of a distance and of a length, together at most 16.
+        Bits of a distance and of a length, together 8 to 16.
 
     Examples
     --------

@@ -42,6 +42,7 @@ def _table(characters: bytes) -> NDArray[np.bool_]:
 
 HALVES = np.full(256, WHOLE, np.uint8)
 HALVES[list(ALPHABET)] = np.arange(WHOLE)
+PADDING = HALVES[NEWLINE] * 17  # two newlines, read as one
 WORDS = _table(b"XYZEFIJRGPWHCAS")  # letters before which readers put a blank back
 DROPPED = _table(b"XYZEFIJR")  # those that every reader knows: only their blanks are left out
 BLANKS = _table(b" \t\r")
@@ -92,28 +93,43 @@ def unpacked(data: bytes) -> bytes:
 
 
 def packed(text: bytes, *, comments: bool = True) -> bytes:
-    """Pack text that is `normalised` with the same `comments`; the last line ends with a newline."""
+    """Pack text that is `normalised` with the same `comments`; the last line ends with a newline.
+
+    libbgcode loses characters of a block that unpacks to more than twice its size. So a G line whose newline
+    comes second in its byte is padded with an empty line, as libbgcode does itself, and blanks are left out only
+    where the block stays large enough even so.
+    """
     if not text:
         return BEGIN
     code = np.frombuffer(text, np.uint8)
-    code = code[~((code == BLANK) & DROPPED[np.append(code[1:], np.uint8(0))] & _moves(code))]
+    moves = _moves(code)
+    blanks = (code == BLANK) & DROPPED[np.append(code[1:], np.uint8(0))] & moves
+    end = b"" if comments else SIGNAL + bytes([RESET])
+    result = _packed(code[~blanks], moves[~blanks]) + end
+    return result if 2 * len(result) > len(text) + 1 else _packed(code, moves) + end
+
+
+def _packed(code: Bytes, moves: NDArray[np.bool_]) -> bytes:
     starts, line = _lines(code)
     plain = (code[starts] == SEMICOLON)[line]
     within = np.arange(len(code)) - starts[line]
     after = np.append(code[1:], np.uint8(NEWLINE))
     after[code == NEWLINE] = NEWLINE
-    switched = np.diff(plain.astype(np.int8), prepend=np.int8(0)) != 0
+    switched = np.diff(plain, prepend=np.False_)
 
     unit = np.flatnonzero(plain | (within % 2 == 0))
-    plain, low, high = plain[unit], HALVES[code[unit]], HALVES[after[unit]]
-    rows = np.empty((len(unit), 6), np.uint8)
+    plain, moves, first, second = plain[unit], moves[unit], code[unit], after[unit]
+    low, high = HALVES[first], HALVES[second]
+    # Of each unit at most: a command, the byte, the characters that follow it whole, and padding.
+    rows = np.empty((len(unit), 7), np.uint8)
     there = np.empty(rows.shape, np.bool_)
     rows[:, :2], rows[:, 2] = SIGNAL[0], np.where(plain, PLAIN, PACKED)
     there[:, :3] = switched[unit, None]
-    rows[:, 3], there[:, 3] = np.where(plain, code[unit], high << 4 | low), True
-    rows[:, 4], there[:, 4] = code[unit], ~plain & (low == WHOLE)
-    rows[:, 5], there[:, 5] = after[unit], ~plain & (high == WHOLE)
-    return BEGIN + rows[there].tobytes() + (b"" if comments else SIGNAL + bytes([RESET]))
+    rows[:, 3], there[:, 3] = np.where(plain, first, high << 4 | low), True
+    rows[:, 4], there[:, 4] = first, ~plain & (low == WHOLE)
+    rows[:, 5], there[:, 5] = second, ~plain & (high == WHOLE)
+    rows[:, 6], there[:, 6] = PADDING, moves & (first != NEWLINE) & (second == NEWLINE)
+    return BEGIN + rows[there].tobytes()
 
 
 def packable(text: bytes) -> bool:
