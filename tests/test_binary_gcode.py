@@ -17,7 +17,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from infill.errors import FormatError, ParameterError
+from infill.errors import FormatError, OutputError, ParameterError
 from infill.gcode import heatshrink, meatpack
 from infill.gcode.binary import (
     LONGEST_TEXT,
@@ -257,8 +257,6 @@ def test_meatpack_as_others_may_write_it(data: str, text: bytes) -> None:
 def test_packing_loses_what_normalising_left_out_and_no_more(text: bytes, comments: bool) -> None:
     wanted = meatpack.normalised(text, comments=comments)
     assert meatpack.normalised(wanted, comments=comments) == wanted
-    if not meatpack.packable(text):
-        return
     data = meatpack.packed(wanted, comments=comments)
     assert meatpack.unpacked(data) == wanted
     # libbgcode needs a block to be at least half as large as its text.
@@ -314,28 +312,34 @@ def test_a_file_of_another_writer_is_read() -> None:
 @example(TEXT, Compression.HEATSHRINK_12, Encoding.MEATPACK_COMMENTS)
 def test_what_is_encoded_decodes_to_the_same(text: bytes, compression: Compression, encoding: Encoding) -> None:
     new = encoded(text, like=made(compression, encoding))
-    if new.encoding == Encoding.NONE:
-        assert decoded(new) == text
-        assert encoding == Encoding.NONE or not meatpack.packable(text)
-    else:
-        assert decoded(new) == meatpack.normalised(text, comments=encoding == Encoding.MEATPACK_COMMENTS)
+    assert (new.compression, new.encoding) == (compression, encoding)
+    wanted = text
+    if encoding:
+        wanted = meatpack.normalised(text, comments=encoding == Encoding.MEATPACK_COMMENTS)
+    assert decoded(new) == wanted
     assert next(blocks(opened([HEAD, stored(new)]))).data == new.data
 
 
-@pytest.mark.parametrize("line", [b"GRAB BOX\n", b'M118 "a;b"\n', b"M117 \xff\n", b'G1 "X"\n'])
-def test_a_line_that_packing_would_change_is_stored_as_it_is(line: bytes) -> None:
-    new = encoded(TEXT + line, like=made(3, 2))
-    assert (new.encoding, new.compression) == (Encoding.NONE, Compression.HEATSHRINK_12)
-    assert decoded(new) == TEXT + line
+@pytest.mark.parametrize("line", [b"GRAB  BOX ; a\n", b' M118 "a;b"\n', b"M117 \xff \n", b'G1 "X"\n', b"G\n"])
+def test_a_line_that_packing_would_change_is_kept_as_it_is(line: bytes) -> None:
+    new = encoded(line + TEXT + line + line, like=made(3, 2))
+    assert decoded(new) == line + TEXT + line + line
 
 
-@pytest.mark.parametrize("broken", [b"", b"\xff\xff\xfb\x1d\x1f", b"\xff\xff\xfb\x1d\x2c"])
+def test_what_meatpack_cannot_hold_is_refused() -> None:
+    assert decoded(encoded(b"M117 \xff\xff\n", like=made(3, 0))) == b"M117 \xff\xff\n"
+    with pytest.raises(OutputError, match="does not read back"):
+        encoded(b"M117 \xff\xff\n", like=made(3, 2))
+
+
+@pytest.mark.parametrize("broken", [b"", b"\xff\xff\xfb\x1d\x1f", b"\xff\xff\xfb\x1d\x1d"])
 @pytest.mark.parametrize(("place", "name"), [(meatpack, "packed"), (heatshrink, "compressed")])
 def test_a_packer_that_errs_is_found_out(
     broken: bytes, place: ModuleType, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(place, name, lambda text, **_: broken)
-    assert decoded(encoded(b"G1\n", like=made(3, 2))) == b"G1\n"
+    with pytest.raises(OutputError, match="does not read back"):
+        encoded(b"G1\n", like=made(3, 2))
 
 
 def test_a_file_cut_anywhere_is_told() -> None:

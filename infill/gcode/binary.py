@@ -5,13 +5,12 @@ What comes back from a file that was written with MeatPack is not every byte tha
 
 from __future__ import annotations
 
-import struct
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import BinaryIO
 
-from infill.errors import FormatError, ParameterError
+from infill.errors import FormatError, OutputError, ParameterError
 from infill.gcode import heatshrink, meatpack
 from infill.gcode.block_file import (
     AGAIN,
@@ -66,8 +65,9 @@ def decoded(block: Block) -> bytes:
 def encoded(text: bytes, *, like: Block) -> Block:
     """Make a block that holds a text, encoded and compressed as another block is.
 
-    MeatPack leaves out what `meatpack.normalised` says: blank lines, blanks, comments behind commands. A block is
-    decoded again before it is given back. Where MeatPack would change anything else, the text is stored as it is.
+    MeatPack leaves out what `meatpack.normalised` says: blank lines, blanks, comments behind commands. Prusa's
+    firmware stops a print where a block of G-code has another encoding or compression than the one before, so
+    neither changes from block to block, even where a block grows. Each is decoded again before it is given back.
 
     Parameters
     ----------
@@ -75,26 +75,27 @@ def encoded(text: bytes, *, like: Block) -> Block:
         Whole lines of G-code, or key=value lines of metadata.
     like : Block
         Where kind, encoding and compression come from.
+
+    Raises
+    ------
+    OutputError
+        The block does not decode to the text; with MeatPack the bytes 255 255 cannot be written.
     """
-    plain = replace(like, compression=Compression.NONE, data=text, size=len(text), number=0)
-    if like.kind == Kind.GCODE:
-        plain = replace(plain, parameters=struct.pack("<H", Encoding.NONE))
-        if like.encoding != Encoding.NONE and meatpack.packable(text):
-            comments = like.encoding == Encoding.MEATPACK_COMMENTS
-            wanted = meatpack.normalised(text, comments=comments)
-            data = meatpack.packed(wanted, comments=comments)
-            if _reads_back(lambda: meatpack.unpacked(data), wanted):
-                plain = replace(plain, parameters=like.parameters, data=data, size=len(data))
-    data = _compressed(plain.data, like.compression)
-    result = replace(plain, compression=like.compression, data=data)
-    return result if _reads_back(lambda: _decompressed(result), plain.data) else plain
-
-
-def _reads_back(read: Callable[[], bytes], wanted: bytes) -> bool:
+    data = wanted = text
+    if like.kind == Kind.GCODE and like.encoding != Encoding.NONE:
+        comments = like.encoding == Encoding.MEATPACK_COMMENTS
+        wanted = meatpack.normalised(text, comments=comments)
+        data = meatpack.packed(wanted, comments=comments)
+    result = replace(like, data=_compressed(data, like.compression), size=len(data), number=0)
     try:
-        return read() == wanted
+        same = decoded(result) == wanted
     except FormatError:
-        return False
+        same = False
+    if not same:
+        raise OutputError(
+            f"a block of G-code from {text[:40]!r} on does not read back; is there text that is not UTF-8?"
+        )
+    return result
 
 
 def metadata(block: Block) -> dict[str, str]:

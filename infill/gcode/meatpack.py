@@ -10,12 +10,13 @@ documentation (https://github.com/scottmudge/OctoPrint-MeatPack) and from what P
 
 What cannot come back from packed text, so that `normalised` leaves it out first: blank lines, blanks at both
 ends of a command, comments behind a command, several blanks (or none) before a word of a G line, and without
-`comments` every comment.
+`comments` every comment. Lines that would come back changed all the same stand between "off" and "on" as they are.
 """
 
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 
 Bytes = NDArray[np.uint8]
+Flags = NDArray[np.bool_]
 
 SIGNAL = b"\xff\xff"
 PACKED, PLAIN, RESET, QUERY, NO_SPACES, SPACES = 251, 250, 249, 248, 247, 246
@@ -34,7 +36,7 @@ CHARACTERS = np.frombuffer(ALPHABET.replace(b"E", b" ") + b"\0" + ALPHABET + b"\
 NEWLINE, BLANK, SEMICOLON, G = b"\n"[0], b" "[0], b";"[0], b"G"[0]
 
 
-def _table(characters: bytes) -> NDArray[np.bool_]:
+def _table(characters: bytes) -> Flags:
     table = np.zeros(256, np.bool_)
     table[list(characters)] = True
     return table
@@ -45,7 +47,8 @@ HALVES[list(ALPHABET)] = np.arange(WHOLE)
 PADDING = HALVES[NEWLINE] * 17  # two newlines, read as one
 WORDS = _table(b"XYZEFIJRGPWHCAS")  # letters before which readers put a blank back
 DROPPED = _table(b"XYZEFIJR")  # those that every reader knows: only their blanks are left out
-BLANKS = _table(b" \t\r")
+BLANKS = _table(b" \t\r\n")
+ODD = _table(b'"\xff')
 DIGITS = _table(b"0123456789")
 
 
@@ -86,10 +89,14 @@ def unpacked(data: bytes) -> bytes:
     text[:, 0][plain] = code[heads[plain]]
     text[:, 1] = np.where(second, code[heads + 1 + first], CHARACTERS[meaning, high[heads]])
     there[:, 1] = ~(plain | line_ends[heads])
-    result = text[there]
+    result, plain = text[there], np.repeat(plain, 2).reshape(-1, 2)[there]
     # An empty line can be padding: readers skip it, so that packed text has none.
-    empty = (result == NEWLINE) & (np.append(np.uint8(0), result[:-1]) == NEWLINE)
-    return _spaced(result[~empty]).tobytes()
+    empty = ~plain & (result == NEWLINE) & (np.append(np.uint8(0), result[:-1]) == NEWLINE)
+    result, plain = result[~empty], plain[~empty]
+    if not len(result):
+        return b""
+    starts, line = _lines(result)
+    return _spaced(result, ((result[starts] == G) & ~plain[starts])[line]).tobytes()
 
 
 def packed(text: bytes, *, comments: bool = True) -> bytes:
@@ -102,16 +109,17 @@ def packed(text: bytes, *, comments: bool = True) -> bytes:
     if not text:
         return BEGIN
     code = np.frombuffer(text, np.uint8)
-    moves = _moves(code)
+    starts, line = _lines(code)
+    lines = _survey(code, starts)
+    plain, moves = (lines.odd | lines.comments)[line], lines.moves[line]
     blanks = (code == BLANK) & DROPPED[np.append(code[1:], np.uint8(0))] & moves
     end = b"" if comments else SIGNAL + bytes([RESET])
-    result = _packed(code[~blanks], moves[~blanks]) + end
-    return result if 2 * len(result) > len(text) + 1 else _packed(code, moves) + end
+    result = _packed(code[~blanks], plain[~blanks], moves[~blanks]) + end
+    return result if 2 * len(result) > len(text) + 1 else _packed(code, plain, moves) + end
 
 
-def _packed(code: Bytes, moves: NDArray[np.bool_]) -> bytes:
+def _packed(code: Bytes, plain: Flags, moves: Flags) -> bytes:
     starts, line = _lines(code)
-    plain = (code[starts] == SEMICOLON)[line]
     within = np.arange(len(code)) - starts[line]
     after = np.append(code[1:], np.uint8(NEWLINE))
     after[code == NEWLINE] = NEWLINE
@@ -132,49 +140,60 @@ def _packed(code: Bytes, moves: NDArray[np.bool_]) -> bytes:
     return BEGIN + rows[there].tobytes()
 
 
-def packable(text: bytes) -> bool:
-    r"""Tell whether a text means the same after packing: its readers take each line that starts with G for a move.
-
-    Examples
-    --------
-    >>> packable(b"G1 X1 Y2\n"), packable(b"GRAB BOX\n"), packable(b'M486 A"a;b"\n')
-    (True, False, False)
-    """
-    if b"\xff" in text or re.search(rb"^[ \t\r]*G(?![0-9])", text, re.MULTILINE):
-        return False
-    return b'"' not in text or not re.search(rb'^[ \t\r]*G[^;\n]*"|^[^;\n]*"[^\n]*;', text, re.MULTILINE)
-
-
 def normalised(text: bytes, *, comments: bool = True) -> bytes:
-    r"""Leave out of a text what packing would lose: the text that comes back, if it can be packed at all.
+    r"""Leave out of a text what packing would lose: the text that comes back.
 
     Examples
     --------
-    >>> normalised(b"G1X1  Y2 ; a move\n\n; whole\n")
-    b'G1 X1 Y2\n; whole\n'
+    >>> normalised(b"G1X1  Y2 ; a move\n\n; whole\nGRAB  BOX ; as it is\n")
+    b'G1 X1 Y2\n; whole\nGRAB  BOX ; as it is\n'
     """
     if not text:
         return b""
     code = np.frombuffer(text if text.endswith(b"\n") else text + b"\n", np.uint8)
     starts, line = _lines(code)
+    lines = _survey(code, starts)
     place = np.arange(len(code))
-    ink = ~BLANKS[code] & (code != NEWLINE)
-    first = np.minimum.reduceat(np.where(ink, place, len(code)), starts)
-    remark = np.minimum.reduceat(np.where(code == SEMICOLON, place, len(code)), starts)
-    last = np.maximum.reduceat(np.where(ink & (place < remark[line]), place, -1), starts)
-    whole_remark = (first == remark) & (first < len(code))
-    if comments:
-        last[whole_remark] = np.append(starts[1:], len(code))[whole_remark] - 1
-    command = last >= 0
-    keep = (place >= first[line]) & (place <= last[line]) | (code == NEWLINE) & command[line]
-    code = code[keep]
-    if not len(code):
-        return b""
-    doubled = (code == BLANK) & (np.append(code[1:], np.uint8(0)) == BLANK) & _moves(code)
-    return _spaced(code[~doubled]).tobytes()
+    last = np.maximum.reduceat(np.where(_ink(code) & (place < lines.remark[line]), place, -1), starts)
+    whole = lines.odd | lines.comments if comments else lines.odd
+    last[whole] = np.append(starts[1:], len(code))[whole] - 1
+    first = np.where(lines.odd, starts, lines.first)
+    keep = (place >= first[line]) & (place <= last[line]) | (code == NEWLINE) & (last >= 0)[line]
+    moves, code = lines.moves[line][keep], code[keep]
+    doubled = moves & (code == BLANK) & (np.append(code[1:], np.uint8(0)) == BLANK)
+    return _spaced(code[~doubled], moves[~doubled]).tobytes()
 
 
-def _commands(data: bytes) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64]]:
+class _Lines(NamedTuple):
+    """What is on each line: the place of the first character that is no blank, and of the first semicolon."""
+
+    first: NDArray[np.int64]
+    remark: NDArray[np.int64]
+    comments: Flags  # nothing but a comment
+    moves: Flags  # G and a digit: blanks before the words come and go
+    odd: Flags  # readers would change it: G and no digit, or a string, in which a semicolon may be no comment
+
+
+def _survey(code: Bytes, starts: NDArray[np.int64]) -> _Lines:
+    count = len(code)
+    place = np.arange(count)
+
+    def nearest(flags: Flags) -> NDArray[np.int64]:
+        return np.minimum.reduceat(np.where(flags, place, count), starts)
+
+    first, remark = nearest(_ink(code)), nearest(code == SEMICOLON)
+    padded = np.append(code, np.zeros(2, np.uint8))
+    g, digit = padded[first] == G, DIGITS[padded[first + 1]]
+    odd = (g & ~digit) | (nearest(ODD[code]) < remark)
+    return _Lines(first, remark, (first == remark) & (first < count), g & digit & ~odd, odd)
+
+
+def _ink(code: Bytes) -> Flags:
+    ink: Flags = ~BLANKS[code]
+    return ink
+
+
+def _commands(data: bytes) -> tuple[Flags, NDArray[np.int64], NDArray[np.int64]]:
     """Tell for each byte whether it is packed, whether half 11 is E (1), and at a command how many bytes to skip."""
     size = len(data)
     packing = np.zeros(size, np.bool_)
@@ -215,18 +234,8 @@ def _lines(code: Bytes) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     return starts, np.cumsum(newline) - newline
 
 
-def _moves(code: Bytes) -> NDArray[np.bool_]:
-    """Tell which bytes are on a line that starts with G."""
-    starts, line = _lines(code)
-    result: NDArray[np.bool_] = (code[starts] == G)[line]
-    return result
-
-
-def _spaced(code: Bytes) -> Bytes:
-    """Put a blank before every word of every line that starts with G, where there is none."""
-    if not len(code):
-        return code
-    starts, _ = _lines(code)
-    bare = WORDS[code] & _moves(code) & (np.append(np.uint8(0), code[:-1]) != BLANK)
-    bare[starts] = False
+def _spaced(code: Bytes, moves: Flags) -> Bytes:
+    """Put a blank before every word of the lines that are moves, where there is none."""
+    before = np.append(np.uint8(NEWLINE), code[:-1])
+    bare = moves & WORDS[code] & (before != BLANK) & (before != NEWLINE)
     return np.insert(code, np.flatnonzero(bare), np.uint8(BLANK))
