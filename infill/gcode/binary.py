@@ -39,6 +39,7 @@ __all__ = [
     "rewritten",
     "stored",
     "text_pieces",
+    "whole_lines",
 ]
 
 LONGEST_TEXT = 65_536  # bytes of G-code in one block, as libbgcode and PrusaSlicer write them
@@ -134,7 +135,7 @@ def text_pieces(file: BinaryIO) -> Iterator[bytes]:
     FormatError
         As `blocks` and `decoded`; or the file has no G-code in it.
     """
-    return _whole_lines(_texts(file))
+    return whole_lines(_texts(file))
 
 
 def rewritten(
@@ -170,7 +171,7 @@ def rewritten(
         if block.kind == Kind.GCODE:
             if not copied:
                 copied = True
-                target.writelines(stored(encoded(piece, like=block)) for piece in _whole_lines(text))
+                target.writelines(stored(encoded(piece, like=block)) for piece in whole_lines(text))
             continue
         if changes and block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
             found |= metadata(block).keys() & changes.keys()
@@ -181,17 +182,7 @@ def rewritten(
     return frozenset(found)
 
 
-def _texts(file: BinaryIO) -> Iterator[bytes]:
-    empty = True
-    for block in blocks(file):
-        if block.kind == Kind.GCODE:
-            empty = False
-            yield decoded(block)
-    if empty:
-        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
-
-
-def _whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
+def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
     """Join texts and cut them at line ends, as late as LONGEST_TEXT allows; a longer line is a piece of its own."""
     rest = bytearray()
     for text in texts:
@@ -204,6 +195,16 @@ def _whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
             del rest[:cut]
     if rest:
         yield bytes(rest)
+
+
+def _texts(file: BinaryIO) -> Iterator[bytes]:
+    empty = True
+    for block in blocks(file):
+        if block.kind == Kind.GCODE:
+            empty = False
+            yield decoded(block)
+    if empty:
+        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
 
 
 def _bytes(text: str) -> bytes:
