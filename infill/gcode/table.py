@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +100,8 @@ class Table:
         OTHER, MOVE (G0, G1), ARC (G2, G3), COMMENT, BLANK or ODD.
     code : (N,) int8
         0 to 3 for G0 to G3, -1 else.
+    numbered : (N,) bool
+        The line begins with a line number, N12.
     x, y, z : (N,) float64
         Position after the line, NaN while unknown.
     e : (N,) float64
@@ -123,6 +126,7 @@ class Table:
     start: NDArray[np.int64]
     kind: NDArray[np.uint8]
     code: NDArray[np.int8]
+    numbered: NDArray[np.bool_]
     x: Floats
     y: Floats
     z: Floats
@@ -146,7 +150,7 @@ class Table:
 
 
 def read(data: bytes, state: State) -> Table:
-    """Read a batch of whole lines, beginning in `state`.
+    r"""Read a batch of whole lines, beginning in `state`.
 
     Parameters
     ----------
@@ -159,7 +163,7 @@ def read(data: bytes, state: State) -> Table:
     -------
     Table
 
-    >>> table = read(b"M83\\nG1 X1 Y2 E.5\\nG1 Y3\\n", State())
+    >>> table = read(b"M83\nG1 X1 Y2 E.5\nG1 Y3\n", State())
     >>> table.kind.tolist(), table.y.tolist(), table.extruded.tolist()
     ([0, 1, 1], [nan, 2.0, 3.0], [0.0, 0.5, 0.0])
     """
@@ -168,16 +172,16 @@ def read(data: bytes, state: State) -> Table:
     start[-1] = len(data)
     lines = len(start) - 1 if len(data) else 0
     start = start[: lines + 1]
-    kind, code, begin = _kinds(text, start)
+    kind, code, begin, numbered = _kinds(text, start)
     values, given = _words(text, start, kind, begin)
     commands = tuple(_commands(data, start, kind))
-    return _replayed(data, start, kind, code, values, given, commands, state)
+    return _replayed(data, start, kind, code, numbered, values, given, commands, state)
 
 
 def _kinds(
     text: NDArray[np.uint8], start: NDArray[np.int64]
-) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64]]:
-    """Return the kind of every line, its code, and where its words begin."""
+) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64], NDArray[np.bool_]]:
+    """Return the kind of every line, its code, where its words begin, and whether it has a line number."""
     first = start[:-1].copy()
     last = len(text) - 1
 
@@ -211,7 +215,7 @@ def _kinds(
     code = np.where(plain, digit.astype(np.int16) - ord("0"), -1).astype(np.int8)
     kind[plain & (digit <= ord("1"))] = MOVE
     kind[plain & (digit >= ord("2"))] = ARC
-    return kind, code, first + 2 + padded
+    return kind, code, first + 2 + padded, numbered
 
 
 def _is_digit(byte: NDArray[np.uint8]) -> NDArray[np.bool_]:
@@ -230,8 +234,8 @@ def _words(
     marks = np.flatnonzero((text == SEMICOLON) | (text == ord("(")) | (text == ord("*")))
     ends = start[1:].copy()  # of the words: where a comment or a checksum begins
     if len(marks):
-        of = np.searchsorted(start, marks, side="right") - 1
-        np.minimum.at(ends, of, marks)
+        of, earliest = np.unique(np.searchsorted(start, marks, side="right") - 1, return_index=True)
+        ends[of] = marks[earliest]
     begin = np.minimum(begin, ends)
     # Words begin at a letter; everything in between is digits, signs, points and spaces, or the line is odd.
     other = np.flatnonzero(((text | 0x20) >= ord("a")) | (text == ord("=")) | (text == ord('"')) | (text == ord(":")))
@@ -248,13 +252,20 @@ def _words(
     strange = np.zeros(lines, dtype=bool)
     strange[line[~known | ~good]] = True
     line, word, number = line[known], word[known], number[known]
-    again = np.zeros((lines, len(WORDS)), dtype=np.int8)
-    np.add.at(again, (line, word), 1)
-    strange |= (again > 1).any(axis=1)
-    values[line, word] = number
+    flat = line * len(WORDS) + word
+    values.ravel()[flat] = number
+    if np.bincount(line, minlength=1).sum() != np.count_nonzero(_present(flat, values.size)):
+        again = np.bincount(flat, minlength=values.size).reshape(values.shape)
+        strange |= (again > 1).any(axis=1)
     kind[moving & strange] = ODD
     values[kind == ODD] = np.nan
     return values, ~np.isnan(values)
+
+
+def _present(flat: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
+    there = np.zeros(size, dtype=bool)
+    there[flat] = True
+    return there
 
 
 def _commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
@@ -284,6 +295,7 @@ def _replayed(
     start: NDArray[np.int64],
     kind: NDArray[np.uint8],
     code: NDArray[np.int8],
+    numbered: NDArray[np.bool_],
     values: Floats,
     given: NDArray[np.bool_],
     commands: tuple[Command, ...],
@@ -315,6 +327,7 @@ def _replayed(
         start=start,
         kind=kind,
         code=code,
+        numbered=numbered,
         **where,
         f=feed,
         extruded=extruded,
@@ -332,7 +345,7 @@ def _stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: F
     """Follow the moves of some lines in which nothing else changes, and return the state after them."""
     if lines.start >= lines.stop:
         return state
-    now: dict[str, float] = {}
+    now: dict[str, Any] = {}
     for axis, name in enumerate("xyz"):
         column = values[lines, axis]
         if state.relative:
@@ -379,25 +392,25 @@ def _changed(state: State, command: Command) -> State:
         case "M82" | "M83":
             return replace(state, relative_e=command.code == "M83")
         case "G92":
-            named = {letter: command.words.get(letter) for letter in "XYZE" if letter in command.words}
-            if not named:  # all of them
-                named = dict.fromkeys("XYZE", 0.0)
-            return replace(state, **{letter.lower(): 0.0 if v is None else v for letter, v in named.items()})
+            named = [letter for letter in "XYZE" if letter in command.words] or list("XYZE")  # without a word, all
+            reset: dict[str, Any] = {letter.lower(): command.words.get(letter) or 0.0 for letter in named}
+            return replace(state, **reset)
         case "G28":
             homed = [letter for letter in AXES if letter in command.words] or list(AXES)
-            return replace(state, **dict.fromkeys(map(str.lower, homed), NAN))
+            unknown: dict[str, Any] = dict.fromkeys(map(str.lower, homed), NAN)
+            return replace(state, **unknown)
         case _ if command.code[1:].isdigit():
             return replace(state, tool=int(command.code[1:]))
         case _:
             return state
 
 
-def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, float | bool]:
+def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, Any]:
     """Return how far the filament is drawn back at the end, and whether by firmware."""
     total = np.cumsum(np.append(-before.retracted, extruded))
-    retracted = float(np.maximum.accumulate(total)[-1] - total[-1]) if total.max() > 0 else float(-total[-1])
+    retracted = round(float(max(0.0, total.max()) - total[-1]), 9)
     firmware = before.firmware_retracted
     for command in commands:
         if command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words):
             firmware = command.code == "G10"
-    return {"retracted": max(0.0, retracted), "firmware_retracted": firmware}
+    return {"retracted": retracted, "firmware_retracted": firmware}
