@@ -20,7 +20,6 @@ from hypothesis import strategies as st
 from infill.errors import FormatError, OutputError, ParameterError
 from infill.gcode import heatshrink, meatpack
 from infill.gcode.binary import (
-    LONGEST_TEXT,
     Block,
     Compression,
     Encoding,
@@ -35,6 +34,7 @@ from infill.gcode.binary import (
     stored,
     text_pieces,
 )
+from infill.gcode.piece_file import LONGEST_TEXT, as_file
 
 TEXT = b"""M201 X1000 Y1000 Z200 E5000
 ;LAYER_CHANGE
@@ -450,6 +450,13 @@ def test_blocks_hold_whole_lines_and_no_more_than_the_limit() -> None:
     assert all(len(each) > LONGEST_TEXT - 10 for each in found[:-3])
     assert [len(each) > LONGEST_TEXT for each in found] == [each == longest for each in found]
     assert list(text_pieces(opened(target.getvalue()))) == found
+
+
+@given(st.lists(st.binary(max_size=20), max_size=20), st.integers(1, 50))
+def test_pieces_read_as_a_file(pieces: list[bytes], size: int) -> None:
+    file = as_file(pieces)
+    assert b"".join(iter(lambda: file.read(size), b"")) == b"".join(pieces)
+    assert as_file(pieces).readlines() == io.BytesIO(b"".join(pieces)).readlines()
 
 
 def test_memory_does_not_grow_with_the_file(tmp_path) -> None:

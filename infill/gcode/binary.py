@@ -24,6 +24,7 @@ from infill.gcode.block_file import (
     is_binary,
     stored,
 )
+from infill.gcode.piece_file import whole_lines
 
 __all__ = [
     "Block",
@@ -39,10 +40,8 @@ __all__ = [
     "rewritten",
     "stored",
     "text_pieces",
-    "whole_lines",
 ]
 
-LONGEST_TEXT = 65_536  # bytes of G-code in one block, as libbgcode and PrusaSlicer write them
 WINDOWS = {Compression.HEATSHRINK_11: 11, Compression.HEATSHRINK_12: 12}
 METADATA = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kind.PRINT_METADATA)
 
@@ -180,21 +179,6 @@ def rewritten(
     if not copied:
         raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
     return frozenset(found)
-
-
-def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
-    """Join texts and cut them at line ends, as late as LONGEST_TEXT allows; a longer line is a piece of its own."""
-    rest = bytearray()
-    for text in texts:
-        rest += text
-        while len(rest) > LONGEST_TEXT:
-            cut = rest.rfind(b"\n", 0, LONGEST_TEXT) + 1 or rest.find(b"\n", LONGEST_TEXT) + 1
-            if not cut:
-                break
-            yield bytes(rest[:cut])
-            del rest[:cut]
-    if rest:
-        yield bytes(rest)
 
 
 def _texts(file: BinaryIO) -> Iterator[bytes]:

@@ -96,8 +96,8 @@ def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
     pieces = [data[start : start + SORTED] for start in range(0, len(data), SORTED)]
     found = [_matches(piece, farthest=1 << window, longest=1 << lookahead) for piece in pieces]
     lengths, backs = (np.concatenate(each) for each in zip(*found, strict=True))
-    steps, places, position = lengths.tolist(), [], 0
-    while position < len(data):
+    steps, places, position, count = lengths.tolist(), [], 0, len(data)
+    while position < count:
         places.append(position)
         position += steps[position]
     at = np.array(places)
