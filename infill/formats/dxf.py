@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -50,9 +51,9 @@ def read_dxf(path: Path) -> Drawing:
 
 
 def _millimetres(unit: int) -> float:
-    from ezdxf import units
+    from ezdxf import enums, units
 
-    return float(units.conversion_factor(units.InsertUnits(unit), units.InsertUnits.Millimeters)) if unit else 1.0
+    return float(units.conversion_factor(enums.InsertUnits(unit), enums.InsertUnits.Millimeters)) if unit else 1.0
 
 
 def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401 - a document of ezdxf
@@ -60,7 +61,8 @@ def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401
 
     hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
     paths = []
-    for number, entity in enumerate(disassemble.recursive_decompose(document.modelspace())):
+    entities: Iterable[Any] = disassemble.recursive_decompose(document.modelspace())
+    for number, entity in enumerate(entities):
         if number >= MOST_ENTITIES:
             raise ValueError(f"it holds more than {MOST_ENTITIES} entities")
         kind = entity.dxftype()

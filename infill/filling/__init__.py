@@ -1,0 +1,1 @@
+"""Paths that fill a region, and their corners."""
