@@ -190,9 +190,7 @@ def _traced(picture: Picture, path: Path) -> Drawing:
 
 
 @lru_cache(maxsize=8)
-def _strands(
-    family: Drawn, cell: float, line_width: float, radius: float
-) -> tuple[list[Strand], tuple[float, float]]:
+def _strands(family: Drawn, cell: float, line_width: float, radius: float) -> tuple[list[Strand], tuple[float, float]]:
     """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
     x0, y0, x1, y1 = family.tile
     factor = cell / (x1 - x0)
@@ -200,6 +198,5 @@ def _strands(
     lines = [(line - (x0, y0)) * factor for line in family.drawing.lines]
     blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
     grid = tile_grid(size, line_width=line_width, blur=blur)
-    reach = (grid.pad + 1) * max(grid.spacing) + 2 * line_width
-    field = two_colours(borders(lines, size, line_width=line_width, reach=reach), grid, line_width=line_width, blur=blur)
+    field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
     return tile_strands(field, grid), size

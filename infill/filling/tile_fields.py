@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.filling.tile_lines import Borders
+from infill.filling.tile_lines import TOUCH, Borders
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing
 from infill.phasefield.methods import smooth
 from infill.ragged import spread
@@ -81,10 +81,10 @@ def tile_grid(size: tuple[float, float], *, line_width: float, blur: float) -> T
     return TileGrid(size=size, shape=shape, pad=math.ceil(MARGIN * blur / spacing) + CELLS_PER_LINE)
 
 
-def signed_distance(borders: Borders, grid: TileGrid, band: float) -> Floats:
-    """Return the distance to the nearest border at every node, at most `band`, positive in one colour, mm."""
+def distances(edges: Floats, grid: TileGrid, band: float) -> Floats:
+    """Return the distance to the nearest edge at every node, at most `band`, mm."""
     distance = np.full(grid.nodes, band)
-    edges = _short(borders.edges, 4 * max(grid.spacing))
+    edges = _short(edges, 4 * max(grid.spacing))
     low = np.floor((edges.min(axis=1) - band - grid.first) / grid.spacing).astype(int) + 1
     high = np.floor((edges.max(axis=1) + band - grid.first) / grid.spacing).astype(int)
     low, high = np.maximum(low, 0), np.minimum(high, np.array(grid.nodes) - 1)
@@ -98,7 +98,27 @@ def signed_distance(borders: Borders, grid: TileGrid, band: float) -> Floats:
         away = np.stack([i, j], axis=1) * grid.spacing + grid.first - edges[edge, 0]
         part = np.clip((away * along[edge]).sum(axis=1) / squared[edge], 0, 1)[:, None]
         np.minimum.at(flat, i * grid.nodes[1] + j, np.hypot(*(away - part * along[edge]).T))
-    return np.where(colours(borders.edges, grid), distance, -distance)
+    return distance
+
+
+def around(shapes: Floats, grid: TileGrid, band: float) -> Floats:
+    """Return shapes (N, ..., 2) with their copies in the next tiles, as far as the padding and `band` reach."""
+    if not len(shapes):
+        return shapes
+    points = shapes.reshape(len(shapes), -1, 2)
+    size = np.array(grid.size)
+    low, high = points.min(axis=1), points.max(axis=1)
+    first = np.floor((grid.first - band - high.max(axis=0)) / size).astype(int)
+    end = grid.first + np.array(grid.nodes) * grid.spacing
+    last = np.ceil((end + band - low.min(axis=0)) / size).astype(int)
+    copies = []
+    for i in range(first[0], last[0] + 1):
+        for j in range(first[1], last[1] + 1):
+            shift = size * (i, j)
+            # What lies to the left or below is kept: the colours of a row are counted from there.
+            near = ((low + shift < end + band) & (high + shift > grid.first - band)).all(axis=1)
+            copies.append(shapes[near] + shift)
+    return np.concatenate(copies)
 
 
 def _short(edges: Floats, longest: float) -> Floats:
@@ -158,12 +178,15 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
 
     h = max(grid.spacing)
     radius = NARROWEST / 2 * line_width
-    field = signed_distance(borders, grid, radius + 3 * h)
+    band = radius + 3 * h
+    edges = around(borders.single, grid, band)
+    field = np.where(colours(edges, grid), 1, -1) * distances(edges, grid, band)
+    field = _doubled(field, borders.double, grid, TOUCH / 2 * line_width)
     field = _opened_crossings(field, borders, grid, radius)
     for sign in (1, -1):
         core = sign * field > radius - h / 2
         if not core.any():
-            return field * 0 - sign
+            return np.full(grid.nodes, -sign, dtype=np.float64)
         away = distance_transform_edt(~core, sampling=grid.spacing)
         field = sign * np.minimum(sign * field, radius + h - away)
     steps = math.ceil((blur / h) ** 2 / (2 * Smoothing().alpha))
@@ -173,12 +196,29 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     return np.arctanh(np.clip(phi, -0.9999, 0.9999))
 
 
+def _doubled(field: Floats, edges: Floats, grid: TileGrid, radius: float) -> Floats:
+    """Return the field with a strip around each edge, of the colour that is not there."""
+    if not len(edges):
+        return field
+    band = radius + 4 * max(grid.spacing)
+    pieces = _short(edges, 2 * radius)  # so that each lies in one colour wherever it is sampled
+    middle = np.round((pieces.mean(axis=1) - grid.first) / grid.spacing).astype(int)
+    # Edges lie in one tile, and so within the grid.
+    colour = field[tuple(np.clip(middle, 0, np.array(grid.nodes) - 1).T)] > 0
+    for sign, some in ((1, colour), (-1, ~colour)):
+        if some.any():
+            strip = distances(around(pieces[some], grid, band), grid, band) - radius
+            field = sign * np.minimum(sign * field, strip)
+    return field
+
+
 def _opened_crossings(field: Floats, borders: Borders, grid: TileGrid, radius: float) -> Floats:
     """Return the field with a disc at each crossing, of the colour that is to be connected there."""
     field = field.copy()
     reach = np.ceil(2 * radius / np.array(grid.spacing)).astype(int) + 1
-    for centre, inward in zip(borders.crossings, borders.inward, strict=True):
-        inside = np.round((centre + inward * radius - grid.first) / grid.spacing).astype(int)
+    both = np.stack([borders.crossings, borders.crossings + radius * borders.inward], axis=1)
+    for centre, inward in around(both, grid, 2 * radius):
+        inside = np.round((inward - grid.first) / grid.spacing).astype(int)
         middle = np.round((centre - grid.first) / grid.spacing).astype(int)
         low, high = np.maximum(middle - reach, 0), np.minimum(middle + reach + 1, grid.nodes)
         if (low >= high).any() or (inside < 0).any() or (inside >= grid.nodes).any():

@@ -5,11 +5,12 @@ so this is asked on a torus:
 
 Step 1. Open ends that lie close together, seen across the edges of the tile too, are put on one another.
 Step 2. Lines are cut at each other, and what is drawn twice is taken once.
-Step 3. Where lines hang together with a loose end or a junction of three, no two colours will do. They are
-        replaced by their outline at half a bead on either side: two paths that touch::
+Step 3. Loose ends and junctions of three, five … lines are joined in pairs, along the lines, as shortly as that can
+        be done. What lies between a pair becomes a double line of two beads that touch; without it, the number is
+        even everywhere. A loose stroke is doubled as a whole; of a honeycomb, one wall in three::
 
-            --+--      ==' '==
-              |   ->     | |
+            __/      __//
+              \\        \\
 
 Step 4. At every crossing it is said which sectors are one piece, so that paths turn off instead of crossing: the
         sharp ones, so that paths bend by as little as possible; between equals, those that lie along x.
@@ -32,30 +33,48 @@ CLOSE = 0.25  # line widths within which open ends are taken for one
 TOUCH = 0.905  # line widths between the centres of two beads that touch
 ALIKE = math.radians(20)  # difference of angles below which a crossing counts as square
 ALONG = math.radians(10)  # near x, but no line of symmetry
-SNAP = 1e-7  # of a tile
+SNAP = 1e-7  # of a tile: to this, lines are cut at each other
+SAME = 1e-5  # of a tile: nodes closer than that are one
+CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: where it is cut out; no drawing has lines along there
+MOST_PAIRED = 1000
 
 
 @dataclass(frozen=True, kw_only=True)
 class Borders:
-    """Edges between two colours around one tile.
+    """Lines of one tile, by what becomes of them; mm. Copies in the next tiles are left out.
 
     Parameters
     ----------
-    edges : (N, 2, 2) float64
-        Ends of straight pieces, mm.
-    crossings : (M, 2) float64
-        Where four pieces or more meet, mm.
-    inward : (M, 2) float64
+    single : (N, 2, 2) float64
+        Ends of straight pieces between two colours.
+    double : (M, 2, 2) float64
+        Ends of straight pieces inside one colour, of which two beads are made.
+    crossings : (K, 2) float64
+        Where four single pieces or more meet.
+    inward : (K, 2) float64
         A direction at each, of length 1, into a sector that is to be connected with those of its colour.
     """
 
-    edges: Floats
+    single: Floats
+    double: Floats
     crossings: Floats
     inward: Floats
 
 
-def borders(lines: list[Line], size: tuple[float, float], *, line_width: float, reach: float) -> Borders:
-    """Return the borders between two colours from `reach` outside the tile (0, 0) to `size`, mm.
+@dataclass(frozen=True, kw_only=True)
+class _Graph:
+    """The lines of a tile on the torus: parts between nodes."""
+
+    parts: list[Line]
+    node: NDArray[np.intp]  # (parts, 2)
+    places: Floats
+
+    def degree(self, some: NDArray[np.bool_]) -> NDArray[np.intp]:
+        return np.bincount(self.node[some].ravel(), minlength=len(self.places))
+
+
+def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) -> Borders:
+    """Return the borders between two colours, and the lines to be doubled, in a tile from (0, 0) to `size`.
 
     Parameters
     ----------
@@ -65,70 +84,58 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float, 
         Of the tile, mm.
     line_width : float
         mm.
-    reach : float
-        mm around the tile within which borders are wanted.
     """
-    import shapely
-
-    copies = _copies(_ends_together(lines, size, CLOSE * line_width), size, reach)
-    noded = shapely.union_all(_as_lines(copies), grid_size=SNAP * max(size))
-    parts = shapely.get_parts(shapely.line_merge(noded))
-    parts = parts[shapely.get_type_id(parts) == 1]
-    ends = shapely.get_coordinates(shapely.get_point(np.repeat(parts, 2), np.tile([0, -1], len(parts))))
-    node, places, degree = _nodes(ends, size)
-    odd = _odd_parts(node, places, degree, size)
-    even, rest = parts[~odd], parts[odd]
-    crossings, inward = _crossings(even, node.reshape(-1, 2)[~odd].ravel(), places, degree, line_width)
-    if len(rest):
-        outline = shapely.boundary(shapely.buffer(shapely.union_all(rest), TOUCH / 2 * line_width, quad_segs=16))
-        even = np.concatenate([even, shapely.get_parts(outline)])
-    coordinates, owner = shapely.get_coordinates(even, return_index=True)
-    edges = np.stack([coordinates[:-1], coordinates[1:]], axis=1)[owner[1:] == owner[:-1]]
-    return Borders(edges=edges, crossings=crossings, inward=inward)
+    graph = _torus(_copies(_ends_together(lines, size, CLOSE * line_width), size), size)
+    double = _paired(graph)
+    crossings, inward = _crossings(graph, ~double, line_width)
+    single = _edges([part for part, twice in zip(graph.parts, double, strict=True) if not twice])
+    doubled = _edges([part for part, twice in zip(graph.parts, double, strict=True) if twice])
+    return Borders(single=single, double=doubled, crossings=crossings, inward=inward)
 
 
-def _as_lines(lines: list[Line]) -> NDArray[np.object_]:
-    import shapely
-
-    owner = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
-    found: NDArray[np.object_] = shapely.linestrings(np.concatenate(lines), indices=owner)
-    return found
+def _edges(parts: list[Line]) -> Floats:
+    pieces = [np.stack([part[:-1], part[1:]], axis=1) for part in parts]
+    return np.concatenate(pieces) if pieces else np.empty((0, 2, 2))
 
 
 def _ends_together(lines: list[Line], size: tuple[float, float], tolerance: float) -> list[Line]:
     """Return the lines with open ends that lie within a tolerance of each other, modulo the tile, on one point."""
+    ends = np.concatenate([line[[0, -1]] for line in lines])
+    label, places = _clusters(ends, size, tolerance)
+    moved = places[label] + np.array(size) * np.round((ends - places[label]) / size)
+    together = []
+    for line, pair in zip(lines, moved.reshape(-1, 2, 2), strict=True):
+        inner = line[1:-1]
+        # Points nearer to an end than it may move would make a spike.
+        keep = np.minimum(np.hypot(*(inner - line[0]).T), np.hypot(*(inner - line[-1]).T)) > tolerance
+        together.append(np.vstack([pair[:1], inner[keep], pair[1:]]))
+    return [line for line in together if np.hypot(*np.diff(line, axis=0).T).sum() > 0]
+
+
+def _clusters(points: Floats, size: tuple[float, float], tolerance: float) -> tuple[NDArray[np.intp], Floats]:
+    """Return the number of the place at which each point lies on the torus, and the places."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
 
     box = np.array(size)
-    ends = np.concatenate([line[[0, -1]] for line in lines])
-    wrapped = np.mod(ends, box)
+    wrapped = np.mod(points, box)
     wrapped[wrapped >= box] = 0  # rounding
     pairs = KDTree(wrapped, boxsize=box).query_pairs(tolerance, output_type="ndarray")
-    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(ends), len(ends)))
+    graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
     _, label = connected_components(graph, directed=False)
     _, first = np.unique(label, return_index=True)
-    target = wrapped[first[label]]
-    moved = target + box * np.round((ends - target) / box)
-    together = []
-    for line, pair in zip(lines, moved.reshape(-1, 2, 2), strict=True):
-        inner = line[1:-1]
-        # Points nearer to an end than it may move would make a spike.
-        keep = np.hypot(*(inner - line[0]).T) > tolerance
-        keep &= np.hypot(*(inner - line[-1]).T) > tolerance
-        together.append(np.vstack([pair[:1], inner[keep], pair[1:]]))
-    return [line for line in together if len(line) > 2 or np.hypot(*(line[1] - line[0])) > 0]
+    return label, wrapped[first]
 
 
-def _copies(lines: list[Line], size: tuple[float, float], reach: float) -> list[Line]:
-    """Return every copy of the lines that comes within `reach` of the tile."""
+def _copies(lines: list[Line], size: tuple[float, float]) -> list[Line]:
+    """Return every copy of the lines that may come into the tile, wherever it is cut out."""
     copies: list[Line] = []
     points = 0
     box = np.array(size)
     for line in lines:
-        first = np.ceil((-reach - line.max(axis=0)) / box).astype(int)
-        last = np.floor((box + reach - line.min(axis=0)) / box).astype(int)
+        first = np.ceil(-line.max(axis=0) / box).astype(int)
+        last = np.floor((2 * box - line.min(axis=0)) / box).astype(int)
         points += len(line) * int(np.prod(np.maximum(last - first + 1, 0)))
         if points > 4 * MOST_POINTS:
             raise GeometryError(
@@ -140,61 +147,97 @@ def _copies(lines: list[Line], size: tuple[float, float], reach: float) -> list[
     return copies
 
 
-def _nodes(ends: Floats, size: tuple[float, float]) -> tuple[NDArray[np.intp], Floats, NDArray[np.intp]]:
-    """Return the number of the node at each end, where the nodes lie, and how many ends meet there."""
-    keys = np.round(ends / (4 * SNAP * max(size)))
-    _, first, node, degree = np.unique(keys, axis=0, return_index=True, return_inverse=True, return_counts=True)
-    return node.ravel(), ends[first], degree
-
-
-def _odd_parts(
-    node: NDArray[np.intp], places: Floats, degree: NDArray[np.intp], size: tuple[float, float]
-) -> NDArray[np.bool_]:
-    """Return which parts hang together, on the torus, with a node where an odd number of ends meets."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import KDTree
-
-    box = np.array(size)
-    slack = 1e-5 * max(size)
-    inside = ((places > -slack) & (places < box + slack)).all(axis=1)  # all copies that meet there are present
-    wrapped = np.mod(places, box)
-    wrapped[wrapped >= box] = 0
-    same = KDTree(wrapped, boxsize=box).query_pairs(slack, output_type="ndarray")
-    joined = np.concatenate([same, node.reshape(-1, 2)])
-    graph = coo_array((np.ones(len(joined)), (joined[:, 0], joined[:, 1])), shape=(len(places), len(places)))
-    count, label = connected_components(graph, directed=False)
-    odd = np.zeros(count, dtype=bool)
-    odd[label[inside & (degree % 2 == 1)]] = True
-    found: NDArray[np.bool_] = odd[label[node[::2]]]
-    return found
-
-
-def _crossings(
-    parts: NDArray[np.object_],
-    node: NDArray[np.intp],
-    places: Floats,
-    degree: NDArray[np.intp],
-    line_width: float,
-) -> tuple[Floats, Floats]:
-    """Return where four parts or more meet, and a direction into a sector that is to be connected there."""
+def _torus(copies: list[Line], size: tuple[float, float]) -> _Graph:
+    """Return the lines of one tile, cut at each other and at its edges."""
     import shapely
 
-    both = np.repeat(parts, 2)
-    ahead = np.minimum(line_width / 2, shapely.length(both) / 2)
-    ahead[1::2] *= -1  # from the far end
-    near = shapely.get_coordinates(shapely.line_interpolate_point(both, ahead))
-    legs = near - places[node]
-    angles = np.arctan2(legs[:, 1], legs[:, 0])
-    crossings, inward = [], []
-    order = np.argsort(node, kind="stable")
-    starts = np.searchsorted(node[order], np.flatnonzero(degree >= 4))
-    for number, start in zip(np.flatnonzero(degree >= 4), starts, strict=True):
-        here = np.sort(angles[order[start : start + degree[number]]])
-        if start < len(order) and node[order[start]] == number:
-            crossings.append(places[number])
-            inward.append(_sector(here))
-    return np.array(crossings).reshape(-1, 2), np.array(inward).reshape(-1, 2)
+    owner = np.repeat(np.arange(len(copies)), [len(line) for line in copies])
+    lines = shapely.linestrings(np.concatenate(copies), indices=owner)
+    noded = shapely.union_all(lines, grid_size=SNAP * max(size))
+    x, y = (share * side for share, side in zip(CUT, size, strict=True))
+    cut = shapely.line_merge(shapely.intersection(noded, shapely.box(x, y, x + size[0], y + size[1])))
+    parts = shapely.get_parts(cut)
+    parts = [shapely.get_coordinates(part) for part in parts[shapely.get_type_id(parts) == 1]]
+    ends = np.concatenate([part[[0, -1]] for part in parts])
+    label, places = _clusters(ends, size, SAME * max(size))
+    return _Graph(parts=parts, node=label.reshape(-1, 2), places=places)
+
+
+def _paired(graph: _Graph) -> NDArray[np.bool_]:
+    """Return which parts are to be doubled: shortest ways between nodes of odd degree, taken in pairs.
+
+    Pairs are those nearest to each other, improved as long as exchanging the partners of two pairs makes the ways
+    shorter. Where there are too many, all that hangs together with an odd node is doubled.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components, dijkstra
+
+    doubled = np.zeros(len(graph.parts), dtype=bool)
+    odd = np.flatnonzero(graph.degree(~doubled) % 2)
+    if not odd.size:
+        return doubled
+    lengths = np.array([np.hypot(*np.diff(part, axis=0).T).sum() for part in graph.parts])
+    order = np.argsort(-lengths, kind="stable")  # of parts between the same nodes, the shortest is written last
+    part_of = {}
+    for number in order:
+        a, b = sorted(graph.node[number].tolist())
+        part_of[a, b] = int(number)
+    numbers = np.array(list(part_of.values()))
+    a, b = graph.node[numbers].T
+    count = len(graph.places)
+    ways = coo_array((lengths[numbers], (a, b)), shape=(count, count)).tocsr()
+    if len(odd) > MOST_PAIRED:
+        _, label = connected_components(ways, directed=False)
+        found: NDArray[np.bool_] = np.isin(label[graph.node[:, 0]], label[odd])
+        return found
+    distances, before = dijkstra(ways, directed=False, indices=odd, return_predecessors=True)
+    for i, j in _pairs(distances[:, odd]):
+        here = int(odd[j])
+        while here != odd[i]:
+            last = int(before[i, here])
+            doubled[part_of[min(last, here), max(last, here)]] ^= True
+            here = last
+    return doubled
+
+
+def _pairs(distances: Floats) -> list[tuple[int, int]]:
+    """Return numbers in pairs whose distances are small in all."""
+    upper = np.triu_indices(len(distances), 1)
+    partner = np.full(len(distances), -1)
+    for number in np.argsort(distances[upper], kind="stable"):
+        i, j = upper[0][number], upper[1][number]
+        if partner[i] < 0 and partner[j] < 0:
+            partner[i], partner[j] = j, i
+    better = True
+    while better:
+        better = False
+        for i in range(len(partner)):
+            j = partner[i]
+            swapped = distances[i] + distances[j][partner]  # i with k, j with the partner of k
+            gain = distances[i, j] + distances[np.arange(len(partner)), partner] - swapped
+            gain[[i, j]] = 0
+            k = int(np.argmax(gain))
+            if gain[k] > 1e-9 * distances[i, j]:
+                m = partner[k]
+                partner[[i, k, j, m]] = k, i, m, j
+                better = True
+    return [(i, int(j)) for i, j in enumerate(partner) if i < j]
+
+
+def _crossings(graph: _Graph, some: NDArray[np.bool_], line_width: float) -> tuple[Floats, Floats]:
+    """Return where four of the parts or more meet, and a direction into a sector that is to be connected there."""
+    import shapely
+
+    at: dict[int, list[float]] = {int(node): [] for node in np.flatnonzero(graph.degree(some) >= 4)}
+    for number in np.flatnonzero(some):
+        for end, node in zip((1, -1), graph.node[number].tolist(), strict=True):
+            if node in at:
+                line = graph.parts[number][::end]
+                ahead = shapely.line_interpolate_point(shapely.linestrings(line), line_width / 2)
+                leg = shapely.get_coordinates(ahead)[0] - line[0]
+                at[node].append(math.atan2(leg[1], leg[0]))
+    inward = [_sector(np.sort(angles)) for angles in at.values()]
+    return graph.places[list(at)].reshape(-1, 2), np.array(inward).reshape(-1, 2)
 
 
 def _sector(angles: Floats) -> tuple[float, float]:
