@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -12,23 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import length, positive, within
-from infill.errors import FormatError
+from infill.errors import GeometryError
 from infill.filling.tile_fields import tile_grid, two_colours
 from infill.filling.tile_lines import TOUCH, borders
 from infill.filling.tile_paths import Strand, repeated, tile_strands
+from infill.filling.tiles import tile_of, traced
 from infill.formats.drawing import Bounds, Drawing, Picture
 from infill.formats.drawings import read_drawing
-from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.methods import smooth
 
-SPARSE = 0.5  # of a page: a drawing that is smaller is taken without its page
-SEAM = 0.1  # of the edge of a box: where so much of it is drawn, or a line ends at it, it is a seam
-GAP = 0.1  # of the larger side, between outlines that are repeated without a page
-LARGEST_PICTURE = 1000  # pixels along a side: beyond, several make one
-PIXEL_STEPS = 5  # of the equation, on the pixels themselves: rids a picture of speckles
+IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
 LEAST_BLUR = 0.15  # of a line width
-BLUR_PER_RADIUS = 0.5
-CAREFUL = 0.35  # of the thickest place of a colour: what no smoothing may exceed
+BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
+LARGEST_RADIUS = 0.1  # of the smaller side of a tile
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,29 +77,35 @@ class Drawn:
         z, layer
             Of no effect.
         radius : float
-            mm: about the radius that a right angle gets. Outlines too small for that get less.
+            mm: about the radius that a right angle gets, up to `largest_radius`. Small outlines get less.
 
         Raises
         ------
         GeometryError
             If nothing is left of the drawing at this size, or the tile is too large for the line width.
         """
-        strands, size = _strands(self, length("cell", cell), length("line_width", line_width), float(radius))
+        width = length("cell", cell)
+        least = min(within("radius", radius, 0, 1e6, "mm"), self.largest_radius(width, line_width))
+        strands, size = _strands(self, width, length("line_width", line_width), least)
         return repeated(strands, size, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the width of the tile at which the paths fill about `density` of the plane."""
         within("density", density, 1e-4, 1)
+        positive("line_width", line_width, "mm")
+        _, y0, _, y1 = self.tile
+        drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
+        cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
+        for _ in range(IMPROVED):
+            strands, size = _strands(self, cell, line_width, 0.0)
+            found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
+            cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
+        return cell
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002 - as all families
+        """Return a tenth of the smaller side of the tile, mm: beyond, little would be left of the drawing."""
         x0, y0, x1, y1 = self.tile
-        return self._drawn_length(line_width) * TOUCH * line_width / density * (x1 - x0) / ((x1 - x0) * (y1 - y0))
-
-    def _drawn_length(self, line_width: float) -> float:
-        del line_width
-        return float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines))
-
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return infinity: paths that touch are smoothed together."""
-        return math.inf
+        return LARGEST_RADIUS * cell * min(1.0, (y1 - y0) / (x1 - x0))
 
 
 def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
@@ -114,8 +114,9 @@ def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
     Parameters
     ----------
     path : str or Path
-        .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. What is repeated is the page, where the drawing fills at least
-        half of it; else the box around the lines, with a gap where they are outlines that do not go on beyond it.
+        .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. What is repeated is the page, where the drawing extends over
+        half of it in one direction at least. Otherwise it is the box around the lines, from where they begin on one
+        side to where they go on from the other; outlines that do not go on get a gap between them.
     width : float, optional
         Width of the tile, mm; by default as drawn, and a tenth of a millimetre a pixel.
 
@@ -125,8 +126,8 @@ def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
         See `read_drawing`.
     """
     found = read_drawing(path)
-    drawing = _traced(found, Path(path)) if isinstance(found, Picture) else found
-    drawing = replace(drawing, page=_tile(drawing))
+    drawing = traced(found, Path(path)) if isinstance(found, Picture) else found
+    drawing = replace(drawing, page=tile_of(drawing))
     if width is not None:
         drawing = _scaled(drawing, length("width", width))
     return Drawn(name=Path(path).name, drawing=drawing)
@@ -140,55 +141,6 @@ def _scaled(drawing: Drawing, width: float) -> Drawing:
     return replace(drawing, lines=lines, page=(0.0, 0.0, width, (y1 - y0) * factor))
 
 
-def _tile(drawing: Drawing) -> Bounds:
-    """Return the box that is repeated."""
-    x0, y0, x1, y1 = drawing.bounds
-    if drawing.page:
-        left, bottom, right, top = drawing.page
-        if x1 - x0 >= SPARSE * (right - left) and y1 - y0 >= SPARSE * (top - bottom):
-            return drawing.page
-    gap = 0.0 if _seamed(drawing) else GAP * max(x1 - x0, y1 - y0)
-    thin = GAP * max(x1 - x0, y1 - y0)  # a straight line has no height of its own
-    wide, high = (max(each + gap, thin) for each in (x1 - x0, y1 - y0))
-    return (x0 + x1 - wide) / 2, (y0 + y1 - high) / 2, (x0 + x1 + wide) / 2, (y0 + y1 + high) / 2
-
-
-def _seamed(drawing: Drawing) -> bool:
-    """Return whether lines end at the box around the drawing or run along it, so that they go on in the next tile."""
-    x0, y0, x1, y1 = drawing.bounds
-    slack = 1e-3 * max(x1 - x0, y1 - y0)
-    along = 0.0
-    for line in drawing.lines:
-        on = np.stack([abs(line[:, 0] - x) < slack for x in (x0, x1)] + [abs(line[:, 1] - y) < slack for y in (y0, y1)])
-        if np.hypot(*(line[0] - line[-1])) > slack and on[:, [0, -1]].any():
-            return True
-        both = (on[:, 1:] & on[:, :-1]).any(axis=0)
-        along += float(np.hypot(*np.diff(line, axis=0).T)[both].sum())
-    return along > SEAM * 2 * (x1 - x0 + y1 - y0)
-
-
-def _traced(picture: Picture, path: Path) -> Drawing:
-    """Return the outlines of what is dark, a tenth of a millimetre a pixel, going on across the edges."""
-    from scipy.ndimage import uniform_filter
-    from skimage.measure import find_contours
-
-    field = picture.field
-    several = math.ceil(max(field.shape) / LARGEST_PICTURE)
-    if several > 1:
-        field = uniform_filter(field, several, mode="wrap")[::several, ::several]
-    pad = 2 * PIXEL_STEPS
-    wrapped = np.pad(field, pad, mode="wrap")
-    blurred = smooth(wrapped, Smoothing(steps=PIXEL_STEPS), method="inplace")
-    inner = blurred[pad : -pad + 1, pad : -pad + 1].astype(np.float64)
-    inner[inner == 0] = np.finfo(np.float32).tiny
-    inner[-1], inner[:, -1] = inner[0], inner[:, 0]
-    lines = tuple(line * 0.1 * several for line in find_contours(inner, 0.0) if len(line) > 2)
-    if not lines:
-        raise FormatError(f"{path} holds only specks of single pixels; draw larger dark shapes")
-    size = 0.1 * several * (np.array(inner.shape) - 1)
-    return Drawing(lines=lines, page=(0.0, 0.0, float(size[0]), float(size[1])))
-
-
 @lru_cache(maxsize=8)
 def _strands(family: Drawn, cell: float, line_width: float, radius: float) -> tuple[list[Strand], tuple[float, float]]:
     """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
@@ -199,4 +151,10 @@ def _strands(family: Drawn, cell: float, line_width: float, radius: float) -> tu
     blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
     grid = tile_grid(size, line_width=line_width, blur=blur)
     field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
-    return tile_strands(field, grid), size
+    strands = tile_strands(field, grid)
+    if not strands:
+        raise GeometryError(
+            f"nothing is left of {family.name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
+            f"{line_width:g} mm; make the cell larger"
+        )
+    return strands, size

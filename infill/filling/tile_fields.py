@@ -1,4 +1,4 @@
-"""The two-colour field of a tile: signed distances to its borders, freed of what no bead fits into, and smoothed.
+"""The two-colour field of a tile: signed distances to its borders, with room for a bead everywhere, and smoothed.
 
 A border parts two colours, so the colour at a point is the parity of the borders crossed on the way there. The sign
 of the field is the colour, its value the distance to the nearest border; smoothing by the paper's equation rounds
@@ -26,7 +26,9 @@ COARSEST = 5
 MOST_CELLS = 6_000_000
 FIDELITY = 0.001
 INTERFACE = 2.0  # cells
-NARROWEST = 0.9  # line widths: regions narrower than that are given to their neighbours
+NARROWEST = 0.9  # line widths: narrower regions are widened if they are long, and else given to their neighbours
+RIDGE = 0.5  # slope of a distance below which it has its ridge there: between lines, or in a corner of less than 60°
+CAREFUL = 0.35  # of the thickest place of a colour: no smoothing goes beyond
 GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # no drawing has its lines there
 MARGIN = 4.0  # blurs beyond which smoothing does not reach
 AT_ONCE = 2_000_000
@@ -170,7 +172,7 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     borders : Borders
     grid : TileGrid
     line_width : float
-        mm. Regions narrower than 0.9 of it go to their neighbours, and crossings open by as much.
+        mm. Paths are kept 0.9 of it apart, and crossings open by as much.
     blur : float
         mm: how far to smooth, as the standard deviation of a Gaussian that diffuses as far.
     """
@@ -184,16 +186,46 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     field = _doubled(field, borders.double, grid, TOUCH / 2 * line_width)
     field = _opened_crossings(field, borders, grid, radius)
     for sign in (1, -1):
-        core = sign * field > radius - h / 2
-        if not core.any():
-            return np.full(grid.nodes, -sign, dtype=np.float64)
-        away = distance_transform_edt(~core, sampling=grid.spacing)
-        field = sign * np.minimum(sign * field, radius + h - away)
-    steps = math.ceil((blur / h) ** 2 / (2 * Smoothing().alpha))
+        field = sign * _widened(sign * field, grid, radius)
+    for sign in (1, -1):
+        field = sign * _opened(sign * field, grid, radius)
+    thickest = min(float(distance_transform_edt(sign * field > 0, sampling=grid.spacing).max()) for sign in (1, -1))
+    steps = math.ceil((min(blur, CAREFUL * thickest) / h) ** 2 / (2 * Smoothing().alpha))
     profile = np.tanh(STEEPNESS / (INTERFACE * h) * field)
     smoothing = Smoothing(steps=steps, fidelity=FIDELITY, interface=INTERFACE)
     phi = smooth(profile, smoothing, spacing=grid.spacing, method="inplace").astype(np.float64)
     return np.arctanh(np.clip(phi, -0.9999, 0.9999))
+
+
+def _opened(field: Floats, grid: TileGrid, radius: float) -> Floats:
+    """Return the field without the places above 0 into which no disc fits; half a cell is allowed for the grid."""
+    from scipy.ndimage import distance_transform_edt
+
+    h = max(grid.spacing)
+    core = field > radius - h / 2
+    if not core.any():
+        return np.minimum(field, -h)
+    away: Floats = distance_transform_edt(~core, sampling=grid.spacing)
+    return np.minimum(field, radius + h - away)
+
+
+def _widened(field: Floats, grid: TileGrid, radius: float) -> Floats:
+    """Return the field with its long narrow places above 0 widened about their middle, until beads there just touch."""
+    from scipy.ndimage import distance_transform_edt, find_objects, label
+
+    narrow = (field > 0) & (_opened(field, grid, radius) <= 0)
+    if not narrow.any():
+        return field
+    slope = np.hypot(*np.gradient(field, *grid.spacing))
+    middle, _ = label(narrow & (slope < RIDGE), structure=np.ones((3, 3)))
+    shortest = 4 * radius / max(grid.spacing)
+    for number, box in enumerate(find_objects(middle), start=1):
+        if math.hypot(*(side.stop - side.start for side in box)) < shortest:
+            middle[box][middle[box] == number] = 0
+    if not middle.any():
+        return field
+    away: Floats = distance_transform_edt(middle == 0, sampling=grid.spacing)
+    return np.maximum(field, radius - away)
 
 
 def _doubled(field: Floats, edges: Floats, grid: TileGrid, radius: float) -> Floats:

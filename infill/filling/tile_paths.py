@@ -19,7 +19,9 @@ Bounds = tuple[float, float, float, float]
 
 DEVIATION = 0.008  # mm between a path and its contour
 LONGEST = 2.0  # mm, of a chord
-SHORTEST = 0.1  # mm
+SHORTEST = 0.05  # mm
+TURN = 0.35  # rad, from chord to chord, where that asks for more than the deviation: radii below 0.5 mm
+LEAST = 1e-6
 EVENED = 1.5  # grid cells over which the steps of the grid are evened out
 PER_CELL = 4  # points of a contour per grid cell while it is evened out
 
@@ -46,11 +48,12 @@ def tile_strands(field: Floats, grid: TileGrid) -> list[Strand]:
 
     nx, ny = grid.shape
     inner = field[grid.pad : grid.pad + nx + 1, grid.pad : grid.pad + ny + 1].copy()
-    inner[inner == 0] = np.finfo(float).tiny
+    # No contour may pass through a node, least of all through a corner, where it would change sides.
+    inner[np.abs(inner) < LEAST] = LEAST
     # The last nodes are the first of the next tile, in the same colours or in the opposite ones.
-    inner[-1] = np.copysign(inner[0], _opposite(inner[0], inner[-1]) * inner[0])
-    inner[:, -1] = np.copysign(inner[:, 0], _opposite(inner[:, 0], inner[:, -1]) * inner[:, 0])
-    contours = find_contours(inner, 0.0)
+    inner[-1] = inner[0] * _alike(inner[0], inner[-1])
+    inner[:, -1] = inner[:, 0] * _alike(inner[:, 0], inner[:, -1])
+    contours = find_contours(inner, 0.0)  # type: ignore[no-untyped-call]
     strands = []
     for points, tiles in _followed(contours, (nx, ny)):
         smooth = _resampled(points * grid.spacing, np.array(tiles) * grid.size, grid)
@@ -60,10 +63,11 @@ def tile_strands(field: Floats, grid: TileGrid) -> list[Strand]:
 
 
 def _origin(grid: TileGrid) -> Floats:
-    return grid.first + np.array(grid.spacing) * grid.pad
+    origin: Floats = grid.first + np.array(grid.spacing) * grid.pad
+    return origin
 
 
-def _opposite(first: Floats, last: Floats) -> float:
+def _alike(first: Floats, last: Floats) -> float:
     """Return 1 where two opposite edges of a tile have the same colours, -1 where they have opposite ones."""
     return 1.0 if float(first @ last) >= 0 else -1.0
 
@@ -71,39 +75,30 @@ def _opposite(first: Floats, last: Floats) -> float:
 def _followed(contours: list[Floats], shape: tuple[int, int]) -> list[tuple[Floats, tuple[int, int]]]:
     """Return contours of a tile put together across its edges, and by how many tiles each moves on."""
     box = np.array(shape)
-    whole = [(points, (0, 0)) for points in contours if np.array_equal(points[0], points[-1])]
-    pieces = [points for points in contours if not np.array_equal(points[0], points[-1])]
-    ends = {}  # a point on the left or lower edge -> which end of which piece
-    keys = []
-    for number, points in enumerate(pieces):
-        for side in (0, -1):
-            ends.setdefault(_key(points[side], box), []).append((number, side))
-            keys.append(_key(points[side], box))
+    closed = [np.array_equal(points[0], points[-1]) for points in contours]
+    whole = [(points, (0, 0)) for points, is_closed in zip(contours, closed, strict=True) if is_closed]
+    pieces = [points for points, is_closed in zip(contours, closed, strict=True) if not is_closed]
+    if not pieces:
+        return whole
+    # End 2 k is the first of piece k, 2 k + 1 its last. Exactly two ends lie at a place on the torus.
+    places = np.mod(np.concatenate([points[[0, -1]] for points in pieces]), box)
+    order = np.lexsort(places.T)
+    other = np.empty(len(order), dtype=int)
+    other[order[::2]], other[order[1::2]] = order[1::2], order[::2]
     left = set(range(len(pieces)))
     while left:
-        first = number = min(left)
-        side, shift, chain = -1, np.zeros(2, dtype=int), []
-        while True:
-            left.discard(number)
-            points = pieces[number] if side == -1 else pieces[number][::-1]
+        first = end = 2 * min(left)
+        shift = np.zeros(2, dtype=int)
+        chain: list[Floats] = []
+        while not chain or end != first:
+            left.discard(end // 2)
+            points = pieces[end // 2] if end % 2 == 0 else pieces[end // 2][::-1]
             chain.append(points[:-1] + shift * box)
-            leaving = points[-1]
-            others = [end for end in ends[_key(leaving, box)] if end != (number, side)]
-            number, entry = others[0]
-            arriving = pieces[number][entry]
-            shift = shift + np.round((leaving - arriving) / box).astype(int)
-            side = -1 if entry == 0 else 0
-            if number == first and entry == 0:
-                break
-        line = np.vstack([*chain, chain[0][:1] + shift * box])
-        whole.append((line, (int(shift[0]), int(shift[1]))))
+            end = int(other[end ^ 1])
+            arriving = pieces[end // 2][-(end % 2)]
+            shift = shift + np.round((points[-1] - arriving) / box).astype(int)
+        whole.append((np.vstack([*chain, chain[0][:1] + shift * box]), (int(shift[0]), int(shift[1]))))
     return whole
-
-
-def _key(point: Floats, box: NDArray[np.int_]) -> tuple[int, int]:
-    """Return a name for a point on the edge of the tile that is the same on the opposite edge."""
-    x, y = np.round(np.mod(point, box) * 2**20).astype(int) % (box * 2**20)
-    return int(x), int(y)
 
 
 def _resampled(points: Floats, period: Floats, grid: TileGrid) -> Floats:
@@ -128,7 +123,8 @@ def _resampled(points: Floats, period: Floats, grid: TileGrid) -> Floats:
     second = np.fft.irfft(spectrum * angular**2, count, axis=0)
     speed = np.maximum(np.hypot(*first.T), 1e-9)
     curvature = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / speed**3
-    density = np.clip(np.sqrt(curvature / (8 * DEVIATION)), 1 / LONGEST, 1 / SHORTEST)
+    density = np.maximum(np.sqrt(curvature / (8 * DEVIATION)), curvature / TURN)
+    density = np.clip(density, 1 / LONGEST, 1 / SHORTEST)
     done = np.concatenate([[0], np.cumsum(density) * arc[-1] / count])
     wanted = np.linspace(0, done[-1], max(8, math.ceil(done[-1])) + 1)
     place = np.interp(wanted, done, np.arange(count + 1))
