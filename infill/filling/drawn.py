@@ -20,7 +20,7 @@ from infill.formats.drawing import Bounds, Drawing, Picture
 from infill.formats.drawings import read_drawing
 
 IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
-LEAST_BLUR = 0.15  # of a line width
+LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
 LARGEST_RADIUS = 0.1  # of the smaller side of a tile
 

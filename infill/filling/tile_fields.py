@@ -21,17 +21,18 @@ from infill.ragged import spread
 
 Floats = NDArray[np.float64]
 
-CELLS_PER_LINE = 9  # grid cells in a line width, so that touching paths stay eight cells apart
+CELLS_PER_LINE = 8  # grid cells in a line width, so that touching paths stay seven cells apart
 COARSEST = 5
 MOST_CELLS = 6_000_000
 FIDELITY = 0.001
 INTERFACE = 2.0  # cells
-NARROWEST = 0.9  # line widths: narrower regions are widened if they are long, and else given to their neighbours
+NARROWEST = 0.9  # line widths: narrower places are widened, or given to their neighbours
 RIDGE = 0.5  # slope of a distance below which it has its ridge there: between lines, or in a corner of less than 60°
 CAREFUL = 0.35  # of the thickest place of a colour: no smoothing goes beyond
 GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # no drawing has its lines there
 MARGIN = 4.0  # blurs beyond which smoothing does not reach
 AT_ONCE = 2_000_000
+EIGHT = np.ones((3, 3))  # neighbours
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -187,7 +188,7 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     field = _opened_crossings(field, borders, grid, radius)
     for sign in (1, -1):
         field = sign * _widened(sign * field, grid, radius)
-    for sign in (1, -1):
+    for sign in (1, -1, 1):
         field = sign * _opened(sign * field, grid, radius)
     thickest = min(float(distance_transform_edt(sign * field > 0, sampling=grid.spacing).max()) for sign in (1, -1))
     steps = math.ceil((min(blur, CAREFUL * thickest) / h) ** 2 / (2 * Smoothing().alpha))
@@ -210,21 +211,27 @@ def _opened(field: Floats, grid: TileGrid, radius: float) -> Floats:
 
 
 def _widened(field: Floats, grid: TileGrid, radius: float) -> Floats:
-    """Return the field with its long narrow places above 0 widened about their middle, until beads there just touch."""
-    from scipy.ndimage import distance_transform_edt, find_objects, label
+    """Return the field with its narrow places above 0 widened about their middle, until beads there just touch.
 
-    narrow = (field > 0) & (_opened(field, grid, radius) <= 0)
-    if not narrow.any():
+    That is done where they are long, or lead from one wide place to another; the others are tips and specks.
+    """
+    from scipy.ndimage import binary_dilation, distance_transform_edt, label, maximum_filter, sum_labels
+
+    wide = _opened(field, grid, radius) > 0
+    narrow, count = label((field > 0) & ~wide, structure=EIGHT)
+    if not count:
         return field
     slope = np.hypot(*np.gradient(field, *grid.spacing))
-    middle, _ = label(narrow & (slope < RIDGE), structure=np.ones((3, 3)))
-    shortest = 4 * radius / max(grid.spacing)
-    for number, box in enumerate(find_objects(middle), start=1):
-        if math.hypot(*(side.stop - side.start for side in box)) < shortest:
-            middle[box][middle[box] == number] = 0
+    middle = (narrow > 0) & (slope < RIDGE)
+    long = sum_labels(middle, narrow, np.arange(count + 1)) > 4 * radius / max(grid.spacing)
+    doors, _ = label(binary_dilation(narrow > 0, structure=EIGHT) & wide, structure=EIGHT)
+    there = doors > 0
+    pairs = np.unique(np.stack([maximum_filter(narrow, 3)[there], doors[there]]), axis=1)
+    leading = np.bincount(pairs[0], minlength=count + 1) > 1
+    middle &= (long | leading)[narrow]
     if not middle.any():
         return field
-    away: Floats = distance_transform_edt(middle == 0, sampling=grid.spacing)
+    away: Floats = distance_transform_edt(~middle, sampling=grid.spacing)
     return np.maximum(field, radius - away)
 
 
