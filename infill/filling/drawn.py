@@ -43,6 +43,11 @@ class Drawn:
     prismatic: bool = True
 
     @property
+    def left_out(self) -> tuple[str, ...]:
+        """What the file holds besides lines, in words: "2 texts"."""
+        return self.drawing.left_out
+
+    @property
     def width(self) -> float:
         """The width of the tile as drawn, mm."""
         x0, _, x1, _ = self.tile
@@ -115,8 +120,8 @@ def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
     ----------
     path : str or Path
         .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. What is repeated is the page, where the drawing extends over
-        half of it in one direction at least. Otherwise it is the box around the lines, from where they begin on one
-        side to where they go on from the other; outlines that do not go on get a gap between them.
+        a quarter of it in one direction at least. Otherwise it is the box around the lines, from where they begin on
+        one side to where they go on from the other; outlines that do not go on get a gap between them.
     width : float, optional
         Width of the tile, mm; by default as drawn, and a tenth of a millimetre a pixel.
 
@@ -126,8 +131,7 @@ def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
         See `read_drawing`.
     """
     found = read_drawing(path)
-    drawing = traced(found, Path(path)) if isinstance(found, Picture) else found
-    drawing = replace(drawing, page=tile_of(drawing))
+    drawing = traced(found, Path(path)) if isinstance(found, Picture) else replace(found, page=tile_of(found))
     if width is not None:
         drawing = _scaled(drawing, length("width", width))
     return Drawn(name=Path(path).name, drawing=drawing)

@@ -12,7 +12,7 @@ from infill.formats.drawing import Bounds, Drawing, Picture
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
 
-SPARSE = 0.5  # of a page: a drawing that is smaller in both directions is taken without its page
+SPARSE = 0.25  # of a page: a drawing that is smaller in both directions is taken without its page
 SEAM = 0.1  # of the edge of a box: where so much of it is drawn, it is a seam
 GAP = 0.1  # of the larger side, between outlines that are repeated without a page
 LARGEST_PICTURE = 1000  # pixels along a side: beyond, several make one
