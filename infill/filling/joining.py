@@ -20,7 +20,8 @@ from infill.filling.families.protocol import TOUCH, Path
 from infill.filling.outlines import Floats, Numbers, Outline
 
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
-NEXT = 3.5  # line widths along a path within which it may come near itself: corners of 30° and more
+NEXT = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
+NEXT_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
 SHORTEST = 2.0  # line widths; a path shorter than this is a dot
 STEPS = 4  # per line width, in which the outline is examined
 
@@ -63,11 +64,12 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     link: dict[int, tuple[int, Path]] = {}
     walked = np.zeros(len(gaps.length), dtype=bool)
     group = list(range(len(pieces.paths)))
-    possible = np.flatnonzero(gaps.clear & (gaps.length <= anchor_max) & (gaps.begin // 2 != gaps.end // 2))
+    apart = TOUCH * line_width
+    possible = np.flatnonzero(gaps.clear & (gaps.length <= anchor_max) & (gaps.begin != gaps.end))
     for gap in possible[np.argsort(gaps.length[possible], kind="stable")].tolist():
         begin, end = int(gaps.begin[gap]), int(gaps.end[gap])
         one, other = _root(group, begin // 2), _root(group, end // 2)
-        if one == other or begin in link or end in link:
+        if begin in link or end in link or (one == other and gaps.length[gap] >= CLEAR * apart):
             continue
         group[one] = other
         walked[gap] = True
@@ -77,12 +79,10 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     chains = _chains(len(pieces.paths), link)
     lengths = np.array([np.hypot(*np.diff(path, axis=0).T).sum() for path in pieces.paths])
     kept = [chain for chain in chains if len(chain) > 1 or lengths[chain[0] // 2] >= SHORTEST * line_width]
-    apart = TOUCH * line_width
-    rings = _closing(kept, gaps, walked, outline, CLEAR * apart)
-    free = [end for chain in kept if chain[0] not in rings for end in (chain[0], chain[-1] ^ 1)]
+    free = [end for chain in kept for end in (chain[0], chain[-1] ^ 1) if end not in link]
     heading = {end: _heading(pieces.paths[end // 2], end) for end in free}
     anchors = _anchors(heading, gaps, walked, outline, anchor, apart)
-    return [_laid(chain, pieces.paths, link, anchors, rings.get(chain[0])) for chain in kept]
+    return [_laid(chain, pieces.paths, link, anchors) for chain in kept]
 
 
 def _gaps(pieces: Pieces, outline: Outline, line_width: float) -> _Gaps:
@@ -151,35 +151,36 @@ def _clear(
     a, path = flat[start[segment]], owner[start[segment]]
     part = ((points[sample] - a) * (flat[start[segment] + 1] - a)).sum(axis=-1) / np.maximum(long[segment], 1e-12)
     passed = along[start[segment]] + part.clip(0, long[segment])
-    ends = begin[gap[sample]], end[gap[sample]]
-    beside = [
-        (path == tip // 2) & (np.where(tip % 2 == 0, passed, total[path] - passed) + walked < near)
-        for tip, walked in zip(ends, (from_begin, from_end), strict=True)
+    walks = [
+        np.where(path == tip // 2, np.where(tip % 2 == 0, passed, total[path] - passed) + walked, np.inf)
+        for tip, walked in ((begin[gap[sample]], from_begin), (end[gap[sample]], from_end))
     ]
     # Where the outline comes near itself nothing is walked: the other side may be.
-    one, other = _near_itself(points, ring[gap], place[gap] + within, outline, reach, near)
-    tight = np.concatenate([one, other])
-    none = np.zeros(len(tight), dtype=bool)
+    tight = _near_itself(points, ring[gap], place[gap] + within, outline, reach, near)
     sample = np.concatenate([sample, tight])
-    by_begin, by_end = np.concatenate([beside[0], none]), np.concatenate([beside[1], none])
+    by_begin, by_end = (np.concatenate([walk, np.full(len(tight), np.inf)]) for walk in walks)
     which = gap[sample]
-    np.minimum.at(forwards, which[~by_begin], (within[sample] - step)[~by_begin])
-    np.minimum.at(backwards, which[~by_end], (length[which] - within[sample] - step)[~by_end])
-    whole[which[~by_begin & ~by_end]] = False
+    far = by_begin > NEXT_OF_ANCHOR * line_width
+    np.minimum.at(forwards, which[far], (within[sample] - step)[far])
+    far = by_end > NEXT_OF_ANCHOR * line_width
+    np.minimum.at(backwards, which[far], (length[which] - within[sample] - step)[far])
+    whole[which[np.minimum(by_begin, by_end) > near]] = False
     return forwards.clip(min=0), backwards.clip(min=0), whole
 
 
 def _near_itself(
     points: Path, ring: Numbers, place: Floats, outline: Outline, reach: float, near: float
-) -> tuple[Numbers, Numbers]:
-    """Return pairs of points on the outline that are near each other, but not along a ring."""
+) -> Numbers:
+    """Return the points on the outline that are near another one, but not along a ring."""
     from scipy.spatial import cKDTree
 
-    one, other = cKDTree(points).query_pairs(reach, output_type="ndarray").T
+    pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
+    one, other = pairs.T
     around = outline.around[ring[one]]
     apart = np.abs(place[one] - place[other]) % around
     far = (ring[one] != ring[other]) | (np.minimum(apart, around - apart) > near)
-    return one[far], other[far]
+    found: Numbers = np.unique(pairs[far])
+    return found
 
 
 def _root(group: list[int], path: int) -> int:
@@ -191,37 +192,20 @@ def _root(group: list[int], path: int) -> int:
 
 
 def _chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:
-    """Return which paths follow one another: each by the number of the end that it is entered at."""
+    """Return which paths follow one another: each by the number of the end that it is entered at.
+
+    Open chains come first, from an end that is not linked; what they leave over is closed.
+    """
     chains: list[list[int]] = []
     seen: set[int] = set()
-    for path in range(count):
-        for entry in (2 * path, 2 * path + 1):
-            if path in seen or entry in link:
-                continue
+    for entry in sorted(range(2 * count), key=link.__contains__):
+        if entry // 2 not in seen:
             chain = [entry]
-            while chain[-1] ^ 1 in link:
-                chain.append(link[chain[-1] ^ 1][0])
+            while chain[-1] ^ 1 in link and (after := link[chain[-1] ^ 1][0]) != entry:
+                chain.append(after)
             seen.update(end // 2 for end in chain)
             chains.append(chain)
     return chains
-
-
-def _closing(
-    chains: Sequence[list[int]], gaps: _Gaps, walked: NDArray[np.bool_], outline: Outline, apart: float
-) -> dict[int, Path]:
-    """Return the walls that close chains whose ends are nearer than `apart`, by the end that they are entered at."""
-    short = np.flatnonzero(~walked & (gaps.length < apart))
-    between = {(int(gaps.begin[gap]), int(gaps.end[gap])): gap for gap in short.tolist()}
-    walls: dict[int, Path] = {}
-    for chain in chains:
-        begin, end = chain[0], chain[-1] ^ 1
-        for one, other in ((begin, end), (end, begin)):
-            if begin != end and (one, other) in between:
-                gap = between[one, other]
-                place = float(gaps.place[gap])
-                wall = outline.stretch(int(gaps.ring[gap]), place, place + float(gaps.length[gap]))[1:-1]
-                walls[begin] = wall if one == end else wall[::-1]
-    return walls
 
 
 def _heading(path: Path, end: int) -> Path:
@@ -264,13 +248,9 @@ def _anchors(
 
 
 def _laid(
-    chain: list[int],
-    paths: Sequence[Path],
-    link: dict[int, tuple[int, Path]],
-    anchors: dict[int, Path],
-    closing: Path | None,
+    chain: list[int], paths: Sequence[Path], link: dict[int, tuple[int, Path]], anchors: dict[int, Path]
 ) -> Path:
-    """Return the path along a chain, with the walls between its pieces, and the anchors at its ends or what closes it."""
+    """Return the path along a chain, with the walls between its pieces and the anchors at its ends."""
     parts: list[Path] = []
     if chain[0] in anchors:
         parts.append(anchors[chain[0]][::-1])
@@ -281,6 +261,6 @@ def _laid(
             parts.append(link[entry ^ 1][1])
     if chain[-1] ^ 1 in anchors:
         parts.append(anchors[chain[-1] ^ 1])
-    if closing is not None:
-        parts += [closing, parts[0][:1]]
+    if chain[0] in link:
+        parts.append(parts[0][:1])
     return np.concatenate(parts)

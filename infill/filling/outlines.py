@@ -80,7 +80,7 @@ def outline_of(region: Polygon | MultiPolygon) -> Outline:
     if region.is_empty or not region.is_valid:
         said = "empty" if region.is_empty else shapely.is_valid_reason(region)
         raise GeometryError(f"the region is not a valid one ({said}); give one whose rings neither cross nor vanish")
-    points, number = shapely.get_coordinates(shapely.get_rings(region), return_index=True)
+    points, number = shapely.get_coordinates(shapely.get_rings(shapely.get_parts(region)), return_index=True)
     begin, end = points[:-1], points[1:]
     edge = (number[1:] == number[:-1]) & (begin != end).any(axis=-1)
     begin, end, ring = begin[edge], end[edge], number[:-1][edge].astype(np.intp)
