@@ -143,7 +143,7 @@ def solve_cell(
         found.append((share, cell))
         if abs(share - 1) <= CLOSE:
             break
-    share, cell = min(found, key=lambda pair: abs(pair[0] - 1))
+    share, cell = min(found, key=lambda pair: abs(math.log(pair[0])) if pair[0] > 0 else math.inf)
     return Solved(cell=cell, length=share * wanted, error=share - 1)
 
 

@@ -1,4 +1,4 @@
-"""The outline of a region as edges that know their place along it: where paths are cut, and along which they are joined."""
+"""The outline of a region as edges that know their place along it: it cuts paths, and paths are joined along it."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Outline:
         return np.stack([np.interp(places, known, points[:, axis]) for axis in (0, 1)], axis=-1)
 
     def stretch(self, ring: int, begin: float, end: float) -> Path:
-        """Return the corners of a ring from one place to another, forwards if `end` > `begin`: (N, 2), ends included."""
+        """Return the corners of a ring from one place to another, backwards if `end` < `begin`: (N, 2), with ends."""
         low, high = min(begin, end), max(begin, end)
         around = self.around[ring]
         known = self.place[self.first[ring] : self.first[ring + 1]]
