@@ -495,10 +495,11 @@ def judge(
         faults.append("newline at the end of the file: not as it was")
     old_parts, old_runs = replayed(old)
     new_parts = sections(new)
+    begins = next((x.number for part in new_parts for x in part.lines if LAYER.match(x.body)), 0)
     for part in new_parts:
         stamped = [line for line in part.lines if line.raw.startswith(STAMP)]
         for line in stamped:
-            if part.layer > 0:
+            if line.number > begins:
                 faults.append(f"stamp: line {line.number} is not near the top")
             if not re.match(rb"; refilled by phasefill [\w.+]+: \S", line.raw):
                 faults.append(f"stamp: {line.raw[:60]!r} is no stamp")
@@ -508,7 +509,7 @@ def judge(
     if [part.sparse for part in old_parts] != [part.sparse for part in new_parts]:
         faults.append(f"tag: {len(old_parts)} stretches became {len(new_parts)}")
         faults += list(_differences([p for s in old_parts for p in s.lines], [p for s in new_parts for p in s.lines]))
-        return faults
+        return _shortened(faults)
     habit = habits(old, old_runs)
     machine = Machine()
     new_runs = []
@@ -529,7 +530,22 @@ def judge(
     faults += _regions(old_parts, old_runs, new_runs, deviation)
     faults += _totals(old_parts, old_runs, new_runs, habit, filament)
     faults += _numbers(new_parts)
-    return faults
+    return _shortened(faults)
+
+
+def _shortened(faults: list[str]) -> list[str]:
+    """Tell three faults of a name, and how many more there are."""
+    names = Counter(fault.split(":")[0] for fault in faults)
+    told: Counter[str] = Counter()
+    left = []
+    for fault in faults:
+        name = fault.split(":")[0]
+        told[name] += 1
+        if told[name] <= 3:
+            left.append(fault)
+        elif told[name] == 4:
+            left.append(f"{name}: and {names[name] - 3} more")
+    return left
 
 
 def changed(old: bytes, new: bytes) -> int:
@@ -686,6 +702,8 @@ def _inside(a: Section, b: Section, was: Replay, now: Replay, habit: Habits, *, 
         if line.kind == "move" and line.raw not in written:
             if len(line.command) > LONGEST:
                 yield f"line too long: {_name(line)}"
+            if any(re.fullmatch(rb"[A-Z]-?[\d.]+[eE][-+]?\d+", word) for word in line.command.split()):
+                yield f"odd word: {_name(line)} has an exponent"
             if not line.raw.isascii():
                 yield f"not ASCII: {_name(line)}"
             if any(w == "F" and (v is None or v <= 0) for w, v in words(line.command)):
@@ -734,6 +752,7 @@ def _moves(was: Replay, now: Replay, habit: Habits) -> Iterator[str]:
     beads = was.beads()
     own = {_whole(m) for m in old}
     top = max((m.speed for m in beads), default=0.0)
+    least = min((m.speed for m in beads), default=0.0)
     heights = {round(m.end[2], 3) for m in beads}
     hops = {round(m.end[2], 3) for m in old} | {round(was.before.at["Z"], 3)}
     hops |= {round(z + hop, 3) for z in heights for hop in habit.hops}
@@ -753,6 +772,8 @@ def _moves(was: Replay, now: Replay, habit: Habits) -> Iterator[str]:
                 yield f"Z: {at} extrudes while it rises"
             if m.speed > top:
                 yield f"F: {at} extrudes at F{m.speed:g}, the slicer at F{top:g}"
+            if m.speed < 0.2 * least:  # mm/s taken for mm/min, say
+                yield f"F: {at} extrudes at F{m.speed:g}, the slicer at F{least:g} or more"
             if (m.depth > 2 * DEPTH or m.retracted) and not late:
                 yield f"extrusion while retracted: {at}"
             low, high = doses.get((m.width, m.height), doses[0, 0])
