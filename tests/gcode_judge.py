@@ -445,7 +445,8 @@ def habits(data: bytes, replays: list[Replay]) -> Habits:
     for move in moves:
         top = max(top, move.end[2])
         if move.extrudes:  # a hop is above the bead before and the bead after
-            hops.add(round(top - max(height, move.end[2]), 3))
+            hop = round(top - max(height, move.end[2]), 3)
+            hops |= {hop} if 0 < hop < 2 else set()
             height = top = move.end[2]
     config = dict(re.findall(rb"^; (\w+) = (.*?)\r?$", data, re.MULTILINE))
     least = 0.0

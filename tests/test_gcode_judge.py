@@ -8,9 +8,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import given
 from slicers import missing_prusa
 
-from tests.gcode_judge import changed, infilled, judge, pushed
+from tests.gcode_corpus import CORPUS, Made, prints
+from tests.gcode_judge import changed, infilled, judge, pushed, replayed
 from tests.handmade_prints import Dialect, written
 from tests.prints import box, prusa_print
 
@@ -344,3 +346,25 @@ def test_the_region_is_what_other_beads_leave_free(sliced: bytes) -> None:
 def test_it_reads_no_code_of_ours() -> None:
     for name in ("gcode_judge.py", "handmade_prints.py"):
         assert "infill import" not in Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+@given(prints())
+def test_prints_of_any_dialect_are_valid_and_may_be_cut(old: bytes) -> None:
+    """What the strategy makes breaks no law itself: so what a refill breaks is its own."""
+    sparse = b"FILL" if b";FLAVOR" in old else b"Sparse infill" if b"Sparse infill" in old else b"Internal infill"
+    _, runs = replayed(old)
+    assert [fault for ran in runs for fault in ran.faults] == []
+    absolute = re.search(rb"^M82", old, re.MULTILINE) is not None
+    new = halves(old, sparse, absolute=absolute)
+    if infilled(old) and changed(old, new):
+        assert judge(old, new, deviation=0.01, filament=(0.999, 1.001)) == []
+
+
+@pytest.mark.parametrize("name", CORPUS)
+def test_the_corpus_is_what_it_says(name: str, prints_of_all_kinds: Made) -> None:
+    """Each print replays without a fault, and has infill if it should."""
+    if CORPUS[name].missing():
+        pytest.skip(CORPUS[name].missing())
+    data = prints_of_all_kinds[name].read_bytes()
+    assert [fault for ran in replayed(data)[1] for fault in ran.faults] == []
+    assert (infilled(data) > 0) == CORPUS[name].infilled
