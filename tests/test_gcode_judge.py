@@ -43,7 +43,7 @@ def halves(data: bytes, sparse: bytes = b"Internal infill", *, absolute: bool = 
                 lines.append(b"G1 X%.3f Y%.3f E%.5f" % (*middle, first))
                 line = b"G1 X%.3f Y%.3f E%.5f" % (*there, float(found[3]) if absolute else full - half)
         if absolute:
-            value = re.match(rb"(?:N\d+ )?G(?:1|92)[^;]*?E([-\d.]+)", line)
+            value = re.match(rb"(?:N\d+ )?G(?:[0-3]|92)[^;]*?E([-\d.]+)", line)
             e = float(value[1]) if value else e
         at = there
         lines.append(line)
