@@ -1,0 +1,1 @@
+"""Infill as paths: corners rounded, regions covered, a sliced print refilled."""
