@@ -5,13 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 
-from infill import FormatError, refill
+from infill import FormatError
 from tests.gcode_corpus import CORPUS, prints
 from tests.gcode_judge import changed, infilled, judge, pushed
+
+
+def refill(path: Path, **options: Any) -> Any:
+    from infill import refill
+
+    return refill(path, **options)
+
 
 # What a pattern's filament may be of the slicer's own: rounding shortens paths, most so a honeycomb's; one of ours
 # takes as much, within 1 %.
