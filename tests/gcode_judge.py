@@ -156,7 +156,7 @@ def sections(data: bytes) -> list[Section]:
     """Cut a print into stretches; of two of a kind in a row the second begins at a label."""
     found = [Section(False, [], 0)]
     sparse, layer = False, 0
-    for number, raw in enumerate(_lines(data), 1):
+    for number, raw in enumerate(_cut(data), 1):
         line = read(number, raw)
         role = ROLE.match(line.body)
         if role:
@@ -172,7 +172,7 @@ def sections(data: bytes) -> list[Section]:
     return found
 
 
-def _lines(data: bytes) -> list[bytes]:
+def _cut(data: bytes) -> list[bytes]:
     return [line for line in re.split(rb"(?<=\n)", data) if line]
 
 
@@ -429,6 +429,7 @@ class Habits:
     travel: float  # mm/min, the fastest of each
     lift: float
     filament: float
+    wipe: float
     depth: float  # mm, the deepest retraction
     extra: float  # mm, the most that an unretraction pushes beyond
     hops: tuple[float, ...]  # mm above the bead before
@@ -457,6 +458,7 @@ def habits(data: bytes, replays: list[Replay]) -> Habits:
         travel=max((m.speed for m in moves if m.travels), default=0.0),
         lift=max((m.speed for m in moves if m.start[2] != m.end[2]), default=0.0),
         filament=max((m.speed for m in still), default=0.0),
+        wipe=max((m.speed for m in moves if m.pushed < 0 and m.length), default=0.0),
         depth=max((max(0.0, m.depth - m.pushed) for m in moves), default=0.0),
         extra=max((m.pushed - m.depth for m in still), default=0.0),
         hops=tuple(hops),
@@ -531,6 +533,7 @@ def judge(
     faults += _regions(old_parts, old_runs, new_runs, deviation)
     faults += _totals(old_parts, old_runs, new_runs, habit, filament)
     faults += _numbers(new_parts)
+    faults += _progress(old_parts, new_parts)
     return _shortened(faults)
 
 
@@ -712,6 +715,29 @@ def _inside(a: Section, b: Section, was: Replay, now: Replay, habit: Habits, *, 
             if line.name in (b"G2", b"G3") and not any(x.name in (b"G2", b"G3") for x in a.lines):
                 yield f"arc: {_name(line)} where there was none"
     yield from _moves(was, now, habit)
+    if strict:
+        yield from _ways(was, now)
+
+
+def _ways(was: Replay, now: Replay) -> Iterator[str]:
+    """Where paths are the slicer's own, so are the ways between them: as high, and as far retracted."""
+    between = [
+        [m for m in ran.moved() if m.travels or (m.pushed and not m.length)]  # wipes may follow another path
+        for ran in (was, now)
+    ]
+    if len(between[0]) != len(between[1]):
+        yield f"way between paths: {len(between[1])} travels and retractions, not {len(between[0])} {_lines(now)}"
+        return
+    for a, b in zip(*between, strict=True):
+        far = math.dist(a.end, b.end) > NEAR or abs(a.depth - b.depth) > 2 * DEPTH or a.retracted != b.retracted
+        if far or abs(a.pushed - b.pushed) > 2 * DEPTH:
+            yield f"way between paths: {_name(b.line)} was {a.line.raw[:60]!r}"
+            return
+
+
+def _lines(ran: Replay) -> str:
+    moves = ran.moved()
+    return f"in lines {moves[0].line.number} to {moves[-1].line.number}" if moves else "in none"
 
 
 def _without_new_origins(old: list[Line], new: list[Line]) -> list[Line]:
@@ -790,9 +816,9 @@ def _moves(was: Replay, now: Replay, habit: Habits) -> Iterator[str]:
                 yield f"doubled retract: {at} retracts to {m.depth - m.pushed:.5f}"
             if len(m.points) > 1 and habit.wipes and not m.wiping:
                 yield f"wipe: {at} wipes outside of its tags"
-            if m.speed > max(habit.filament, top, *(x.speed for x in old)):
-                yield f"F: {at} retracts at F{m.speed:g}"
-        elif m.travels and m.speed > max(habit.travel, habit.lift):
+        if m.pushed and m.speed > (habit.wipe if m.length else habit.filament) and not m.extrudes:
+            yield f"F: {at} moves filament at F{m.speed:g}"
+        if m.travels and m.speed > max(habit.travel, habit.lift):
             yield f"F: {at} travels at F{m.speed:g}"
 
 
@@ -974,3 +1000,15 @@ def _numbers(parts: list[Section]) -> Iterator[str]:
             summed = re.match(rb"([^;]*)\*(\d+)\s*$", line.raw.split(b";")[0].rstrip())
             if summed and functools.reduce(lambda x, y: x ^ y, summed[1], 0) != int(summed[2]):
                 yield f"checksum: {_name(line)}"
+
+
+def _progress(old: list[Section], new: list[Section]) -> Iterator[str]:
+    """What is done never falls, and what is left never rises, if neither did before."""
+    for letter, sign in (("P", 1), ("R", -1)):
+        told = [
+            [sign * (dict(words(x.command)).get(letter) or 0.0) for p in parts for x in p.lines if x.kind == "progress"]
+            for parts in (old, new)
+        ]
+        rises = [all(a <= b for a, b in zip(values, values[1:], strict=False)) for values in told]
+        if rises == [True, False]:
+            yield f"progress: M73 {letter} goes back"

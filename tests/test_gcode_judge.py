@@ -27,7 +27,7 @@ def halves(data: bytes, sparse: bytes = b"Internal infill", *, absolute: bool = 
     lines, inside, stamped, e = [], False, False, 0.0
     at = (0.0, 0.0)
     for line in data.split(ending):
-        place = re.match(rb"(?:N\d+ )?G[0-3] ?X([-\d.]+) ?Y([-\d.]+)", line)
+        place = re.match(rb"(?:N\d+ )?G[0-3] ?(?:F[\d.]+ )?X([-\d.]+) ?Y([-\d.]+)", line)
         there = (float(place[1]), float(place[2])) if place else at
         if re.match(rb"(N\d+ )?; ?(TYPE|FEATURE):", line):
             inside = line.endswith(sparse)
