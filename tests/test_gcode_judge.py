@@ -14,6 +14,7 @@ from slicers import missing_prusa
 from tests.gcode_corpus import CORPUS, Made, prints
 from tests.gcode_judge import changed, infilled, judge, pushed, replayed
 from tests.handmade_prints import Dialect, written
+from tests.plain_refill import chamfered
 from tests.prints import box, prusa_print
 
 STAMP = b"; refilled by phasefill 0.0.0: halves"
@@ -368,3 +369,18 @@ def test_the_corpus_is_what_it_says(name: str, prints_of_all_kinds: Made) -> Non
     data = prints_of_all_kinds[name].read_bytes()
     assert [fault for ran in replayed(data)[1] for fault in ran.faults] == []
     assert (infilled(data) > 0) == CORPUS[name].infilled
+
+
+@pytest.mark.parametrize("name", CORPUS)
+def test_a_plain_refill_of_the_corpus_is_lawful(name: str, prints_of_all_kinds: Made) -> None:
+    """So what the judge finds in another is not that one's print."""
+    if CORPUS[name].missing():
+        pytest.skip(CORPUS[name].missing())
+    old = prints_of_all_kinds[name].read_bytes()
+    new = chamfered(old)
+    assert judge(old, new, deviation=0.1, filament=(0.9, 1.0001)) == []
+    if name in ("orca-numbered", "prusa-purge") or not CORPUS[name].infilled:
+        assert changed(old, new) == 0
+    else:
+        assert changed(old, new) >= 0.5 * infilled(old)
+        assert pushed(new)[0] < pushed(old)[0] - 1e-3 or name == "prusa-loose-lines"
