@@ -18,8 +18,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterator
-from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
@@ -48,7 +47,8 @@ TIMES = re.compile(
     rb"Filament used:|model printing time:|M(IN|AX)[XYZ]:|total filament|PRINT\.(TIME|SIZE)|EXTRUDER_TRAIN)",
     re.IGNORECASE,
 )
-NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
+NUMBER = re.compile(rb"[-+]?(?:\d+\.?\d*|\.\d+)")
+WORD = re.compile(rb"([A-Za-z])\s*([^A-Za-z\s]*)")
 KINDS = {
     b"M106": "fan",
     b"M107": "fan",
@@ -196,14 +196,11 @@ class Move:
     logical: float
     retracted: bool  # by the firmware
 
-    @property
-    def length(self) -> float:
-        flat = sum(math.dist(a, b) for a, b in zip(self.points, self.points[1:], strict=False))
-        return math.hypot(flat, self.end[2] - self.start[2])
+    length: float
 
     @property
     def extrudes(self) -> bool:
-        return self.pushed > 0 and len(self.points) > 1 and self.length > 0
+        return self.pushed > 0 and self.length > 0 and len(self.points) > 1
 
     @property
     def travels(self) -> bool:
@@ -238,6 +235,11 @@ class Machine:
     layer: int = 0
     wiping: bool = False
     faults: list[str] = field(default_factory=list)
+
+    def copy(self) -> Machine:
+        """Return one that goes its own way."""
+        dicts = ("at", "zero", "depth", "retracted", "modes")
+        return replace(self, **{name: dict(getattr(self, name)) for name in dicts}, faults=[])
 
     def run(self, line: Line) -> Move | None:
         if line.kind == "move":
@@ -349,14 +351,15 @@ class Machine:
             wiping=self.wiping,
             logical=self.at["E"] - self.zero["E"],
             retracted=self.retracted.get(self.tool, False),
+            length=math.hypot(sum(map(math.dist, points[:-1], points[1:])), end[2] - start[2]),
         )
 
 
 def words(command: bytes) -> list[tuple[str, float | None]]:
     """Return the words of a command as a firmware reads them: a letter and digits; no number is None."""
     return [
-        (letter.decode().upper(), float(number) if re.fullmatch(NUMBER, number) else None)
-        for letter, number in re.findall(rb"([A-Za-z])\s*([^A-Za-z\s]*)", command)
+        (letter.decode().upper(), float(number) if NUMBER.fullmatch(number) else None)
+        for letter, number in WORD.findall(command)
     ]
 
 
@@ -408,10 +411,10 @@ class Replay:
 
 def run(section: Section, machine: Machine) -> Replay:
     """Run the lines of a stretch; `machine` is what they leave."""
-    before = deepcopy(machine)
+    before = machine.copy()
     machine.faults = []
     moves = [machine.run(line) for line in section.lines]
-    return Replay(before, deepcopy(machine), moves, machine.faults)
+    return Replay(before, machine.copy(), moves, machine.faults)
 
 
 @functools.lru_cache(maxsize=4)
@@ -529,7 +532,7 @@ def judge(
             faults += [f"{text} (before line {following})" for text in _states(was.after, now.after)]
         else:
             faults += _outside(a, b, was, now)
-        machine = deepcopy(was.after)  # one fault is told once
+        machine = was.after.copy()  # one fault is told once
     faults += _regions(old_parts, old_runs, new_runs, deviation)
     faults += _totals(old_parts, old_runs, new_runs, habit, filament)
     faults += _numbers(new_parts)
@@ -554,7 +557,7 @@ def _shortened(faults: list[str]) -> list[str]:
 
 def changed(old: bytes, new: bytes) -> int:
     """Return how many sections of the sparse infill have other moves in `new`."""
-    pairs = zip(sections(old), sections(new), strict=True)
+    pairs = zip(replayed(old)[0], sections(new), strict=True)
     return sum(a.sparse and [line.raw for line in a.lines] != [line.raw for line in b.lines] for a, b in pairs)
 
 
