@@ -2,7 +2,7 @@
 
 Both are shares of the infill's length. A point of a centre line is *supported* if a centre line of the layer below
 passes within half a line width of it, so that at least half of the bead lies on something. It is *bonded* if another
-stretch of infill, or a wall, passes in its own layer within 1.05 line widths, so that two beads touch.
+stretch of infill passes in its own layer within 1.05 line widths, so that two beads touch.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-STEP = 0.1  # mm between the points that are looked at
+STEP = 0.15  # mm between the points that are looked at
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 3.0  # line widths along a path within which it is its own neighbour
-MOST_NEIGHBOURS = 24
+MOST_NEIGHBOURS = 16  # within 1.05 line widths of 0.45 mm: 7 on the path itself, and as many on each of the others
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,15 +96,13 @@ def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
     )
 
 
-def contact(infill: Samples, walls: Floats, below: Floats, line_width: float) -> Contact:
+def contact(infill: Samples, below: Floats, line_width: float) -> Contact:
     """Measure one layer.
 
     Parameters
     ----------
     infill : Samples
         The infill of the layer.
-    walls : (N, 2) float64, mm
-        Points on everything else of the layer, at most `STEP` apart.
     below : (N, 2) float64, mm
         Points on everything of the layer below.
     line_width : float, mm
@@ -121,9 +119,6 @@ def contact(infill: Samples, walls: Floats, below: Floats, line_width: float) ->
         near, _ = cKDTree(below).query(infill.points, distance_upper_bound=reach)
         supported = np.isfinite(near)
     bonded = _beside(infill, TOUCHING * line_width)
-    if len(walls):
-        near, _ = cKDTree(walls).query(infill.points, distance_upper_bound=TOUCHING * line_width)
-        bonded |= np.isfinite(near)
     return Contact(
         length=whole, supported=float(infill.weight[supported].sum()), bonded=float(infill.weight[bonded].sum())
     )

@@ -197,7 +197,7 @@ def _drawn(
     new[on_arc] += along + normal * (arc[which] * (1 - np.cos(angle)))[:, None]
     if unit:
         new = np.rint(new / unit) * unit
-    # Arcs that meet in the middle of a leg share a point there; an arc may also end at a point of the path, which stays.
+    # Arcs that meet in the middle of a leg share a point there; an arc may end at a point of the path, which stays.
     keep = np.ones(len(new), dtype=bool)
     near = np.flatnonzero(np.abs(np.diff(new, axis=0)).max(axis=1) <= max(unit * 5, 1e-9)) + 1
     fixed = ~bent[source]

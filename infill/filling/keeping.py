@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import Contact, Samples, contact, sampled
 from infill.filling.corners import Machine, Rounded, rounded
+from infill.filling.curves import recut
 from infill.filling.surroundings import beads, bounded_deviation
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.splicing import UNIT, Redrawn
@@ -68,32 +69,44 @@ def rounded_strokes(
         Where no command tells it.
     """
     opens = first_moves(infill)
-    layer = marks.layer[opens]
-    count = np.diff(infill.first)
-    deviation = np.full(len(infill.points), rounding.deviation)
-    for number in np.unique(layer):
-        some = np.flatnonzero(layer == number)
-        at = _points_of(infill.first, some)
-        walls = beads(table, infill, marks.layer == number)
-        first = np.concatenate([[0], np.cumsum(count[some])])
-        width = float(np.median(line_width(marks, opens[some])))
-        deviation[at] = bounded_deviation(
-            infill.points[at], first, walls, deviation=rounding.deviation, line_width=width
-        )
     commanded = marks.acceleration[opens]
-    machine = Machine(
-        acceleration=np.repeat(np.where(np.isnan(commanded), acceleration, commanded), count),
-        speed=np.repeat(np.maximum(table.f[opens] / 60, 1.0), count),
-        corner=rounding.corner,
+    known = np.where(np.isnan(commanded), acceleration, commanded)
+    speed = np.maximum(table.f[opens] / 60, 1.0)
+
+    def machine(begins: Places) -> Machine:
+        count = np.diff(begins)
+        return Machine(acceleration=np.repeat(known, count), speed=np.repeat(speed, count), corner=rounding.corner)
+
+    curves = recut(infill.points, infill.first, machine(infill.first))
+    inner = ~curves.curved
+    inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
+    corner = np.flatnonzero(inner)
+    layer = np.repeat(marks.layer[opens], np.diff(curves.first))[corner]
+    others = beads(table, marks, infill)
+    width = float(np.median(line_width(marks, opens)))
+    deviation = np.zeros(len(curves.points))
+    for number in np.unique(layer):
+        some = corner[slice(*np.searchsorted(layer, [number, number + 1]))]
+        deviation[some] = bounded_deviation(
+            curves.points, some, others.of(number), deviation=rounding.deviation, line_width=width
+        )
+    done = rounded(
+        curves.points,
+        curves.first,
+        deviation=deviation,
+        radius=rounding.radius,
+        machine=machine(curves.first),
+        unit=UNIT,
     )
-    return rounded(infill.points, infill.first, deviation=deviation, radius=rounding.radius, machine=machine, unit=UNIT)
+    return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=done.radius)
 
 
 def _points_of(first: Places, some: Places) -> Places:
     """Return the numbers of the points of some paths, one path after another."""
     number = first[some + 1] - first[some]
     begins = np.repeat(first[some] - np.concatenate([[0], np.cumsum(number)[:-1]]), number)
-    return np.arange(int(number.sum())) + begins
+    places: Places = np.arange(int(number.sum())) + begins
+    return places
 
 
 def lengths(points: Floats, first: Places) -> Floats:
@@ -105,7 +118,7 @@ def lengths(points: Floats, first: Places) -> Floats:
 def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: Rounding) -> Redrawn:
     """Return the strokes to draw anew: those chosen that rounding changed."""
     number = np.diff(new.first)
-    which = np.flatnonzero(chosen & (number != np.diff(infill.first)))
+    which = np.flatnonzero(chosen & _changed(infill, new))
     at = _points_of(new.first, which)
     length = lengths(new.points, new.first)[which]
     rate = infill.filament[which] / infill.length[which]
@@ -119,6 +132,17 @@ def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: 
         source=new.source[at],
         filament=filament,
     )
+
+
+def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
+    """Return which strokes have other points than before."""
+    changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
+    alike = np.flatnonzero(~changed)
+    old, now = infill.points[_points_of(infill.first, alike)], new.points[_points_of(new.first, alike)]
+    moved = np.abs(old - now).max(axis=1) > UNIT / 2
+    owner = np.repeat(alike, np.diff(infill.first)[alike])
+    changed[owner[moved]] = True
+    return changed
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -141,15 +165,16 @@ class Layer:
         return np.concatenate([self.infill.points, self.walls])
 
 
-def layer_of(table: Table, marks: Marks, infill: Strokes, points: Floats, first: Places, number: int) -> Layer:
-    """Return one layer with the infill drawn along `points`, `first`: the old paths or new ones."""
+def layer_of(marks: Marks, infill: Strokes, walls: Floats, points: Floats, first: Places, number: int) -> Layer:
+    """Return one layer with the infill drawn along `points`, `first`: the old paths or new ones.
+
+    `walls` is what `beads` gives of it.
+    """
     some = np.flatnonzero(marks.layer[first_moves(infill)] == number)
-    at = _points_of(first, some)
     ends = np.concatenate([[0], np.cumsum((first[1:] - first[:-1])[some])])
-    walls = beads(table, infill, marks.layer == number, 0.1)
-    return Layer(infill=sampled(points[at], ends), walls=walls)
+    return Layer(infill=sampled(points[_points_of(first, some)], ends), walls=walls)
 
 
 def contact_of(layer: Layer, below: Layer, width: float) -> Contact:
     """Measure what holds up the infill of a layer."""
-    return contact(layer.infill, layer.walls, below.all_points, width)
+    return contact(layer.infill, below.all_points, width)

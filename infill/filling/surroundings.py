@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.contact import sampled
-from infill.gcode.sections import Strokes
+from infill.gcode.sections import Marks, Strokes
 from infill.gcode.table import Table
 
 Floats = NDArray[np.float64]
@@ -20,23 +20,38 @@ ANCHORED = 1 / 3  # line widths that a corner beside a bead may move away from i
 TOWARDS = 0.02  # mm that it may move towards it
 
 
-def beads(table: Table, infill: Strokes, layer: NDArray[np.bool_], step: float = STEP) -> Floats:
-    """Return points on the beads of a layer that are not among the strokes of its infill: (N, 2) float64, mm.
+@dataclass(frozen=True, kw_only=True)
+class Beads:
+    """The moves of a table that extrude and are not among the strokes of its infill.
 
     Parameters
     ----------
-    layer : (N,) bool
-        The lines of the table that belong to the layer.
+    ends : (N, 2, 2) float64, mm
+        Where each begins and ends.
+    layer : (N,) int, ascending
     """
-    drawn = layer & (table.extruded > 0) & table.given[:, :2].any(axis=1)
+
+    ends: Floats
+    layer: Places
+
+    def of(self, number: int, step: float = STEP) -> Floats:
+        """Return points on the beads of a layer, at most `step` apart: (N, 2) float64, mm."""
+        low, high = np.searchsorted(self.layer, [number, number + 1])
+        some = self.ends[low:high]
+        return sampled(some.reshape(-1, 2), np.arange(len(some) + 1) * 2, step).points
+
+
+def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
+    """Return the beads that are not among some strokes."""
+    drawn = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
     drawn[_moves(infill)] = False
     line = np.flatnonzero(drawn)
     back = line - 1
     x = np.where(back >= 0, table.x[back], table.before.x)
     y = np.where(back >= 0, table.y[back], table.before.y)
     ends = np.stack([x, y, table.x[line], table.y[line]], axis=1).reshape(-1, 2, 2)
-    ends = ends[np.isfinite(ends).all(axis=(1, 2))]
-    return sampled(ends.reshape(-1, 2), np.arange(len(ends) + 1) * 2, step).points
+    known = np.isfinite(ends).all(axis=(1, 2))
+    return Beads(ends=ends[known], layer=marks.layer[line][known])
 
 
 def _moves(infill: Strokes) -> Places:
@@ -46,29 +61,23 @@ def _moves(infill: Strokes) -> Places:
     return infill.line[inner]
 
 
-def bounded_deviation(
-    points: Floats, first: Places, walls: Floats, *, deviation: float, line_width: float
-) -> float | Floats:
-    """Return how far each corner of some paths may move, mm: `deviation`, less where it lies beside another bead.
+def bounded_deviation(points: Floats, corners: Places, walls: Floats, *, deviation: float, line_width: float) -> Floats:
+    """Return how far some corners of paths may move, mm: `deviation`, less where one lies beside another bead.
 
     A corner beside a bead anchors the infill there: it moves away by a third of the line width at most. One that
     would be cut towards the bead, as on a path around a boss, stays.
     """
     from scipy.spatial import cKDTree
 
-    if not len(walls) or not len(points):
-        return deviation
+    allowed = np.full(len(corners), deviation)
+    if not len(walls) or not len(corners):
+        return allowed
     tree = cKDTree(walls)
-    near, _ = tree.query(points, distance_upper_bound=BESIDE * line_width)
+    near, _ = tree.query(points[corners], distance_upper_bound=BESIDE * line_width)
     beside = np.flatnonzero(np.isfinite(near))
-    allowed = np.full(len(points), deviation)
     least = min(deviation, ANCHORED * line_width)
     allowed[beside] = least
-    ends = np.zeros(len(points), dtype=bool)
-    ends[first[:-1]] = ends[first[1:] - 1] = True
-    beside = beside[~ends[beside]]
-    inward = _inward(points, beside) * least
-    then, _ = tree.query(points[beside] + inward, distance_upper_bound=math.inf)
+    then, _ = tree.query(points[corners[beside]] + _inward(points, corners[beside]) * least)
     allowed[beside[then < near[beside] - TOWARDS]] = min(deviation, TOWARDS)
     return allowed
 

@@ -211,7 +211,8 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
     x0, y0, z0 = (_shifted(getattr(table, name), getattr(table.before, name)) for name in "xyz")
     length = np.hypot(table.x - x0, table.y - y0)
     with np.errstate(invalid="ignore"):
-        drawn = (table.kind == MOVE) & (table.extruded > 0) & (length > 0) & (table.z == z0) & np.isfinite(length)
+        drawn = (table.kind == MOVE) & (table.extruded > 0) & (length > 0) & np.isfinite(length)
+    drawn &= (table.z == z0) | ~table.given[:, 2]
     drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~_strange(table)
     passive = ((table.kind == COMMENT) & ~marks.tagged) | (table.kind == BLANK)
     for command in table.commands:

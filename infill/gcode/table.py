@@ -234,8 +234,8 @@ def _words(
     marks = np.flatnonzero((text == SEMICOLON) | (text == ord("(")) | (text == ord("*")))
     ends = start[1:].copy()  # of the words: where a comment or a checksum begins
     if len(marks):
-        of = np.searchsorted(start, marks, side="right") - 1
-        np.minimum.at(ends, of, marks)
+        of, earliest = np.unique(np.searchsorted(start, marks, side="right") - 1, return_index=True)
+        ends[of] = marks[earliest]
     begin = np.minimum(begin, ends)
     # Words begin at a letter; everything in between is digits, signs, points and spaces, or the line is odd.
     other = np.flatnonzero(((text | 0x20) >= ord("a")) | (text == ord("=")) | (text == ord('"')) | (text == ord(":")))
@@ -252,13 +252,20 @@ def _words(
     strange = np.zeros(lines, dtype=bool)
     strange[line[~known | ~good]] = True
     line, word, number = line[known], word[known], number[known]
-    again = np.zeros((lines, len(WORDS)), dtype=np.int8)
-    np.add.at(again, (line, word), 1)
-    strange |= (again > 1).any(axis=1)
-    values[line, word] = number
+    flat = line * len(WORDS) + word
+    values.ravel()[flat] = number
+    if np.bincount(line, minlength=1).sum() != np.count_nonzero(_present(flat, values.size)):
+        again = np.bincount(flat, minlength=values.size).reshape(values.shape)
+        strange |= (again > 1).any(axis=1)
     kind[moving & strange] = ODD
     values[kind == ODD] = np.nan
     return values, ~np.isnan(values)
+
+
+def _present(flat: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
+    there = np.zeros(size, dtype=bool)
+    there[flat] = True
+    return there
 
 
 def _commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
