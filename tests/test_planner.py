@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
 from infill.gcode.bounds import Moves, bounded
+from infill.gcode.columns import part
 from infill.gcode.cruising import tops
 from infill.gcode.junctions import joint_limits
 from infill.gcode.limits import INFINITE, MODELS, Limits
@@ -165,10 +166,13 @@ def test_splitting_a_straight_move_changes_nothing(pieces: list[float], speed: f
     assert split == pytest.approx(total(whole * direction, speed, limits), rel=1e-6)
 
 
-@given(paths(), st.sampled_from(EVERY))
+@given(paths(), st.sampled_from([PLAIN, STEADY, JUNCTION]))
 @settings(deadline=None, max_examples=60)
 def test_the_way_back_takes_as_long(moves: Moves, limits: Limits) -> None:
-    """Classic jerk looks at the later move alone in two places, which do not matter in x and y at one speed."""
+    """Classic jerk looks at the later move alone in two places, which do not matter in x and y at one speed.
+
+    With its cruise ratio Klipper lets a move before the top of a hump reach that, and holds one after it at its entry.
+    """
     if limits.model == "jerk":
         level = np.where(moves.delta[:, :2].any(axis=1)[:, None], moves.delta, [1.0, 0, 0, 0])
         moves = replace(moves, delta=level, feedrate=np.full(len(moves), 60.0))
@@ -267,7 +271,7 @@ def test_moves_in_pieces_are_planned_as_one(moves: Moves, limits: Limits, size: 
     entry, first, last = None, 0, 0
     while first < len(moves):
         last = min(last + size, len(moves))
-        settled, done, entry = settle(moves[first:last], [limits], entry, ends=last == len(moves))
+        settled, done, entry = settle(part(moves, slice(first, last)), [limits], entry, ends=last == len(moves))
         assert done.seconds == pytest.approx(whole.seconds[first : first + settled], rel=1e-9, abs=1e-9)
         first += settled
         found += done.seconds.sum()

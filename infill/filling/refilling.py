@@ -19,7 +19,7 @@ from typing import Any, BinaryIO
 from infill.errors import FormatError, GeometryError
 from infill.filling.keeping import Rounding
 from infill.filling.layers import Rules, Tally, refilled_batch
-from infill.filling.request import Request
+from infill.filling.request import SAME, Request
 from infill.filling.support import largest_deviation, samples
 from infill.filling.telling import report_of_refill
 from infill.formats.whole_files import check_target, told, whole_file
@@ -57,7 +57,7 @@ def refill(
     *,
     output: str | os.PathLike[str] | None = None,
     pattern: str = "keep",
-    density: str | float = "same",
+    density: str | float | None = None,
     smooth_radius: str | float = "auto",
     max_deviation: float | None = None,
     layers: tuple[int, int] | None = None,
@@ -78,8 +78,8 @@ def refill(
         Where to write; without it, the file itself is replaced.
     pattern : str
         "keep": the slicer's own paths.
-    density : "same" or float
-        "same" with "keep": beads up to 8 % wider make up for shorter paths.
+    density : "same", optional
+        With "keep", beads up to 8 % wider make up for shorter paths.
     smooth_radius : "auto" or float
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional
@@ -170,7 +170,7 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
         deviation=request.deviation,
         radius=request.radius,
         corner=max(corner, 1.0),
-        same_filament=False,
+        same_filament=request.density == SAME,
     )
     some = samples(found)
     rules = Rules(rounding=rounding, acceleration=acceleration, request=request)

@@ -22,8 +22,9 @@ class Request:
     ----------
     pattern : str
         "keep" for the slicer's own paths, the name of a pattern, or the path of a drawing.
-    density : "same" or float
-        "same": the filament of the slicer's infill. A number above 0 and up to 1: the share of the volume.
+    density : None, "same" or float
+        None: the slicer's filament per mm with its own paths, its filament with others. "same": its filament.
+        A number above 0 and up to 1: the share of the volume.
     smooth_radius : "auto" or float
         mm; 0 leaves corners as they are.
     max_deviation : float, optional
@@ -40,14 +41,16 @@ class Request:
     """
 
     pattern: str = KEEP
-    density: str | float = SAME
+    density: str | float | None = None
     smooth_radius: str | float = AUTO
     max_deviation: float | None = None
     layers: tuple[int, int] | None = None
     part: str | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.density, str):
+        if self.density is None:
+            pass
+        elif isinstance(self.density, str):
             if self.density != SAME:
                 raise ParameterError(f"density is {self.density!r}; give 'same', or a number above 0 and up to 1")
         elif not 0 < positive("density", self.density) <= 1:
@@ -61,7 +64,9 @@ class Request:
             within("max deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError(f"layers are {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
-        if self.pattern == KEEP and not isinstance(self.density, str):
+        if self.pattern != KEEP:
+            raise ParameterError(f"pattern is {self.pattern!r}; give keep")
+        if self.pattern == KEEP and isinstance(self.density, int | float):
             raise ParameterError("keep has the slicer's density; give another pattern, or set it in the slicer")
 
     @property

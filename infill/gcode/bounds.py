@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from infill.gcode.limits import Limits
 
 Floats = NDArray[np.float64]
-SLOWEST = 0.01  # mm/s: what a feed rate of zero, or none, is taken for
+SLOWEST = 0.01  # mm/s: what a feed rate of zero is taken for
+UNSAID = 25.0  # mm/s: that of Marlin and Klipper before a file has said one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +24,7 @@ class Moves:
     delta : (N, 4) float64
         How far each goes in x, y, z, and how much filament it pushes, mm. None may be zero throughout.
     feedrate : (N,) float64
-        mm/s asked for: along x, y, z, or of the filament where nothing else moves.
+        mm/s asked for: along x, y, z, or of the filament where nothing else moves. NaN if none was asked for yet.
     setting : (N,) int
         Which of several `Limits` holds.
     stop : (N,) bool
@@ -37,14 +38,6 @@ class Moves:
 
     def __len__(self) -> int:
         return len(self.feedrate)
-
-    def __getitem__(self, some: slice) -> Moves:
-        return Moves(**{each.name: getattr(self, each.name)[some] for each in fields(self)})
-
-    def followed_by(self, others: Moves) -> Moves:
-        """Return these moves and then others."""
-        names = [each.name for each in fields(self)]
-        return Moves(**{name: np.concatenate([getattr(self, name), getattr(others, name)]) for name in names})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +87,7 @@ def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
         return values(limits, name, moves.setting)
 
     lowest = np.where(pushed == 0, limit("minimum_travel_feedrate"), limit("minimum_feedrate"))
-    speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate), lowest), SLOWEST)
+    speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate, nan=UNSAID), lowest), SLOWEST)
     acceleration = np.where(pushed == 0, limit("travel_acceleration"), limit("acceleration"))
     acceleration = np.where(turning_only, limit("retract_acceleration"), acceleration)
     share = np.abs(direction)

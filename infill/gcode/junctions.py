@@ -72,7 +72,7 @@ def _square_corner(bounds: Bounded, limit: Limit) -> Floats:
         circle = cosine * (1 + cosine) / sine**2 * np.minimum(scaled[:-1], scaled[1:])
         midpoint = np.minimum(bounds.reach[:-1], bounds.reach[1:]) * cosine / (4 * sine)
         filament = _at(limit("corner_extrusion_velocity"), AFTER) / np.abs(np.diff(bounds.direction[:, 3]))
-    joints = np.fmin(np.fmin(circle, midpoint), filament**2)
+    joints = np.asarray(np.fmin(np.fmin(circle, midpoint), filament**2))
     joints[bounds.turning_only[:-1] | bounds.turning_only[1:]] = 0.0
     return joints
 
@@ -95,7 +95,7 @@ def _junction_deviation(bounds: Bounded, limit: Limit) -> Floats:
         circle = acceleration * _at(limit("junction_deviation"), AFTER) * cosine * (1 + cosine) / sine**2
         turn = 2 * np.arctan2(sine, cosine)
         arc = np.where((length < SMALL_SEGMENT) & (turn < SMALL_TURN), length * acceleration / turn, np.inf)
-    return np.fmin(np.fmin(circle, arc), np.inf)
+    return np.asarray(np.fmin(np.fmin(circle, arc), np.inf))
 
 
 def _jerk(bounds: Bounded, limit: Limit) -> Floats:
@@ -115,11 +115,11 @@ def _jerk(bounds: Bounded, limit: Limit) -> Floats:
     joint = slower * factor
     rest = _rest(bounds, limit)
     both = (rest[:-1] > 0.99 * joint) & (rest[1:] > 0.99 * joint)
-    return np.where(both, np.minimum(rest[1:], slower), joint) ** 2
+    return np.asarray(np.where(both, np.minimum(rest[1:], slower), joint) ** 2)
 
 
 def _rest(bounds: Bounded, limit: Limit) -> NDArray[np.float64]:
     """Return the speed from which the machine may stop at once, and to which it may start: the lowest jerk it meets."""
     jerk = limit("jerk")
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
-    return np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1))
+    return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Final, Literal, get_args
 
 from infill.errors import ParameterError
@@ -15,6 +16,7 @@ Model = Literal["jerk", "junction", "klipper"]
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
+LIMITING_CODES: Final = frozenset({"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT"})
 _MAY_BE_ZERO: Final = {
     "jerk",
     "minimum_feedrate",
@@ -86,6 +88,7 @@ class Limits:
             raise ParameterError(f"minimum cruise ratio is {self.minimum_cruise_ratio:g}; give a number below 1")
 
 
+@lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
 def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0) -> Limits:
     """Return the limits after a line of G-code; the same ones if it sets none.
 

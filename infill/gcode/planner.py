@@ -14,12 +14,13 @@ also keep S small: of a sum of 1e10 mm²/s² the last digit is 2e-6.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.bounds import Bounded, Floats, Moves, bounded, values
+from infill.gcode.columns import chained, part
 from infill.gcode.cruising import ROUNDING, humps, tops
 from infill.gcode.junctions import joint_limits
 from infill.gcode.limits import Limits
@@ -47,6 +48,9 @@ class Plan:
         return len(self.seconds)
 
 
+NOTHING = Plan(seconds=np.empty(0), entry=np.empty(0), peak=np.empty(0), exit=np.empty(0))
+
+
 def look_ahead(joints: Floats, reach: Floats) -> Floats:
     """Return the greatest u <= joints with |u[j + 1] - u[j]| <= reach[j], (N + 1,), mm²/s².
 
@@ -56,7 +60,7 @@ def look_ahead(joints: Floats, reach: Floats) -> Floats:
     total = np.concatenate([[0.0], np.cumsum(reach)])
     forward = np.minimum.accumulate(joints - total) + total
     backward = np.minimum.accumulate((joints + total)[::-1])[::-1] - total
-    return np.maximum(np.minimum(np.minimum(forward, backward), joints), 0.0)
+    return np.asarray(np.maximum(np.minimum(np.minimum(forward, backward), joints), 0.0))
 
 
 def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
@@ -75,18 +79,10 @@ def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
     plans, entry, first, last = [], None, 0, 0
     while first < len(moves):
         last = min(last + PIECE, len(moves))
-        settled, done, entry = settle(moves[first:last], limits, entry, ends=last == len(moves))
+        settled, done, entry = settle(part(moves, slice(first, last)), limits, entry, ends=last == len(moves))
         plans.append(done)
         first += settled
-    return joined(plans)
-
-
-def joined(plans: Sequence[Plan]) -> Plan:
-    """Return several plans as one."""
-    names = [each.name for each in fields(Plan)]
-    if not plans:
-        return Plan(**{name: np.empty(0) for name in names})
-    return Plan(**{name: np.concatenate([getattr(each, name) for each in plans]) for name in names})
+    return chained(plans) if plans else NOTHING
 
 
 def settle(
@@ -113,7 +109,7 @@ def settle(
         Square of the speed after them.
     """
     if not len(moves):
-        return 0, joined(()), entry
+        return 0, NOTHING, entry
     bounds = bounded(moves, limits)
     joints = joint_limits(moves, bounds, limits)
     if entry is not None:
@@ -134,8 +130,7 @@ def _known(joints: Floats, reach: Floats) -> NDArray[np.bool_]:
     """Return at which joints the profile is the same if the machine stops at the end."""
     stopped = joints.copy()
     stopped[-1] = 0.0
-    known: NDArray[np.bool_] = look_ahead(joints, reach) == look_ahead(stopped, reach)
-    return known
+    return np.asarray(look_ahead(joints, reach) == look_ahead(stopped, reach))
 
 
 def _eased(bounds: Bounded, joints: Floats, reach: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
