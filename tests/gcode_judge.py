@@ -557,8 +557,10 @@ def _shortened(faults: list[str]) -> list[str]:
 
 def changed(old: bytes, new: bytes) -> int:
     """Return how many sections of the sparse infill have other moves in `new`."""
-    pairs = zip(replayed(old)[0], sections(new), strict=True)
-    return sum(a.sparse and [line.raw for line in a.lines] != [line.raw for line in b.lines] for a, b in pairs)
+    return sum(
+        a.sparse and [x.raw for x in a.lines if x.kind == "move"] != [x.raw for x in b.lines if x.kind == "move"]
+        for a, b in zip(replayed(old)[0], sections(new), strict=True)
+    )
 
 
 def infilled(data: bytes) -> int:
@@ -841,7 +843,8 @@ def _doses(beads: list[Move]) -> dict[tuple[float, float], tuple[float, float]]:
             continue
         longest = max(m.length for m in these)
         these = sorted((m for m in these if m.length >= min(0.5, longest)), key=lambda m: m.per_mm)
-        share = np.cumsum([m.length for m in these]) / sum(m.length for m in these)
+        weight = np.cumsum([min(m.length, 10.0) for m in these])  # mm: a line that runs away is one line
+        share = weight / weight[-1]
         low, high = (these[int(np.searchsorted(share, q).clip(0, len(these) - 1))].per_mm for q in (0.02, 0.98))
         found[tags] = (low * (1 - WIDER), high * (1 + WIDER))
     return found
