@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from infill.filling.contact import Contact, Samples, contact, sampled
 from infill.filling.corners import Machine, Rounded, rounded
 from infill.filling.curves import recut
-from infill.filling.surroundings import beads, bounded_deviation
+from infill.filling.surroundings import Beads, beads, bounded_deviation
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.splicing import UNIT, Redrawn
 from infill.gcode.table import Table
@@ -70,26 +70,70 @@ def rounded_strokes(
     """
     opens = first_moves(infill)
     commanded = marks.acceleration[opens]
-    known = np.where(np.isnan(commanded), acceleration, commanded)
-    speed = np.maximum(table.f[opens] / 60, 1.0)
+    return smoothed(
+        infill.points,
+        infill.first,
+        walls=beads(table, marks, infill),
+        layer=marks.layer[opens],
+        acceleration=np.where(np.isnan(commanded), acceleration, commanded),
+        speed=np.maximum(table.f[opens] / 60, 1.0),
+        rounding=rounding,
+        line_width=float(np.median(line_width(marks, opens))) if len(opens) else LINE_WIDTH,
+    )
+
+
+def smoothed(
+    points: Floats,
+    first: Places,
+    *,
+    walls: Beads | Floats | None,
+    layer: Places | None = None,
+    acceleration: Floats,
+    speed: Floats,
+    rounding: Rounding,
+    line_width: float,
+) -> Rounded:
+    """Cut the curves of some paths anew and round the corners.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    first : (M + 1,) int
+        Where each path begins.
+    walls : Beads, or (K, 2) float64, optional
+        What corners may lie beside, of all layers or of the only one.
+    layer : (M,) int, ascending, optional
+        Of the paths; needed if `walls` has layers.
+    acceleration, speed : (M,) float64
+        mm/s² and mm/s.
+    rounding : Rounding
+    line_width : float, mm
+    """
 
     def machine(begins: Places) -> Machine:
         count = np.diff(begins)
-        return Machine(acceleration=np.repeat(known, count), speed=np.repeat(speed, count), corner=rounding.corner)
+        return Machine(
+            acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=rounding.corner
+        )
 
-    curves = recut(infill.points, infill.first, machine(infill.first))
+    curves = recut(points, first, machine(first))
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corner = np.flatnonzero(inner)
-    layer = np.repeat(marks.layer[opens], np.diff(curves.first))[corner]
-    others = beads(table, marks, infill)
-    width = float(np.median(line_width(marks, opens)))
     deviation = np.zeros(len(curves.points))
-    for number in np.unique(layer):
-        some = corner[slice(*np.searchsorted(layer, [number, number + 1]))]
+    deviation[corner] = rounding.deviation
+
+    def bound(some: Places, near: Floats) -> None:
         deviation[some] = bounded_deviation(
-            curves.points, some, others.of(number), deviation=rounding.deviation, line_width=width
+            curves.points, some, near, deviation=rounding.deviation, line_width=line_width
         )
+
+    if isinstance(walls, Beads) and layer is not None:
+        of = np.repeat(layer, np.diff(curves.first))[corner]
+        for number in np.unique(of):
+            bound(corner[slice(*np.searchsorted(of, [number, number + 1]))], walls.of(int(number)))
+    elif isinstance(walls, np.ndarray):
+        bound(corner, walls)
     done = rounded(
         curves.points,
         curves.first,
@@ -101,7 +145,7 @@ def rounded_strokes(
     return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=done.radius)
 
 
-def _points_of(first: Places, some: Places) -> Places:
+def points_of(first: Places, some: Places) -> Places:
     """Return the numbers of the points of some paths, one path after another."""
     number = first[some + 1] - first[some]
     begins = np.repeat(first[some] - np.concatenate([[0], np.cumsum(number)[:-1]]), number)
@@ -119,7 +163,7 @@ def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: 
     """Return the strokes to draw anew: those chosen that rounding changed."""
     number = np.diff(new.first)
     which = np.flatnonzero(chosen & _changed(infill, new))
-    at = _points_of(new.first, which)
+    at = points_of(new.first, which)
     length = lengths(new.points, new.first)[which]
     rate = infill.filament[which] / infill.length[which]
     filament = rate * length
@@ -138,7 +182,7 @@ def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
     """Return which strokes have other points than before."""
     changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
     alike = np.flatnonzero(~changed)
-    old, now = infill.points[_points_of(infill.first, alike)], new.points[_points_of(new.first, alike)]
+    old, now = infill.points[points_of(infill.first, alike)], new.points[points_of(new.first, alike)]
     moved = np.abs(old - now).max(axis=1) > UNIT / 2
     owner = np.repeat(alike, np.diff(infill.first)[alike])
     changed[owner[moved]] = True
@@ -172,7 +216,7 @@ def layer_of(marks: Marks, infill: Strokes, walls: Floats, points: Floats, first
     """
     some = np.flatnonzero(marks.layer[first_moves(infill)] == number)
     ends = np.concatenate([[0], np.cumsum((first[1:] - first[:-1])[some])])
-    return Layer(infill=sampled(points[_points_of(first, some)], ends), walls=walls)
+    return Layer(infill=sampled(points[points_of(first, some)], ends), walls=walls)
 
 
 def contact_of(layer: Layer, below: Layer, width: float) -> Contact:
