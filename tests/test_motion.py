@@ -154,6 +154,13 @@ def test_settings_are_found() -> None:
     assert found.after("M204", b"M204 P9000").limits.acceleration == 1250
 
 
+def test_klipper_takes_what_the_settings_have() -> None:
+    found = found_limits(b"", PRUSA.replace(b"= marlin", b"= klipper"))
+    assert (found.limits.model, found.limits.acceleration, found.limits.square_corner_velocity) == ("klipper", 1250, 5)
+    assert found.sources["square_corner_velocity"] == "assumed"
+    assert found.after("M204", b"M204 S9000").limits.acceleration == 9000  # its own limits it keeps to itself
+
+
 def test_settings_that_do_not_count_are_left_out() -> None:
     found = found_limits(b"", PRUSA + b"; machine_limits_usage = ignore\n")
     assert found.limits == MARLIN
@@ -378,6 +385,7 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
         ({"square_corner_velocity": 8.0}, "klipper"),
         ({"minimum_cruise_ratio": 0.0}, "klipper"),
         ({"acceleration": 4000.0}, "jerk"),
+        ({"model": "vector-jerk"}, "vector-jerk"),
         ({"model": "klipper"}, "klipper"),
     ],
 )
@@ -389,6 +397,14 @@ def test_what_is_given_holds(tmp_path: Path, given: dict[str, Any], model: str) 
         assert found.sources[name] == "given"
         assert found.limits[name] in (given[name], [given[name]] * 2 + [0.3, 5.0])
     assert found.seconds != motion(written(tmp_path, SQUARE)).seconds
+
+
+def test_a_jerk_keeps_the_model_of_a_file_that_has_one(tmp_path: Path) -> None:
+    for head, model in (
+        (b";Generated with Cura_SteamEngine 5.4.0\n", "vector-jerk"),
+        (b"; gcode_flavor = klipper\n", "jerk"),
+    ):
+        assert motion(written(tmp_path, head + SQUARE), jerk=5).limits["model"] == model
 
 
 def test_limits_of_two_models_are_an_error(tmp_path: Path) -> None:
