@@ -105,6 +105,30 @@ def test_klipper_takes_the_lower_of_both() -> None:
     assert after.feedrate[:2] == (250, 250)
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"M204 S0",
+        b"M204 P-1 T0",
+        b"M201 X0 Y-5",
+        b"M205 X-2",
+        b"SET_VELOCITY_LIMIT ACCEL=0 VELOCITY=-1",
+        b"SET_VELOCITY_LIMIT ACCEL=.. MINIMUM_CRUISE_RATIO=5",
+    ],
+)
+def test_commands_without_sense_change_nothing(line: bytes) -> None:
+    assert commanded(KLIPPER, line.split()[0].decode(), line) == KLIPPER
+    assert commanded(MARLIN, line.split()[0].decode(), line) == MARLIN
+
+
+def test_settings_without_sense_are_left_out() -> None:
+    text = (
+        b"; machine_max_acceleration_x = -5\n; machine_max_jerk_x = nan\n; machine_max_acceleration_extruding = inf\n"
+    )
+    assert found_limits(b"", text + b"; filament_diameter = 0\n").limits == MARLIN
+    assert found_limits(b"", text + b"; filament_diameter = 0\n").filament_diameter == 1.75
+
+
 def test_a_command_does_not_raise_what_the_printer_allows() -> None:
     limits = Limits(highest_acceleration=800)
     assert commanded(limits, "M204", b"M204 P5000 T5000").acceleration == 800

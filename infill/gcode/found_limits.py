@@ -7,6 +7,7 @@ change them on the way. Cura tells nothing but its name; its own estimates take 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -197,11 +198,12 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
 
 
 def _first(text: str | None) -> float | None:
-    """Return the first number of a list, or None."""
+    """Return the first number of a list, or None where there is none that could be a limit."""
     try:
-        return float((text or "").split(",")[0])
+        number = float((text or "").split(",")[0])
     except ValueError:
         return None
+    return number if 0 <= number < math.inf else None
 
 
 def _estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:

@@ -25,7 +25,8 @@ _MAY_BE_ZERO: Final = {
     "square_corner_velocity",
     "minimum_cruise_ratio",
 }
-_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*([-+.\d]+)", re.IGNORECASE)
+_ZERO_WORDS: Final = {"SQUARE_CORNER_VELOCITY", "MINIMUM_CRUISE_RATIO"}
+_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+))", re.IGNORECASE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,19 +161,21 @@ def _cornered(limits: Limits, words: dict[str, float]) -> Limits:
     changed = replace(
         limits,
         jerk=_axes(limits.jerk, words, 1.0),
-        minimum_feedrate=words.get("S", limits.minimum_feedrate),
-        minimum_travel_feedrate=words.get("T", limits.minimum_travel_feedrate),
+        minimum_feedrate=max(words.get("S", limits.minimum_feedrate), 0.0),
+        minimum_travel_feedrate=max(words.get("T", limits.minimum_travel_feedrate), 0.0),
     )
     return replace(changed, junction_deviation=words["J"]) if words.get("J", 0) > 0 else changed
 
 
 def _limited(limits: Limits, line: bytes) -> Limits:
-    """Follow Klipper's SET_VELOCITY_LIMIT."""
-    words = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
+    """Follow Klipper's SET_VELOCITY_LIMIT; it takes no limits below 0, and none of 0 but two."""
+    found = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
+    words = {name: value for name, value in found.items() if value > 0 or (value == 0 and name in _ZERO_WORDS)}
     acceleration = words.get("ACCEL", limits.acceleration)
     ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)
-    if words.get("ACCEL_TO_DECEL", 0) > 0:  # until 2024; it is the ratio's complement in mm/s²
+    if "ACCEL_TO_DECEL" in words:  # until 2024; it is the ratio's complement in mm/s²
         ratio = max(0.0, 1 - words["ACCEL_TO_DECEL"] / acceleration)
+    ratio = ratio if ratio < 1 else limits.minimum_cruise_ratio
     speed = words.get("VELOCITY", limits.feedrate[0])
     return replace(
         limits,
