@@ -472,6 +472,42 @@ def test_the_first_guess_of_the_cell_is_near(folder: Path, make: object) -> None
     assert found == pytest.approx(0.15, rel=0.1)
 
 
+def test_an_anchored_family_scales(folder: Path) -> None:
+    """So its length is proportional to the cell, to rounding; far from the anchor it is as any other."""
+    family = drawn(scribble(folder))
+    held = family.anchored(14.0)
+    asked = {"line_width": WIDTH, "radius": 0.6}
+    cells = (14.0, 14.3, 14.6)
+    paths = [held.strands((0, 0, cell, cell), cell=cell, **asked) for cell in cells]
+    lengths = [
+        shapely.length(inside(some, shapely.box(0, 0, cell, cell))) for some, cell in zip(paths, cells, strict=True)
+    ]
+    assert np.array(lengths) / cells == pytest.approx([lengths[0] / 14] * 3, rel=1e-9)
+    for cell in (14.0, 20.0):
+        one, other = (each.strands((0, 0, 20, 20), cell=cell, **asked) for each in (family, held))
+        assert all(np.array_equal(a, b) for a, b in zip(one, other, strict=True))
+
+
+@pytest.mark.parametrize(
+    ("body", "head", "tile"),
+    [
+        ('<path d="M5 8h10"/>', 'viewBox="0 0 96 48" width="96mm" height="48mm"', (5, 39.5, 15, 40.5)),  # a small mark
+        ('<path d="M5 8h30"/>', 'viewBox="0 0 96 48" width="96mm" height="48mm"', (0, 0, 96, 48)),
+        ('<circle cx="5" cy="5" r="5"/>', "", (-0.5, -0.5, 10.5, 10.5)),  # an outline gets a gap
+        ('<path d="M0 0h10v10h-10z"/>', "", (0, 0, 10, 10)),  # one along the edge does not
+        ('<path d="M0 2q5 5 10 0M3 0l1 5-1 5"/>', "", (0, 0, 10, 10)),  # lines that go on
+        ('<path d="M0 2q5 -5 10 0M3 0l-9 5 9 5"/>', "", (0, 0, 10, 10)),  # even where others bulge
+    ],
+)
+def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float, ...]) -> None:
+    """Without a page, a px is a px: 25.4 / 96 mm; y goes up from the first line."""
+    found = np.array(drawn(written(folder, svg(body, head), "some.svg")).tile)
+    if not head:
+        found = found * 96 / 25.4
+        found[[1, 3]] = -found[[3, 1]]
+    assert found == pytest.approx(tile, abs=0.01)
+
+
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
     paths = drawn(scribble(folder)).strands((0, 0, 20, 20), cell=18, line_width=WIDTH, radius=0.6)

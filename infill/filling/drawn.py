@@ -19,6 +19,7 @@ from infill.filling.tiles import tile_of, traced
 from infill.formats.drawing import Bounds, Drawing, Picture
 from infill.formats.drawings import read_drawing
 
+ANCHORED = 0.05
 IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
 LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
@@ -35,12 +36,23 @@ class Drawn:
         Of the file.
     drawing : Drawing
         Its lines, with the tile as the page.
+    anchor : float, optional
+        A cell, mm, whose tile is scaled for those near it: see `anchored`.
     """
 
     name: str
     drawing: Drawing
     summary: str = "a drawing, repeated"
     prismatic: bool = True
+    anchor: float | None = None
+
+    def anchored(self, cell: float) -> Drawn:
+        """Return the family that scales the tile of `cell` for cells within a twentieth of it.
+
+        What fits between beads changes with the cell, and then the length of paths jumps by some per cent. A search for
+        the cell of a density therefore ends surely if it begins anew with the tile of its last guess, scaled.
+        """
+        return replace(self, anchor=length("cell", cell))
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -90,9 +102,13 @@ class Drawn:
             If nothing is left of the drawing at this size, or the tile is too large for the line width.
         """
         width = length("cell", cell)
-        least = min(within("radius", radius, 0, 1e6, "mm"), self.largest_radius(width, line_width))
-        strands, size = _strands(self, width, length("line_width", line_width), least)
-        return repeated(strands, size, bounds)
+        near = self.anchor is not None and abs(width / self.anchor - 1) <= ANCHORED
+        computed = self.anchor if near and self.anchor is not None else width
+        least = min(within("radius", radius, 0, 1e6, "mm"), self.largest_radius(computed, line_width))
+        strands, size = _strands(self.name, self.drawing, computed, length("line_width", line_width), least)
+        scale = width / computed
+        scaled = [replace(each, points=each.points * scale) for each in strands] if scale != 1 else strands
+        return repeated(scaled, (size[0] * scale, size[1] * scale), bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the width of the tile at which the paths fill about `density` of the plane."""
@@ -102,7 +118,7 @@ class Drawn:
         drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
         cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
         for _ in range(IMPROVED):
-            strands, size = _strands(self, cell, line_width, 0.0)
+            strands, size = _strands(self.name, self.drawing, cell, line_width, 0.0)
             found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
             cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
         return cell
@@ -146,19 +162,22 @@ def _scaled(drawing: Drawing, width: float) -> Drawing:
 
 
 @lru_cache(maxsize=8)
-def _strands(family: Drawn, cell: float, line_width: float, radius: float) -> tuple[list[Strand], tuple[float, float]]:
+def _strands(
+    name: str, drawing: Drawing, cell: float, line_width: float, radius: float
+) -> tuple[list[Strand], tuple[float, float]]:
     """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
-    x0, y0, x1, y1 = family.tile
+    assert drawing.page is not None
+    x0, y0, x1, y1 = drawing.page
     factor = cell / (x1 - x0)
     size = cell, (y1 - y0) * factor
-    lines = [(line - (x0, y0)) * factor for line in family.drawing.lines]
+    lines = [(line - (x0, y0)) * factor for line in drawing.lines]
     blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
     grid = tile_grid(size, line_width=line_width, blur=blur)
     field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
     strands = tile_strands(field, grid)
     if not strands:
         raise GeometryError(
-            f"nothing is left of {family.name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
+            f"nothing is left of {name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
             f"{line_width:g} mm; make the cell larger"
         )
     return strands, size

@@ -36,6 +36,7 @@ ALONG = math.radians(10)  # near x, but no line of symmetry
 SNAP = 1e-7  # of a tile: to this, lines are cut at each other
 SAME = 1e-5  # of a tile: nodes closer than that are one
 CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: where it is cut out; no drawing has lines along there
+AHEAD = 0.03  # of a tile: where directions at a crossing are taken, at any scale the same
 MOST_PAIRED = 1000
 
 
@@ -87,7 +88,7 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) 
     """
     graph = _torus(_copies(_ends_together(lines, size, CLOSE * line_width), size), size)
     double = _paired(graph)
-    crossings, inward = _crossings(graph, ~double, line_width)
+    crossings, inward = _crossings(graph, ~double, AHEAD * min(size))
     single = _edges([part for part, twice in zip(graph.parts, double, strict=True) if not twice])
     doubled = _edges([part for part, twice in zip(graph.parts, double, strict=True) if twice])
     return Borders(single=single, double=doubled, crossings=crossings, inward=inward)
@@ -224,7 +225,7 @@ def _pairs(distances: Floats) -> list[tuple[int, int]]:
     return [(i, int(j)) for i, j in enumerate(partner) if i < j]
 
 
-def _crossings(graph: _Graph, some: NDArray[np.bool_], line_width: float) -> tuple[Floats, Floats]:
+def _crossings(graph: _Graph, some: NDArray[np.bool_], ahead: float) -> tuple[Floats, Floats]:
     """Return where four of the parts or more meet, and a direction into a sector that is to be connected there."""
     import shapely
 
@@ -233,8 +234,8 @@ def _crossings(graph: _Graph, some: NDArray[np.bool_], line_width: float) -> tup
         for end, node in zip((1, -1), graph.node[number].tolist(), strict=True):
             if node in at:
                 line = graph.parts[number][::end]
-                ahead = shapely.line_interpolate_point(shapely.linestrings(line), line_width / 2)
-                leg = shapely.get_coordinates(ahead)[0] - line[0]
+                near = shapely.line_interpolate_point(shapely.linestrings(line), ahead)
+                leg = shapely.get_coordinates(near)[0] - line[0]
                 at[node].append(math.atan2(leg[1], leg[0]))
     inward = [_sector(np.sort(angles)) for angles in at.values()]
     return graph.places[list(at)].reshape(-1, 2), np.array(inward).reshape(-1, 2)
