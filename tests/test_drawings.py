@@ -188,7 +188,7 @@ def test_dxf_splines_bulges_blocks_and_layers(tmp_path: Path) -> None:
     )
     assert np.abs(np.hypot(*(arc - (100, 0)).T) - 20).max() < FLAT * 120
     assert arc[[0, -1]].ravel() == pytest.approx([100, 20, 80, 0], abs=1e-6)
-    assert set(drawing.left_out) == {"1 hidden entity", "1 text"}
+    assert set(drawing.left_out) == {"1 hidden line", "1 text"}
 
 
 def test_wkt_of_many_kinds(tmp_path: Path) -> None:
@@ -315,6 +315,39 @@ def test_a_dxf_cut_off_anywhere_is_told_in_one_line(tmp_path: Path) -> None:
         with pytest.raises(FormatError, match="broken or not a .dxf file") as caught:
             read_drawing(path)
         assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("nan", "extend over nan"),
+        ("far", "e+300 mm"),
+        ("itself", "recursion"),
+        ("many", "more than 50000"),
+        ("text", "only 1 text"),
+    ],
+)
+def test_an_odd_dxf_is_told_in_one_line(tmp_path: Path, kind: str, said: str) -> None:
+    document, space = dxf(tmp_path / "tile.dxf")
+    block = document.blocks.new("B")
+    block.add_line((0, 0), (1, 1))
+    match kind:
+        case "nan" | "far":
+            space.add_line((0, 0), (math.nan if kind == "nan" else 1e300, 1))
+        case "itself":
+            block.add_blockref("B", (1, 1))
+            space.add_blockref("B", (0, 0))
+        case "many":
+            space.add_blockref(
+                "B", (0, 0), dxfattribs={"row_count": 3000, "column_count": 3000, "row_spacing": 1, "column_spacing": 1}
+            )
+        case "text":
+            space.add_text("words")
+    document.saveas(tmp_path / "tile.dxf")
+    with pytest.raises(FormatError, match="tile.dxf") as caught:
+        read_drawing(tmp_path / "tile.dxf")
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_pictures_without_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -619,6 +652,9 @@ def test_limits_are_told(folder: Path) -> None:
         family.strands((0, 0, 1, 1), cell=2000, line_width=WIDTH)
     with pytest.raises(GeometryError, match=r"nothing is left of hearts.svg .* make the cell larger"):
         family.strands((0, 0, 1, 1), cell=0.5, line_width=WIDTH)
+    far = drawn(written(folder, svg('<path d="M-50000 0L50000 3"/>'), "far.svg"))
+    with pytest.raises(GeometryError, match="far beyond its page"):
+        far.strands((0, 0, 1, 1), cell=20, line_width=WIDTH)
     with pytest.raises(ParameterError, match="cell"):
         family.strands((0, 0, 1, 1), cell=math.nan, line_width=WIDTH)
     with pytest.raises(ParameterError, match="width"):

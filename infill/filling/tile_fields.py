@@ -33,6 +33,7 @@ RIDGE = 0.5  # slope of a distance below which it has its ridge there: between l
 CAREFUL = 0.35  # of the thickest place of a colour: no smoothing goes beyond
 GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # no drawing has its lines there
 MARGIN = 4.0  # blurs beyond which smoothing does not reach
+COARSE = 4  # cells
 AT_ONCE = 2_000_000
 EIGHT = np.ones((3, 3))  # neighbours
 
@@ -179,8 +180,6 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     blur : float
         mm: how far to smooth, as the standard deviation of a Gaussian that diffuses as far.
     """
-    from scipy.ndimage import distance_transform_edt
-
     h = max(grid.spacing)
     radius = NARROWEST / 2 * line_width
     band = radius + 3 * h
@@ -192,12 +191,19 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
         field = sign * _widened(sign * field, grid, radius)
     for sign in (1, -1, 1):
         field = sign * _opened(sign * field, grid, radius)
-    thickest = min(float(distance_transform_edt(sign * field > 0, sampling=grid.spacing).max()) for sign in (1, -1))
-    steps = math.ceil((min(blur, CAREFUL * thickest) / h) ** 2 / (2 * ALPHA))
+    steps = math.ceil((min(blur, CAREFUL * _thickest(field, h)) / h) ** 2 / (2 * ALPHA))
     profile = np.tanh(STEEPNESS / (INTERFACE * h) * field)
     smoothing = Smoothing(steps=steps, fidelity=FIDELITY, interface=INTERFACE, alpha=ALPHA)
     phi = smooth(profile, smoothing, spacing=grid.spacing, method="inplace").astype(np.float64)
     return np.arctanh(np.clip(phi, -0.9999, 0.9999))
+
+
+def _thickest(field: Floats, h: float) -> float:
+    """Return the smaller of both colours' largest distances to the other, to a few cells, mm."""
+    from scipy.ndimage import distance_transform_edt
+
+    some = field[::COARSE, ::COARSE]
+    return COARSE * h * min(float(distance_transform_edt(sign * some > 0).max()) for sign in (1, -1))
 
 
 def _opened(field: Floats, grid: TileGrid, radius: float) -> Floats:

@@ -38,6 +38,7 @@ SAME = 1e-5  # of a tile: nodes closer than that are one
 CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: where it is cut out; no drawing has lines along there
 AHEAD = 0.03  # of a tile: where directions at a crossing are taken, at any scale the same
 MOST_PAIRED = 1000
+MOST_COPIES = 200  # of one line in a tile
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,11 +138,12 @@ def _copies(lines: list[Line], size: tuple[float, float]) -> list[Line]:
     for line in lines:
         first = np.ceil(-line.max(axis=0) / box).astype(int)
         last = np.floor((2 * box - line.min(axis=0)) / box).astype(int)
-        points += len(line) * int(np.prod(np.maximum(last - first + 1, 0)))
-        if points > 4 * MOST_POINTS:
+        count = int(np.prod(np.maximum(last - first + 1, 0)))
+        points += len(line) * count
+        if points > MOST_POINTS or count > MOST_COPIES:
             raise GeometryError(
-                f"the drawing and its copies hold more than {4 * MOST_POINTS} points in a tile of {size[0]:.4g} × "
-                f"{size[1]:.4g} mm; give a simpler drawing, or one that lies on its page"
+                f"the drawing reaches far beyond its page: {count} copies of a line, or {points} points, meet in a tile "
+                f"of {size[0]:.4g} × {size[1]:.4g} mm; the limits are {MOST_COPIES} and {MOST_POINTS}; draw on the page"
             )
         for i in range(first[0], last[0] + 1):
             copies += [line + box * (i, j) for j in range(first[1], last[1] + 1)]

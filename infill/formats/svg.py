@@ -224,7 +224,7 @@ class _Reader:
         name = element.get("href") or element.get("http://www.w3.org/1999/xlink}href") or ""
         target = self.by_name.get(name.removeprefix("#"))
         if target is None:
-            self.left_out["copy of something outside"] += 1
+            self.left_out["broken link"] += 1
         elif _tag(target) == "symbol":
             matrix = _then(matrix, self._nested(target, element))
             for each in target:
