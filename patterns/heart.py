@@ -19,11 +19,12 @@ if TYPE_CHECKING:
 ARC_POINTS = 257  # odd, so that the tip of a lobe is a point
 
 
-def outline() -> NDArray[np.float64]:
+def outline(arc_points: int = ARC_POINTS) -> NDArray[np.float64]:
     r"""Return the closed outline of a heart on the square 0 <= x, y <= 1: (N, 2), first = last.
 
     The straight sides lie on the axes, half discs of radius 1/2 on the right and top sides, the tip
-    at (0, 0). As in the paper, one half is given as points and mirrored about y = x.
+    at (0, 0). As in the paper, one half is given as points, `arc_points` (an odd number) of them on its
+    half disc, and mirrored about y = x.
 
             .--.
            /    |
@@ -34,7 +35,7 @@ def outline() -> NDArray[np.float64]:
     """
     import numpy as np
 
-    angle = np.linspace(-math.pi / 2, math.pi / 2, ARC_POINTS)
+    angle = np.linspace(-math.pi / 2, math.pi / 2, arc_points)
     lobe = np.stack([1 + np.cos(angle) / 2, 0.5 + np.sin(angle) / 2], axis=-1)
     half = np.concatenate([[(0.0, 0.0)], lobe])
     half[-1] = (1.0, 1.0)  # the notch, on the mirror line exactly

@@ -1,1 +1,1 @@
-"""Paths that fill a region, and their corners."""
+"""Infill as paths: corners rounded, regions covered, a sliced print refilled."""

@@ -1,0 +1,1 @@
+"""Families of centre lines that never cross: one small module per idea."""

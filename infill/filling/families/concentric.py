@@ -1,0 +1,62 @@
+"""Insets of the region, one inside another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from infill.filling.families.protocol import TOUCH, Bounds, Path
+
+if TYPE_CHECKING:
+    from shapely import MultiPolygon, Polygon
+
+ARC = 16  # chords in a quarter of the circle about a corner
+SIMPLER = 0.002  # mm
+
+
+@dataclass(frozen=True, kw_only=True)
+class Concentric:
+    """Closed lines at (k + 1/2) `cell` from the outline; where two sides of one would overlap, it draws back."""
+
+    name: str = "concentric"
+    summary: str = "lines that follow the outline of the region"
+    prismatic: bool = True
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,  # noqa: ARG002 - every layer is equal
+        layer: int,  # noqa: ARG002
+        radius: float,  # noqa: ARG002 - lines stand alone
+    ) -> list[Path]:
+        """Return the insets of the box; see `Family`."""
+        from shapely import box
+
+        return self.strands_inside(box(*bounds), cell=cell, line_width=line_width)
+
+    def strands_inside(self, region: Polygon | MultiPolygon, *, cell: float, line_width: float) -> list[Path]:
+        """Return the insets of the region; see `RegionFamily`."""
+        import shapely
+
+        half = TOUCH * line_width / 2
+        paths: list[Path] = []
+        # Insets of insets: each starts from fewer corners, and half a bead more than needed is taken off and given
+        # back, so that no part is narrower than a bead.
+        inner = region.buffer(-cell / 2, quad_segs=ARC)
+        while not inner.is_empty:
+            kept = shapely.simplify(inner.buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC), SIMPLER)
+            rings = shapely.get_rings(shapely.get_parts(kept))
+            paths.extend(shapely.get_coordinates(ring) for ring in rings)
+            inner = inner.buffer(-cell, quad_segs=ARC)
+        return paths
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density; see `Family`."""
+        return TOUCH * line_width / density
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return the distance between lines, mm: larger arcs would leave the corners empty."""
+        return cell

@@ -1,0 +1,98 @@
+"""The outline of a region as edges that know their place along it: it cuts paths, and paths are joined along it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.filling.families.protocol import Path
+
+if TYPE_CHECKING:
+    from shapely import MultiPolygon, Polygon
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outline:
+    """The rings of a region, each an edge after another.
+
+    Attributes
+    ----------
+    region : Polygon or MultiPolygon
+        mm, prepared.
+    begin, end : (E, 2) float64
+        Edges, mm.
+    ring : (E,) int
+        The ring of each edge.
+    place : (E,) float64
+        How far along its ring an edge begins, mm.
+    around : (R,) float64
+        Lengths of the rings, mm.
+    first : (R + 1,) int
+        The first edge of each ring.
+    """
+
+    region: Any
+    begin: Path
+    end: Path
+    ring: Numbers
+    place: Floats
+    around: Floats
+    first: Numbers
+
+    def points_at(self, ring: int, places: Floats) -> Path:
+        """Return points at places along a ring, (N, 2), mm; a place beyond its length goes round."""
+        edges = slice(self.first[ring], self.first[ring + 1])
+        known = np.append(self.place[edges], self.around[ring])
+        points = np.concatenate([self.begin[edges], self.begin[edges][:1]])
+        places = places % self.around[ring]
+        return np.stack([np.interp(places, known, points[:, axis]) for axis in (0, 1)], axis=-1)
+
+    def stretch(self, ring: int, begin: float, end: float) -> Path:
+        """Return the corners of a ring from one place to another, backwards if `end` < `begin`: (N, 2), with ends."""
+        low, high = min(begin, end), max(begin, end)
+        around = self.around[ring]
+        known = self.place[self.first[ring] : self.first[ring + 1]]
+        turns = np.arange(np.floor(low / around), np.floor(high / around) + 1)
+        corners = (turns[:, None] * around + known).ravel()
+        corners = corners[(corners > low) & (corners < high)]
+        points = self.points_at(ring, np.concatenate([[low], corners, [high]]))
+        return points if end > begin else points[::-1]
+
+
+def outline_of(region: Polygon | MultiPolygon) -> Outline:
+    """Return the outline of a region, or raise GeometryError if it is not a valid one with an area.
+
+    >>> from shapely import box
+    >>> outline_of(box(0, 0, 3, 2)).around.tolist()
+    [10.0]
+    """
+    import shapely
+
+    if region.geom_type not in ("Polygon", "MultiPolygon"):
+        raise GeometryError(f"the region is a {region.geom_type}; give a Polygon or a MultiPolygon")
+    if region.is_empty or not region.is_valid:
+        said = "empty" if region.is_empty else shapely.is_valid_reason(region)
+        raise GeometryError(f"the region is not a valid one ({said}); give one whose rings neither cross nor vanish")
+    points, number = shapely.get_coordinates(shapely.get_rings(shapely.get_parts(region)), return_index=True)
+    begin, end = points[:-1], points[1:]
+    edge = (number[1:] == number[:-1]) & (begin != end).any(axis=-1)
+    begin, end, ring = begin[edge], end[edge], number[:-1][edge].astype(np.intp)
+    first = np.searchsorted(ring, np.arange(number[-1] + 2))
+    reached = np.concatenate([[0.0], np.cumsum(np.hypot(*(end - begin).T))])
+    shapely.prepare(region)
+    return Outline(
+        region=region,
+        begin=begin,
+        end=end,
+        ring=ring,
+        place=reached[:-1] - reached[first[ring]],
+        around=np.diff(reached[first]),
+        first=first,
+    )

@@ -1,0 +1,1 @@
+"""A sliced print as a stream of lines: read, replayed, spliced, verified, written."""

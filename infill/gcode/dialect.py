@@ -1,0 +1,96 @@
+"""What slicers call things: the comments that carry structure, and the names of features.
+
+There are two families of tags, ``;TYPE:Internal infill`` (PrusaSlicer, SuperSlicer, OrcaSlicer for most printers) and
+``; FEATURE: Sparse infill`` (Bambu Studio, OrcaSlicer for Bambu printers), and those of Cura, spelled like the first.
+Which family a file of OrcaSlicer uses depends on its printer, so all of them are understood in every file.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+OTHER: Final = "other"  # the role of a name that no slicer we know writes
+UNTAGGED: Final = "untagged"  # the role of what stands before the first tag
+
+# What a comment says, by how it begins. The rest of the line is its value.
+TAGS: Final[dict[bytes, str]] = {
+    b";TYPE:": "role",
+    b"; FEATURE:": "role",
+    b";LAYER_CHANGE": "layer",
+    b"; CHANGE_LAYER": "layer",
+    b";LAYER:": "layer",
+    b";Z:": "z",
+    b"; Z_HEIGHT:": "z",
+    b";HEIGHT:": "height",
+    b"; LAYER_HEIGHT:": "height",
+    b";WIDTH:": "width",
+    b"; LINE_WIDTH:": "width",
+    b";WIPE_START": "wipe start",
+    b"; WIPE_START": "wipe start",
+    b";WIPE_END": "wipe end",
+    b"; WIPE_END": "wipe end",
+    b";MESH:": "object",
+    b"; printing object ": "object",
+    b"; start printing object": "object",
+    b"; stop printing object": "object end",
+}
+
+ROLES: Final[dict[str, tuple[bytes, ...]]] = {
+    "sparse infill": (b"Internal infill", b"Sparse infill", b"FILL"),
+    "solid infill": (b"Solid infill", b"Internal solid infill", b"Floating vertical shell", b"SKIN"),
+    "top solid infill": (b"Top solid infill", b"Top surface"),
+    "bottom solid infill": (b"Bottom surface",),
+    "bridge infill": (b"Bridge infill", b"Bridge"),
+    "internal bridge infill": (b"Internal bridge infill", b"Internal Bridge"),
+    "gap fill": (b"Gap fill", b"Gap infill", b"Thin wall"),
+    "ironing": (b"Ironing",),
+    "perimeter": (b"Perimeter", b"Internal perimeter", b"Inner wall", b"WALL-INNER"),
+    "external perimeter": (b"External perimeter", b"Outer wall", b"WALL-OUTER"),
+    "overhang perimeter": (b"Overhang perimeter", b"Overhang wall", b"Bridge wall"),
+    "support": (b"Support material", b"Support", b"Support transition", b"SUPPORT"),
+    "support interface": (
+        b"Support material interface",
+        b"Support interface",
+        b"Support ironing",
+        b"SUPPORT-INTERFACE",
+    ),
+    "skirt": (b"Skirt/Brim", b"Skirt", b"Brim", b"SKIRT"),
+    "wipe tower": (b"Wipe tower", b"Prime tower", b"PRIME-TOWER"),
+    "custom": (b"Custom",),
+}
+_ROLE_OF: Final = {name: role for role, names in ROLES.items() for name in names}
+
+
+def role_of(name: bytes) -> str:
+    """Return what a slicer's name of a feature means, the same word for every slicer, or "other".
+
+    Whole names count: "Gap infill" is no sparse infill.
+
+    >>> role_of(b"Internal infill"), role_of(b"FILL"), role_of(b"Gap infill"), role_of(b"Mill")
+    ('sparse infill', 'sparse infill', 'gap fill', 'other')
+    """
+    return _ROLE_OF.get(name.strip(), OTHER)
+
+
+def tag_of(comment: bytes) -> tuple[str, bytes] | None:
+    r"""Return what a comment line says and its value, or None for a comment without structure.
+
+    Parameters
+    ----------
+    comment : bytes
+        The line, from its semicolon on.
+
+    Returns
+    -------
+    tuple of str and bytes, or None
+        One of the words of `TAGS`, and what follows, without blanks around it.
+
+    >>> tag_of(b";TYPE:Internal infill\n"), tag_of(b"; FEATURE: Sparse infill"), tag_of(b"; a remark")
+    (('role', b'Internal infill'), ('role', b'Sparse infill'), None)
+    >>> tag_of(b";LAYER_CHANGE\n"), tag_of(b";LAYER:12"), tag_of(b";LAYER_COUNT:99")
+    (('layer', b''), ('layer', b'12'), None)
+    """
+    for prefix, meaning in TAGS.items():
+        if comment.startswith(prefix):
+            return meaning, comment[len(prefix) :].strip()
+    return None
