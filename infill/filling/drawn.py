@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -19,7 +20,7 @@ from infill.filling.tiles import tile_of, traced
 from infill.formats.drawing import Bounds, Drawing, Picture
 from infill.formats.drawings import read_drawing
 
-ANCHORED = 0.05
+CELL_STEP = 1.04  # between the cells whose fields are computed
 IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
 LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
@@ -36,23 +37,12 @@ class Drawn:
         Of the file.
     drawing : Drawing
         Its lines, with the tile as the page.
-    anchor : float, optional
-        A cell, mm, whose tile is scaled for those near it: see `anchored`.
     """
 
     name: str
     drawing: Drawing
     summary: str = "a drawing, repeated"
     prismatic: bool = True
-    anchor: float | None = None
-
-    def anchored(self, cell: float) -> Drawn:
-        """Return the family that scales the tile of `cell` for cells within a twentieth of it.
-
-        What fits between beads changes with the cell, and then the length of paths jumps by some per cent. A search for
-        the cell of a density therefore ends surely if it begins anew with the tile of its last guess, scaled.
-        """
-        return replace(self, anchor=length("cell", cell))
 
     @property
     def left_out(self) -> tuple[str, ...]:
@@ -101,14 +91,8 @@ class Drawn:
         GeometryError
             If nothing is left of the drawing at this size, or the tile is too large for the line width.
         """
-        width = length("cell", cell)
-        near = self.anchor is not None and abs(width / self.anchor - 1) <= ANCHORED
-        computed = self.anchor if near and self.anchor is not None else width
-        least = min(within("radius", radius, 0, 1e6, "mm"), self.largest_radius(computed, line_width))
-        strands, size = _strands(self.name, self.drawing, computed, length("line_width", line_width), least)
-        scale = width / computed
-        scaled = [replace(each, points=each.points * scale) for each in strands] if scale != 1 else strands
-        return repeated(scaled, (size[0] * scale, size[1] * scale), bounds)
+        strands, size = _scaled_strands(self, length("cell", cell), length("line_width", line_width), radius)
+        return repeated(strands, size, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the width of the tile at which the paths fill about `density` of the plane."""
@@ -118,7 +102,7 @@ class Drawn:
         drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
         cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
         for _ in range(IMPROVED):
-            strands, size = _strands(self.name, self.drawing, cell, line_width, 0.0)
+            strands, size = _scaled_strands(self, cell, line_width, 0.0)
             found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
             cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
         return cell
@@ -161,7 +145,22 @@ def _scaled(drawing: Drawing, width: float) -> Drawing:
     return replace(drawing, lines=lines, page=(0.0, 0.0, width, (y1 - y0) * factor))
 
 
-@lru_cache(maxsize=8)
+def _scaled_strands(
+    family: Drawn, cell: float, line_width: float, radius: float
+) -> tuple[list[Strand], tuple[float, float]]:
+    """Return the strands of a tile and its size, mm: those of the nearest of some fixed cells, scaled.
+
+    What finds room between beads changes with the cell, and each time the length of paths jumps. Scaled by a fiftieth at
+    most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly, at once.
+    """
+    fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
+    least = min(within("radius", radius, 0, 1e6, "mm"), family.largest_radius(fixed, line_width))
+    strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, least)
+    scale = cell / fixed
+    return [replace(each, points=each.points * scale) for each in strands], (width * scale, height * scale)
+
+
+@lru_cache(maxsize=16)
 def _strands(
     name: str, drawing: Drawing, cell: float, line_width: float, radius: float
 ) -> tuple[list[Strand], tuple[float, float]]:

@@ -142,8 +142,8 @@ def _copies(lines: list[Line], size: tuple[float, float]) -> list[Line]:
         points += len(line) * count
         if points > MOST_POINTS or count > MOST_COPIES:
             raise GeometryError(
-                f"the drawing reaches far beyond its page: {count} copies of a line, or {points} points, meet in a "
-                f"tile of {size[0]:.4g} × {size[1]:.4g} mm; the limits are {MOST_COPIES} and {MOST_POINTS}; use the page"
+                f"draw on the page: {count} copies of a line, or {points} points, meet in a "
+                f"tile of {size[0]:.4g} × {size[1]:.4g} mm; the limits are {MOST_COPIES} and {MOST_POINTS}"
             )
         for i in range(first[0], last[0] + 1):
             copies += [line + box * (i, j) for j in range(first[1], last[1] + 1)]
