@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw
 
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.filling.drawn import drawn
-from infill.filling.tile_fields import colours, distances, tile_grid
+from infill.filling.tile_nodes import colours, distances, tile_grid
 from infill.formats.drawing import Drawing, Picture
 from infill.formats.drawings import READERS, read_drawing
 from infill.formats.svg_paths import bezier_points, path_lines

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from infill.checks import length, positive, within
 from infill.errors import GeometryError
-from infill.filling.tile_fields import tile_grid, two_colours
+from infill.filling.tile_fields import two_colours
 from infill.filling.tile_lines import TOUCH, borders
+from infill.filling.tile_nodes import tile_grid
 from infill.filling.tile_paths import Strand, repeated, tile_strands
 from infill.filling.tiles import tile_of, traced
 from infill.formats.drawing import Bounds, Drawing, Picture
@@ -150,8 +151,8 @@ def _scaled_strands(
 ) -> tuple[list[Strand], tuple[float, float]]:
     """Return the strands of a tile and its size, mm: those of the nearest of some fixed cells, scaled.
 
-    What finds room between beads changes with the cell, and each time the length of paths jumps. Scaled by a fiftieth at
-    most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly, at once.
+    What finds room between beads changes with the cell, and each time the length of paths jumps. Scaled by a fiftieth
+    at most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly.
     """
     fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
     least = min(within("radius", radius, 0, 1e6, "mm"), family.largest_radius(fixed, line_width))
