@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 
 from infill.errors import FormatError, GeometryError, ParameterError
+from infill.filling.covering import cover, solve_cell
 from infill.filling.drawn import drawn
 from infill.filling.tile_nodes import colours, distances, tile_grid
 from infill.formats.drawing import Drawing, Picture
@@ -654,3 +655,25 @@ def test_limits_are_told(folder: Path) -> None:
         family.strands((0, 0, 1, 1), cell=math.nan, line_width=WIDTH)
     with pytest.raises(ParameterError, match="width"):
         drawn(hearts(folder), width=-1)
+
+
+# --- a part --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [hearts, leaves, splines], ids=lambda make: make.__name__)
+def test_a_drawing_fills_a_bracket(folder: Path, make: object) -> None:
+    """Without a crossing or a path outside, and with the length asked for: to 1 %, where lengths jump with the cell."""
+    outside = shapely.Polygon([(0, 0), (75, 0), (75, 20), (25, 50), (0, 50)])
+    bores = shapely.union_all(
+        [shapely.Point(12, 40).buffer(5), shapely.Point(60, 10).buffer(4), shapely.box(25, 8, 45, 20)]
+    )
+    region = shapely.difference(outside, bores)
+    family, asked = drawn(make(folder)), {"line_width": WIDTH, "radius": 0.6}
+    wanted = 0.2 * region.area / (0.905 * WIDTH)
+    solved = solve_cell([(region, 0.2, 0)], family, wanted, **asked)
+    paths = cover(region, family, cell=solved.cell, z=0.2, layer=0, **asked)
+    assert sum(shapely.length(as_lines(paths))) == pytest.approx(wanted, rel=0.01)
+    assert crossings(paths) == 0
+    assert (
+        shapely.length(shapely.difference(shapely.multilinestrings(as_lines(paths)), shapely.buffer(region, 1e-3))) == 0
+    )
