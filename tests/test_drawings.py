@@ -575,6 +575,16 @@ def test_right_angles_get_about_the_radius(folder: Path, radius: float) -> None:
     assert bends.min() == pytest.approx(radius, rel=0.15)
 
 
+def test_the_largest_radius_is_a_tenth_of_the_tile(folder: Path) -> None:
+    family = drawn(written(folder, svg('<rect x="5" y="5" width="10" height="10"/>'), "some.svg"))
+    cell = 1.04**59  # about 10 mm, and one of those whose fields are computed
+    one, other = (
+        family.strands((0, 0, 9, 9), cell=cell, line_width=WIDTH, radius=radius)[0]
+        for radius in (family.largest_radius(cell, WIDTH), math.inf)
+    )
+    assert np.array_equal(one, other)
+
+
 def test_parallel_lines_stay_where_they_are(folder: Path) -> None:
     """Half a millimetre apart, or more: to a tenth of a grid cell, by which they settle on its lines."""
     paths = strands(folder, '<path d="M0 5h20M0 5.5h20M0 12h20"/>', radius=1.0)

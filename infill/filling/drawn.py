@@ -155,7 +155,7 @@ def _scaled_strands(
     at most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly.
     """
     fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
-    least = min(within("radius", radius, 0, 1e6, "mm"), family.largest_radius(fixed, line_width))
+    least = min(within("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
     strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, least)
     scale = cell / fixed
     return [replace(each, points=each.points * scale) for each in strands], (width * scale, height * scale)
