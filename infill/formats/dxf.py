@@ -61,7 +61,7 @@ def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401
 
     hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
     paths = []
-    if any(insert.mcount > MOST_ENTITIES for insert in document.query("INSERT")):
+    if any(each.dxftype() == "INSERT" and each.mcount > MOST_ENTITIES for each in document.entitydb.values()):
         raise ValueError(f"it repeats a block more than {MOST_ENTITIES} times")
     entities: Iterable[Any] = disassemble.recursive_decompose(document.modelspace())
     for number, entity in enumerate(entities):
