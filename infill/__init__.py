@@ -23,11 +23,13 @@ if TYPE_CHECKING:
         OutputError,
         ParameterError,
     )
+    from infill.filling.refilling import RefillResult, refill
     from infill.formats.mesh_files import read_mesh, save
     from infill.formats.point_files import read_points
     from infill.formats.volume_files import read_volume
     from infill.grid import Grid
     from infill.inspection.printability import Inspection, check
+    from infill.inspection.printing_time import Motion, motion
     from infill.inspection.width import WallWidth, wall_width
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
@@ -43,9 +45,11 @@ if TYPE_CHECKING:
 _HOMES = {
     "phasefield.allen_cahn": ("Smoothing", "rescale"),
     "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
+    "filling.refilling": ("RefillResult", "refill"),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
+    "inspection.printing_time": ("Motion", "motion"),
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
@@ -68,8 +72,10 @@ __all__ = [
     "InfillError",
     "Inspection",
     "MemoryLimitError",
+    "Motion",
     "OutputError",
     "ParameterError",
+    "RefillResult",
     "Result",
     "Smoothing",
     "Surface",
@@ -79,9 +85,11 @@ __all__ = [
     "extrude",
     "isosurface",
     "make",
+    "motion",
     "read_mesh",
     "read_points",
     "read_volume",
+    "refill",
     "rescale",
     "save",
     "smooth",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -86,3 +87,11 @@ def compiled() -> None:
 def silent_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
     """Say nothing of what is compiled in this process: which test is first to need it depends on their order."""
     monkeypatch.setattr(logging.getLogger("infill"), "disabled", True)
+
+
+@pytest.fixture(scope="session")
+def prints_of_all_kinds(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
+    """Sliced prints by name, as tests/gcode_corpus.py describes them; each is made when it is first asked for."""
+    from tests.gcode_corpus import corpus  # which needs the slicers' definitions and more, that few tests do
+
+    return corpus(tmp_path_factory.mktemp("prints"))

@@ -134,8 +134,8 @@ CURA: Mapping[str, object] = {
     "machine_height": 210,
     "machine_center_is_zero": "false",
     "machine_gcode_flavor": "RepRap (Marlin/Sprinter)",
-    "machine_start_gcode": "G28\\nM109 S210",
-    "machine_end_gcode": "M104 S0\\nM84",
+    "machine_start_gcode": "G28\nM109 S210",
+    "machine_end_gcode": "M104 S0\nM84",
     "layer_start_x": 0,
     "layer_start_y": 0,
 }

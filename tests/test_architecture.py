@@ -42,7 +42,7 @@ KEPT = {
     "rich": "infill.cli",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}
-ANNOUNCED = {"fill", "refill"}  # public functions that are to come
+ANNOUNCED = {"fill"}  # public functions that are to come
 UNDERSCORED = {"_exit", "_replace", "_asdict", "_fields", "_make"}  # of os and of named tuples: documented, so public
 HEAVY = {"trimesh", "skimage", "scipy", "manifold3d", "numba", "PIL", "shapely", "numpy", "rich.progress"}
 

@@ -12,7 +12,9 @@ import typer
 from infill.cli.checking import check
 from infill.cli.listing import list_patterns
 from infill.cli.making import make
+from infill.cli.refilling import refill
 from infill.cli.smoothing import smooth
+from infill.cli.timing import motion
 from infill.version import __version__
 
 
@@ -40,8 +42,12 @@ def build() -> typer.Typer:
     app.command("smooth", no_args_is_help=True, epilog="Example: infill smooth scan.nrrd --threshold 226 -o bone.stl")(
         smooth
     )
+    app.command("refill", no_args_is_help=True, epilog="Example: infill refill print.gcode -o smooth.gcode")(refill)
     app.command("list", epilog="Example: infill list honeycomb --preview honeycomb.png")(list_patterns)
     app.command("check", no_args_is_help=True, epilog="Example: infill check part.stl --json")(check)
+    app.command(
+        "motion", no_args_is_help=True, epilog="Example: infill motion part.gcode smooth.gcode --plot speeds.png"
+    )(motion)
     return app
 
 

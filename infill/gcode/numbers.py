@@ -6,6 +6,8 @@ power of ten once, so the value is the very float that `float` returns.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,8 +16,17 @@ Places = NDArray[np.intp]
 
 MOST_DIGITS = 15  # a float64 holds them exactly
 LONGEST = MOST_DIGITS + 2  # with a sign and a point
+POWERS = 10.0 ** np.arange(LONGEST + 1)
 SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR = b" \t\n\r;(*"
 ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rows:
+    """Lines of text, and where each begins: (N + 1,) int, the last entry being the length."""
+
+    text: bytes
+    start: NDArray[np.int64]
 
 
 def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -40,50 +51,49 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
     >>> values.tolist(), good.tolist()
     ([-1.25, 0.5, nan], [True, True, False])
     """
-    count = len(places)
-    at = places.copy()
     last = len(text) - 1
-    head = text[np.minimum(at, last)]
+    head = text[np.minimum(places, last)]
     negative = head == MINUS
-    at += negative | (head == PLUS)
-    digits = np.zeros(count, dtype=np.int64)
-    number = np.zeros(count, dtype=np.int64)  # of digits
-    decimals = np.zeros(count, dtype=np.int64)
-    pointed = np.zeros(count, dtype=bool)
-    good = np.zeros(count, dtype=bool)
-    left = np.arange(count)
-    for _ in range(LONGEST):
-        if not len(left):
+    at = places + (negative | (head == PLUS))
+    digits = np.zeros(len(places), dtype=np.int64)
+    number = np.zeros(len(places), dtype=np.int8)  # of digits
+    decimals = np.zeros(len(places), dtype=np.int8)
+    pointed = np.zeros(len(places), dtype=bool)
+    going = np.ones(len(places), dtype=bool)
+    good = np.zeros(len(places), dtype=bool)
+    for step in range(LONGEST):
+        byte = text[np.minimum(at + step, last)]
+        digit = (byte - ZERO <= 9) & going  # bytes below 0 wrap around
+        point = (byte == POINT) & going & ~pointed
+        pointed |= point
+        np.multiply(digits, 10, out=digits, where=digit)
+        np.add(digits, byte - ZERO, out=digits, where=digit)
+        number += digit
+        decimals += digit & pointed
+        ends = going & ~(digit | point)
+        good |= ends & _ends_a_number(byte)
+        going &= ~ends
+        if not going.any():
             break
-        byte = text[np.minimum(at[left], last)]
-        digit = (byte >= ZERO) & (byte <= NINE)
-        some = left[digit]
-        digits[some] = digits[some] * 10 + (byte[digit] - ZERO)
-        number[some] += 1
-        decimals[some] += pointed[some]
-        point = (byte == POINT) & ~pointed[left]
-        pointed[left[point]] = True
-        going = digit | point
-        done = left[~going]
-        good[done] = _ends_a_number(byte[~going]) & (number[done] > 0)
-        left = left[going]
-        at[left] += 1
-    good[left] = False
-    values = digits / 10.0 ** np.minimum(decimals, LONGEST)
+    good &= number > 0
+    values = digits / POWERS[decimals]
     np.negative(values, where=negative, out=values)
     values[~good] = np.nan
     return values, good
 
 
+_ENDS = np.zeros(256, dtype=bool)
+_ENDS[[SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR]] = True
+_ENDS[list(b"ABCDFGHIJKLMNOPQRSTUVWXYZabcdfghijklmnopqrstuvwxyz")] = True  # no E: 1E5 is no number here
+
+
 def _ends_a_number(byte: Bytes) -> NDArray[np.bool_]:
     """Return whether a byte may follow a number: a space, a line end, a comment, a checksum, the next word."""
-    letter = (byte & 0xDF >= ord("A")) & (byte & 0xDF <= ord("Z")) & (byte & 0xDF != ord("E"))
-    rest = (byte == SPACE) | (byte == TAB) | (byte == NEWLINE) | (byte == RETURN) | (byte == SEMICOLON)
-    ends: NDArray[np.bool_] = letter | rest | (byte == OPENING) | (byte == STAR)
+    ends: NDArray[np.bool_] = _ENDS[byte]
     return ends
 
 
-def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Bytes:
+def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Rows:
     r"""Return rows of text, each `head`, a word for every column, and `tail`.
 
     Parameters
@@ -96,9 +106,9 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
 
     Returns
     -------
-    (N,) uint8
+    Rows
 
-    >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").tobytes()
+    >>> write_words([(b" X", np.array([1.5, -0.25]), 3), (b" F", np.array([np.nan, 900]), 0)], b"G1", b"\n").text
     b'G1 X1.5\nG1 X-.25 F900\n'
     """
     rows = len(columns[0][1])
@@ -109,12 +119,14 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
         word[absent] = 0
         parts.append(word)
     parts.append(_constant(tail, rows))
-    text: Bytes = np.concatenate(parts, axis=1).ravel()
-    return text[text != 0]
+    wide: Bytes = np.concatenate(parts, axis=1)
+    shown = wide != 0
+    return Rows(text=wide[shown].tobytes(), start=np.concatenate([[0], np.cumsum(shown.sum(axis=1))]))
 
 
 def _constant(text: bytes, rows: int) -> Bytes:
-    return np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
+    repeated: Bytes = np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
+    return repeated
 
 
 def _number(values: NDArray[np.float64], decimals: int) -> Bytes:

@@ -100,6 +100,8 @@ class Table:
         OTHER, MOVE (G0, G1), ARC (G2, G3), COMMENT, BLANK or ODD.
     code : (N,) int8
         0 to 3 for G0 to G3, -1 else.
+    numbered : (N,) bool
+        The line begins with a line number, N12.
     x, y, z : (N,) float64
         Position after the line, NaN while unknown.
     e : (N,) float64
@@ -124,6 +126,7 @@ class Table:
     start: NDArray[np.int64]
     kind: NDArray[np.uint8]
     code: NDArray[np.int8]
+    numbered: NDArray[np.bool_]
     x: Floats
     y: Floats
     z: Floats
@@ -169,16 +172,16 @@ def read(data: bytes, state: State) -> Table:
     start[-1] = len(data)
     lines = len(start) - 1 if len(data) else 0
     start = start[: lines + 1]
-    kind, code, begin = _kinds(text, start)
+    kind, code, begin, numbered = _kinds(text, start)
     values, given = _words(text, start, kind, begin)
     commands = tuple(_commands(data, start, kind))
-    return _replayed(data, start, kind, code, values, given, commands, state)
+    return _replayed(data, start, kind, code, numbered, values, given, commands, state)
 
 
 def _kinds(
     text: NDArray[np.uint8], start: NDArray[np.int64]
-) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64]]:
-    """Return the kind of every line, its code, and where its words begin."""
+) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64], NDArray[np.bool_]]:
+    """Return the kind of every line, its code, where its words begin, and whether it has a line number."""
     first = start[:-1].copy()
     last = len(text) - 1
 
@@ -212,7 +215,7 @@ def _kinds(
     code = np.where(plain, digit.astype(np.int16) - ord("0"), -1).astype(np.int8)
     kind[plain & (digit <= ord("1"))] = MOVE
     kind[plain & (digit >= ord("2"))] = ARC
-    return kind, code, first + 2 + padded
+    return kind, code, first + 2 + padded, numbered
 
 
 def _is_digit(byte: NDArray[np.uint8]) -> NDArray[np.bool_]:
@@ -231,8 +234,8 @@ def _words(
     marks = np.flatnonzero((text == SEMICOLON) | (text == ord("(")) | (text == ord("*")))
     ends = start[1:].copy()  # of the words: where a comment or a checksum begins
     if len(marks):
-        of = np.searchsorted(start, marks, side="right") - 1
-        np.minimum.at(ends, of, marks)
+        of, earliest = np.unique(np.searchsorted(start, marks, side="right") - 1, return_index=True)
+        ends[of] = marks[earliest]
     begin = np.minimum(begin, ends)
     # Words begin at a letter; everything in between is digits, signs, points and spaces, or the line is odd.
     other = np.flatnonzero(((text | 0x20) >= ord("a")) | (text == ord("=")) | (text == ord('"')) | (text == ord(":")))
@@ -249,13 +252,20 @@ def _words(
     strange = np.zeros(lines, dtype=bool)
     strange[line[~known | ~good]] = True
     line, word, number = line[known], word[known], number[known]
-    again = np.zeros((lines, len(WORDS)), dtype=np.int8)
-    np.add.at(again, (line, word), 1)
-    strange |= (again > 1).any(axis=1)
-    values[line, word] = number
+    flat = line * len(WORDS) + word
+    values.ravel()[flat] = number
+    if np.bincount(line, minlength=1).sum() != np.count_nonzero(_present(flat, values.size)):
+        again = np.bincount(flat, minlength=values.size).reshape(values.shape)
+        strange |= (again > 1).any(axis=1)
     kind[moving & strange] = ODD
     values[kind == ODD] = np.nan
     return values, ~np.isnan(values)
+
+
+def _present(flat: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
+    there = np.zeros(size, dtype=bool)
+    there[flat] = True
+    return there
 
 
 def _commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
@@ -285,6 +295,7 @@ def _replayed(
     start: NDArray[np.int64],
     kind: NDArray[np.uint8],
     code: NDArray[np.int8],
+    numbered: NDArray[np.bool_],
     values: Floats,
     given: NDArray[np.bool_],
     commands: tuple[Command, ...],
@@ -316,6 +327,7 @@ def _replayed(
         start=start,
         kind=kind,
         code=code,
+        numbered=numbered,
         **where,
         f=feed,
         extruded=extruded,

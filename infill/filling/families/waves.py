@@ -3,8 +3,8 @@ r"""Rows of waves with straight flanks and flat crests, the common shape of fami
 ::
 
         .------.          .------.      top
-       /        \        /        \
-      /          \      /          \    height
+       /        \\        /        \
+      /          \\      /          \\    height
     -'            '----'            '-  bottom
     |<---- period ---->|
 

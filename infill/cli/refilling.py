@@ -1,0 +1,131 @@
+"""``infill refill``: a sliced print's infill, smooth, in its G-code."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from infill.cli.console import print_json, progress_bar, reports_errors, say, table
+from infill.errors import InfillError
+
+PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
+
+
+@reports_errors
+def refill(
+    gcode: Annotated[
+        Path, typer.Argument(metavar="PRINT.gcode", help="What a slicer wrote; replaced in place without -o.")
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="G-code to write instead.", rich_help_panel=FILES)
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
+    ] = False,
+    pattern: Annotated[
+        str, typer.Option(help="keep: the slicer's own paths, with round corners.", rich_help_panel=PATHS)
+    ] = "keep",
+    density: Annotated[
+        str | None,
+        typer.Option(
+            help="same: with keep, beads up to 8 % wider make up for shorter paths. "
+            "(default: the slicer's filament per mm)",
+            rich_help_panel=PATHS,
+        ),
+    ] = None,
+    smooth_radius: Annotated[
+        str,
+        typer.Option(
+            help="Largest radius of a corner, mm; 0 leaves corners; auto: as large as support and contact allow.",
+            rich_help_panel=PATHS,
+        ),
+    ] = "auto",
+    max_deviation: Annotated[
+        float | None, typer.Option(help="How far a path may lie from its corner, mm.", rich_help_panel=PATHS)
+    ] = None,
+    layers: Annotated[
+        str | None, typer.Option(help="Layers to refill, counted from 1: 5-20, or 5-.", rich_help_panel=WHERE)
+    ] = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be done.", rich_help_panel=RUN)] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object to stdout.", rich_help_panel=RUN)
+    ] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
+) -> None:
+    """Give the infill of a sliced print round corners, in its G-code; nothing else changes."""
+    from infill.cli.words import parse_radius, parse_range, parse_share
+
+    with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
+        from infill.filling.refilling import refill as refilled
+
+        result = refilled(
+            gcode,
+            output=output,
+            pattern=pattern,
+            density=None if density is None else parse_share(density),
+            smooth_radius=parse_radius(smooth_radius),
+            max_deviation=max_deviation,
+            layers=None if layers is None else parse_range("layers", layers),
+            dry_run=dry_run,
+            overwrite=force,
+            progress=progress,
+        )
+    if not quiet:
+        say(_summary(result.report, str(gcode), str(result.path) if result.path else ""))
+    if as_json:
+        print_json({**result.report, "files": [str(result.path)] if result.path else []})
+
+
+@contextlib.contextmanager
+def _logged(gcode: Path, *, in_place: bool) -> Iterator[None]:
+    """Put an error into a log beside the file too: some slicers show nothing of what a script prints."""
+    log = gcode.with_name(f"{gcode.name}.refill.log")
+    try:
+        yield
+    except InfillError as error:
+        if in_place and gcode.is_file():
+            with contextlib.suppress(OSError):
+                log.write_text(f"error: {error}\n", encoding="utf-8")
+        raise
+    if in_place:
+        with contextlib.suppress(OSError):
+            log.unlink(missing_ok=True)
+
+
+def _summary(report: dict[str, Any], name: str, path: str) -> str:
+    """Return the short table for stderr."""
+    if report["print"]["already_refilled"]:
+        return table({"nothing to do": "it was refilled before"}, title=name)
+    sections, filament, seconds = report["sections"], report["filament"], report["time"]
+    rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
+    if sections["kept"]:
+        rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
+    if sections["replaced"]:
+        before, after = filament["infill_before_mm"], filament["infill_after_mm"]
+        rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
+        density = filament["density_for_the_same_percent"]
+        if density and after < before * 0.999:
+            rows["filament"] += f"; for the old amount, set {density:g} % in the slicer, or give --density same"
+        before, after = seconds["infill_before_s"], seconds["infill_after_s"]
+        rows["time"] = f"{_span(after)} of infill, {after / before - 1:+.1%} ({_span(before)})"
+        contact = report["contact"]
+        if contact["measured_mm"]:
+            rows["support"] = (
+                f"{contact['supported_after']:.0%} on the layer below ({contact['supported_before']:.0%}), "
+                f"{contact['bonded_after']:.0%} beside another line ({contact['bonded_before']:.0%})"
+            )
+    if report["problems"]:
+        rows["PROBLEMS"] = "; ".join(report["problems"])
+    if path:
+        rows["wrote"] = path
+    return table(rows, title=name)
+
+
+def _span(seconds: float) -> str:
+    minutes, seconds = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}h {minutes}m" if hours else f"{minutes}m {seconds}s"

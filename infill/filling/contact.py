@@ -1,0 +1,139 @@
+"""What holds infill up: the bead below it, and the beads beside it.
+
+Both are shares of the infill's length. A point of a centre line is *supported* if a centre line of the layer below
+passes within half a line width of it, so that at least half of the bead lies on something. It is *bonded* if another
+stretch of infill passes in its own layer within 1.05 line widths, so that two beads touch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+STEP = 0.15  # mm between the points that are looked at
+TOUCHING = 1.05  # line widths between two centre lines whose beads touch
+OWN = 3.0  # line widths along a path within which it is its own neighbour
+MOST_NEIGHBOURS = 16  # within 1.05 line widths of 0.45 mm: 7 on the path itself, and as many on each of the others
+
+
+@dataclass(frozen=True, kw_only=True)
+class Contact:
+    """How much of some infill touches what.
+
+    Parameters
+    ----------
+    length : float, mm
+    supported, bonded : float, mm
+        Lengths that lie on the layer below, and that touch something in their own layer.
+    """
+
+    length: float = 0.0
+    supported: float = 0.0
+    bonded: float = 0.0
+
+    def __add__(self, other: Contact) -> Contact:
+        return Contact(
+            length=self.length + other.length,
+            supported=self.supported + other.supported,
+            bonded=self.bonded + other.bonded,
+        )
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """Supported and bonded per length, 0 to 1."""
+        whole = self.length or 1.0
+        return self.supported / whole, self.bonded / whole
+
+
+@dataclass(frozen=True, kw_only=True)
+class Samples:
+    """Points along paths, each standing for `STEP` mm or less of them.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    weight : (N,) float64, mm
+    path : (N,) int
+    along : (N,) float64, mm
+        Distance from the beginning of the path.
+    """
+
+    points: Floats
+    weight: Floats
+    path: Places
+    along: Floats
+
+
+def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
+    """Return the middles of equal pieces of every segment, at most `step` long.
+
+    >>> sampled(np.array([[0.0, 0.0], [0.2, 0.0]]), np.array([0, 2])).points[:, 0].round(3).tolist()
+    [0.05, 0.15]
+    """
+    path = np.repeat(np.arange(len(first) - 1), np.diff(first))
+    segment = np.flatnonzero(np.diff(path) == 0)
+    delta = points[segment + 1] - points[segment]
+    length = np.hypot(*delta.T)
+    pieces = np.maximum(1, np.ceil(length / step - 1e-9)).astype(np.intp)
+    of = np.repeat(np.arange(len(segment)), pieces)
+    place = np.arange(len(of)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    share = (place + 0.5) / pieces[of]
+    begins = np.concatenate([[0.0], np.cumsum(length)])
+    along = begins[of] + share * length[of]
+    where = path[segment][of]
+    starts = np.full(len(first), np.inf)
+    np.minimum.at(starts, path[segment], begins[:-1])
+    return Samples(
+        points=points[segment][of] + share[:, None] * delta[of],
+        weight=(length / pieces)[of],
+        path=where,
+        along=along - starts[where],
+    )
+
+
+def contact(infill: Samples, below: Floats, line_width: float) -> Contact:
+    """Measure one layer.
+
+    Parameters
+    ----------
+    infill : Samples
+        The infill of the layer.
+    below : (N, 2) float64, mm
+        Points on everything of the layer below.
+    line_width : float, mm
+    """
+    from scipy.spatial import cKDTree
+
+    whole = float(infill.weight.sum())
+    if not len(infill.points):
+        return Contact()
+    supported = np.zeros(len(infill.points), dtype=bool)
+    if len(below):
+        # Points stand up to half a step to either side of the nearest place on their line.
+        reach = np.hypot(line_width / 2, STEP / 2)
+        near, _ = cKDTree(below).query(infill.points, distance_upper_bound=reach)
+        supported = np.isfinite(near)
+    bonded = _beside(infill, TOUCHING * line_width)
+    return Contact(
+        length=whole, supported=float(infill.weight[supported].sum()), bonded=float(infill.weight[bonded].sum())
+    )
+
+
+def _beside(infill: Samples, reach: float) -> NDArray[np.bool_]:
+    """Return which points have another stretch of infill within `reach`."""
+    from scipy.spatial import cKDTree
+
+    count = min(MOST_NEIGHBOURS, len(infill.points))
+    near, other = cKDTree(infill.points).query(infill.points, k=count, distance_upper_bound=reach)
+    near, other = near.reshape(len(infill.points), -1), other.reshape(len(infill.points), -1)
+    found = np.isfinite(near)
+    other = np.where(found, other, 0)
+    away = infill.path[other] != infill.path[:, None]
+    away |= np.abs(infill.along[other] - infill.along[:, None]) > OWN * reach / TOUCHING
+    touches: NDArray[np.bool_] = (found & away).any(axis=1)
+    return touches

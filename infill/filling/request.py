@@ -1,0 +1,84 @@
+"""What a user asks of a refill, checked."""
+
+from __future__ import annotations
+
+import difflib
+import math
+from dataclasses import dataclass
+
+from infill.checks import positive, within
+from infill.errors import ParameterError
+from infill.filling.families.catalogue import FAMILIES
+
+KEEP = "keep"
+AUTO = "auto"
+SAME = "same"
+LARGEST_RADIUS = 100.0  # mm
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """A refill.
+
+    Parameters
+    ----------
+    pattern : str
+        "keep" for the slicer's own paths, the name of a pattern, or the path of a drawing.
+    density : None, "same" or float
+        None: the slicer's filament per mm with its own paths, its filament with others. "same": its filament.
+        A number above 0 and up to 1: the share of the volume.
+    smooth_radius : "auto" or float
+        mm; 0 leaves corners as they are.
+    max_deviation : float, optional
+        mm that an arc may lie from its corner.
+    layers : tuple of int, optional
+        First and last layer to refill, counted from 1.
+    part : str, optional
+        Refill only objects whose name contains this.
+
+    Raises
+    ------
+    ParameterError
+        If one of them is out of range.
+    """
+
+    pattern: str = KEEP
+    density: str | float | None = None
+    smooth_radius: str | float = AUTO
+    max_deviation: float | None = None
+    layers: tuple[int, int] | None = None
+    part: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.density is None:
+            pass
+        elif isinstance(self.density, str):
+            if self.density != SAME:
+                raise ParameterError(f"density is {self.density!r}; give 'same', or a number above 0 and up to 1")
+        elif not 0 < positive("density", self.density) <= 1:
+            raise ParameterError(f"density is {self.density:g}; give 'same', or a number above 0 and up to 1")
+        if isinstance(self.smooth_radius, str):
+            if self.smooth_radius != AUTO:
+                raise ParameterError(f"smooth radius is {self.smooth_radius!r}; give 'auto', or a number in mm")
+        else:
+            within("smooth radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
+        if self.max_deviation is not None:
+            within("max deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
+        if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
+            raise ParameterError(f"layers are {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
+        if self.pattern != KEEP and self.pattern not in FAMILIES:
+            near = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
+            advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
+            raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
+        if self.pattern == KEEP and isinstance(self.density, int | float):
+            raise ParameterError("keep has the slicer's density; give another pattern, or set it in the slicer")
+
+    @property
+    def radius(self) -> float:
+        """The largest radius, mm."""
+        return math.inf if isinstance(self.smooth_radius, str) else float(self.smooth_radius)
+
+    @property
+    def deviation(self) -> float:
+        """The largest deviation, mm."""
+        return math.inf if self.max_deviation is None else float(self.max_deviation)

@@ -1,0 +1,93 @@
+"""The report of a refill."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from infill.filling.layers import Rules, Tally
+from infill.filling.request import Request
+from infill.filling.support import LEAST_SHARE, kept_shares
+from infill.gcode.survey import Survey
+from infill.version import __version__
+
+FORM = 1
+
+
+def report_of_refill(
+    request: Request, found: Survey, tally: Tally | None, *, already: bool, rules: Rules | None = None
+) -> dict[str, Any]:
+    """Return the report of one run: plain numbers, strings, lists and dicts."""
+    report: dict[str, Any] = {
+        "product": "refill",
+        "version": __version__,
+        "form": FORM,
+        "request": {
+            "pattern": request.pattern,
+            "density": request.density,
+            "smooth_radius_mm": request.smooth_radius,
+            "max_deviation_mm": request.max_deviation,
+            "layers": list(request.layers) if request.layers else None,
+            "part": request.part,
+        },
+        "print": {"slicer": found.slicer, "bytes": found.size, "already_refilled": already},
+        "problems": [],
+    }
+    if tally is None or rules is None:
+        return report
+    report["print"]["layers"] = tally.layers
+    report["sections"] = {"all": tally.sections, "replaced": tally.replaced, "kept": dict(sorted(tally.kept.items()))}
+    report["rounding"] = {
+        "deviation_mm": _finite(rules.rounding.deviation),
+        "corners": tally.corners,
+        "smallest_radius_mm": _finite(tally.smallest_radius),
+    }
+    ratio = tally.infill_filament_after / tally.infill_filament if tally.infill_filament else 1.0
+    density = found.number("fill_density", "sparse_infill_density")
+    report["filament"] = {
+        "infill_before_mm": tally.infill_filament,
+        "infill_after_mm": tally.infill_filament_after,
+        "print_ratio": tally.filament_ratio,
+        "density_for_the_same_percent": round(density / ratio, 2) if density and ratio > 0 else None,
+    }
+    report["time"] = {"infill_before_s": tally.seconds, "infill_after_s": tally.seconds_after}
+    report["contact"] = contact_section(rules)
+    report["problems"] = _problems(report, tally)
+    return report
+
+
+def contact_section(rules: Rules) -> dict[str, Any]:
+    """Return what holds the infill up, before and after, as measured on some layers."""
+    before, after = rules.before.shares, rules.after.shares
+    kept = kept_shares(rules.before, rules.after)
+    return {
+        "measured_mm": rules.before.length,
+        "supported_before": before[0],
+        "supported_after": after[0],
+        "bonded_before": before[1],
+        "bonded_after": after[1],
+        "kept": min(kept),
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
+    found = []
+    if not tally.sections:
+        found.append("there is no sparse infill in this print; nothing was changed")
+    elif not tally.replaced:
+        reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(tally.kept.items()))
+        found.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
+    failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
+    if failed:
+        found.append(f"{failed} sections were kept because a check of the new text failed")
+    contact = report["contact"]
+    if contact["measured_mm"] and contact["kept"] < LEAST_SHARE:
+        found.append(
+            f"support or contact fell to {contact['kept']:.2f} of the slicer's own; "
+            "give a smaller --smooth-radius or --max-deviation"
+        )
+    return found

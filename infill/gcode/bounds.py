@@ -1,0 +1,104 @@
+"""Moves and what the limits of a machine leave of them: length, direction, top speed, acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.gcode.limits import Limits
+
+Floats = NDArray[np.float64]
+SLOWEST = 0.01  # mm/s: what a feed rate of zero is taken for
+UNSAID = 25.0  # mm/s: that of Marlin and Klipper before a file has said one
+
+
+@dataclass(frozen=True, kw_only=True)
+class Moves:
+    """Straight moves, one after the other.
+
+    Parameters
+    ----------
+    delta : (N, 4) float64
+        How far each goes in x, y, z, and how much filament it pushes, mm. None may be zero throughout.
+    feedrate : (N,) float64
+        mm/s asked for: along x, y, z, or of the filament where nothing else moves. NaN if none was asked for yet.
+    setting : (N,) int
+        Which of several `Limits` holds.
+    stop : (N,) bool
+        The machine stands still before the move, as it does to dwell.
+    """
+
+    delta: Floats
+    feedrate: Floats
+    setting: NDArray[np.intp]
+    stop: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.feedrate)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bounded:
+    """Moves as the machine may make them.
+
+    Parameters
+    ----------
+    distance : (N,) float64
+        mm, along x, y, z, or of filament where nothing else moves.
+    direction : (N, 4) float64
+        What a mm of the distance is in x, y, z and e.
+    turning_only : (N,) bool
+        Only the extruder moves.
+    speed, acceleration : (N,) float64
+        mm/s and mm/s² along the distance.
+    """
+
+    distance: Floats
+    direction: Floats
+    turning_only: NDArray[np.bool_]
+    speed: Floats
+    acceleration: Floats
+
+    @property
+    def reach(self) -> Floats:
+        """By how much a move can change the square of the speed: 2 a d, mm²/s²."""
+        return 2 * self.acceleration * self.distance
+
+
+def values(limits: Sequence[Limits], name: str, setting: NDArray[np.intp]) -> Floats:
+    """Return one of the limits for every move, (N,) or (N, 4); (1,) or (1, 4) where it never changes."""
+    table = np.array([getattr(each, name) for each in limits], dtype=np.float64)
+    return table[:1] if (table == table[:1]).all() else table[setting]
+
+
+def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
+    """Return moves within the limits of speed and acceleration, of the path and of every axis."""
+    delta = moves.delta
+    travelled = np.sqrt(np.einsum("ij,ij->i", delta[:, :3], delta[:, :3]))
+    pushed = delta[:, 3]
+    turning_only = travelled == 0
+    distance = np.where(turning_only, np.abs(pushed), travelled)
+    direction = delta / distance[:, None]
+
+    def limit(name: str) -> Floats:
+        return values(limits, name, moves.setting)
+
+    lowest = np.where(pushed == 0, limit("minimum_travel_feedrate"), limit("minimum_feedrate"))
+    speed = np.maximum(np.maximum(np.nan_to_num(moves.feedrate, nan=UNSAID), lowest), SLOWEST)
+    acceleration = np.where(pushed == 0, limit("travel_acceleration"), limit("acceleration"))
+    acceleration = np.where(turning_only, limit("retract_acceleration"), acceleration)
+    share = np.abs(direction)
+    if limits[0].model == "klipper":  # which limits x and y together, and filament only where it is drawn or alone
+        share = share.copy()
+        share[:, :2] = 0.0
+        share[pushed > 0, 3] *= turning_only[pushed > 0]
+        speed = np.where(turning_only, speed, np.minimum(speed, limit("feedrate")[:, :2].min(axis=1)))
+    with np.errstate(divide="ignore"):
+        speed = np.minimum(speed, (limit("feedrate") / share).min(axis=1))
+        acceleration = np.minimum(acceleration, (limit("axis_acceleration") / share).min(axis=1))
+    return Bounded(
+        distance=distance, direction=direction, turning_only=turning_only, speed=speed, acceleration=acceleration
+    )

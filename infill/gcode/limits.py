@@ -1,0 +1,182 @@
+"""What a machine can do: the limits that the planner of its firmware works with, and the commands that change them.
+
+Feed rates are in mm/s, accelerations in mm/s², jerks and corner velocities in mm/s. The order of axes is x, y, z, e.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
+from typing import Final, Literal, get_args
+
+from infill.errors import ParameterError
+
+Model = Literal["jerk", "junction", "klipper"]
+MODELS: Final[tuple[str, ...]] = get_args(Model)
+Axes = tuple[float, float, float, float]
+INFINITE: Final = float("inf")
+LIMITING_CODES: Final = frozenset({"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT"})
+_MAY_BE_ZERO: Final = {
+    "jerk",
+    "minimum_feedrate",
+    "minimum_travel_feedrate",
+    "square_corner_velocity",
+    "minimum_cruise_ratio",
+}
+_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*([-+.\d]+)", re.IGNORECASE)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """The limits of a machine, and the model of its corners.
+
+    Parameters
+    ----------
+    model : {"jerk", "junction", "klipper"}
+        What bounds the speed at a corner: the jump of each axis' velocity, as PrusaSlicer and CuraEngine estimate and
+        Marlin does with CLASSIC_JERK; Marlin's junction deviation; Klipper's square corner velocity.
+    feedrate, axis_acceleration, jerk : tuple of 4 float
+        Of x, y, z, e. The jerk is used by "jerk" only.
+    acceleration, travel_acceleration, retract_acceleration : float
+        Along the path: of moves that extrude, that do not, and that only turn the extruder.
+    highest_acceleration, highest_travel_acceleration, highest_retract_acceleration : float
+        What commands may raise them to.
+    minimum_feedrate, minimum_travel_feedrate : float
+        What slower moves are raised to.
+    junction_deviation : float
+        mm; used by "junction" only.
+    square_corner_velocity, corner_extrusion_velocity, minimum_cruise_ratio : float
+        Klipper's square_corner_velocity, its extruder's instantaneous_corner_velocity, and its minimum_cruise_ratio:
+        the share of a move from stop to stop that runs at constant speed.
+
+    Raises
+    ------
+    ParameterError
+        If a limit is not a number above 0, or the model is unknown.
+    """
+
+    model: Model = "jerk"
+    feedrate: Axes = (300.0, 300.0, 5.0, 25.0)
+    axis_acceleration: Axes = (3000.0, 3000.0, 100.0, 10000.0)
+    jerk: Axes = (10.0, 10.0, 0.3, 5.0)
+    acceleration: float = 3000.0
+    travel_acceleration: float = 3000.0
+    retract_acceleration: float = 3000.0
+    highest_acceleration: float = INFINITE
+    highest_travel_acceleration: float = INFINITE
+    highest_retract_acceleration: float = INFINITE
+    minimum_feedrate: float = 0.0
+    minimum_travel_feedrate: float = 0.0
+    junction_deviation: float = 0.013
+    square_corner_velocity: float = 5.0
+    corner_extrusion_velocity: float = 1.0
+    minimum_cruise_ratio: float = 0.5
+
+    def __post_init__(self) -> None:
+        if self.model not in MODELS:
+            raise ParameterError(f"the model is {self.model!r}; give one of {', '.join(MODELS)}")
+        for each in fields(self)[1:]:
+            given = getattr(self, each.name)
+            for value in given if isinstance(given, tuple) else (given,):
+                if not (value > 0 or (value == 0 and each.name in _MAY_BE_ZERO)):
+                    raise ParameterError(f"{each.name.replace('_', ' ')} is {value:g}; give a number above 0")
+        for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
+            if getattr(self, name) == INFINITE:
+                raise ParameterError(f"{name.replace('_', ' ')} is infinite; give a number in mm/s²")
+        if self.minimum_cruise_ratio >= 1:
+            raise ParameterError(f"minimum cruise ratio is {self.minimum_cruise_ratio:g}; give a number below 1")
+
+
+@lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
+def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0) -> Limits:
+    """Return the limits after a line of G-code; the same ones if it sets none.
+
+    Parameters
+    ----------
+    limits : Limits
+    code : str
+        Such as "M204".
+    line : bytes
+        The whole line.
+    feedrate_unit : float
+        What a number of M203 is in mm/s: RepRapFirmware counts in mm/min.
+
+    >>> commanded(Limits(), "M204", b"M204 P900 T1500").acceleration
+    900.0
+    """
+    match code:
+        case "M201":
+            return replace(limits, axis_acceleration=_axes(limits.axis_acceleration, _words(line), 1.0))
+        case "M203":
+            return replace(limits, feedrate=_axes(limits.feedrate, _words(line), feedrate_unit))
+        case "M204":
+            return _accelerated(limits, _words(line))
+        case "M205":
+            return _cornered(limits, _words(line))
+        case "M566":
+            return replace(limits, jerk=_axes(limits.jerk, _words(line), 1 / 60))
+        case "SET_VELOCITY_LIMIT":
+            return _limited(limits, line)
+        case _:
+            return limits
+
+
+def _words(line: bytes) -> dict[str, float]:
+    """Return the numbers of a command by letter, without its own and without what is not above 0."""
+    code = line.split(b";", 1)[0].split(None, 1)
+    found = re.findall(rb"([A-Za-z])\s*([-+]?(?:\d+\.?\d*|\.\d+))", code[1] if len(code) > 1 else b"")
+    return {letter.decode().upper(): float(number) for letter, number in found}
+
+
+def _axes(before: Axes, words: dict[str, float], unit: float) -> Axes:
+    x, y, z, e = (
+        words[axis] * unit if words.get(axis, 0) > 0 else value for axis, value in zip("XYZE", before, strict=True)
+    )
+    return x, y, z, e
+
+
+def _accelerated(limits: Limits, words: dict[str, float]) -> Limits:
+    """Follow M204: P, R and T, or S for both printing and travel; Klipper takes S, or the lower of P and T."""
+    words = {letter: value for letter, value in words.items() if value > 0}
+    if limits.model == "klipper":
+        value = words.get("S", min(words["P"], words["T"]) if {"P", "T"} <= set(words) else limits.acceleration)
+        return replace(limits, acceleration=value, travel_acceleration=value)
+    if "S" in words:  # with S, T is the acceleration of retraction
+        given = {"acceleration": words["S"], "travel_acceleration": words["S"], "retract_acceleration": words.get("T")}
+    else:
+        names = {"acceleration": "P", "travel_acceleration": "T", "retract_acceleration": "R"}
+        given = {name: words.get(letter) for name, letter in names.items()}
+    highest = {name: getattr(limits, f"highest_{name}") for name in given}
+    return replace(limits, **{name: min(value, highest[name]) for name, value in given.items() if value})
+
+
+def _cornered(limits: Limits, words: dict[str, float]) -> Limits:
+    """Follow M205: jerk by axis, where X alone stands for Y too; S and T, the lowest feed rates; J, the deviation."""
+    if "X" in words and "Y" not in words:
+        words = {**words, "Y": words["X"]}
+    changed = replace(
+        limits,
+        jerk=_axes(limits.jerk, words, 1.0),
+        minimum_feedrate=words.get("S", limits.minimum_feedrate),
+        minimum_travel_feedrate=words.get("T", limits.minimum_travel_feedrate),
+    )
+    return replace(changed, junction_deviation=words["J"]) if words.get("J", 0) > 0 else changed
+
+
+def _limited(limits: Limits, line: bytes) -> Limits:
+    """Follow Klipper's SET_VELOCITY_LIMIT."""
+    words = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
+    acceleration = words.get("ACCEL", limits.acceleration)
+    ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)
+    if words.get("ACCEL_TO_DECEL", 0) > 0:  # until 2024; it is the ratio's complement in mm/s²
+        ratio = max(0.0, 1 - words["ACCEL_TO_DECEL"] / acceleration)
+    speed = words.get("VELOCITY", limits.feedrate[0])
+    return replace(
+        limits,
+        feedrate=(speed, speed, *limits.feedrate[2:]),
+        acceleration=acceleration,
+        travel_acceleration=acceleration,
+        square_corner_velocity=words.get("SQUARE_CORNER_VELOCITY", limits.square_corner_velocity),
+        minimum_cruise_ratio=ratio,
+    )

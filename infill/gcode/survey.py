@@ -1,0 +1,149 @@
+"""A print at a glance: what sliced it, its settings, and some of its layers, read here and there."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from typing import BinaryIO
+
+from infill.errors import FormatError
+from infill.gcode.stream import LAYER_TAG, LONGEST_LINE
+from infill.gcode.table import State, read
+
+HEAD = 1 << 18  # bytes looked at for the header and the modes
+TAIL = 1 << 17  # bytes looked at for the settings
+WINDOW = 1 << 18  # bytes read at each place that is sampled
+MOST_WINDOW = 16 << 20
+STAMP = b"; refilled by phasefill"
+_SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
+_SLICER = re.compile(rb"(?:generated (?:by|with) |Generated with |Sliced by )([A-Za-z][\w. +-]{1,60})", re.IGNORECASE)
+# What other files begin with.
+OTHERS = {
+    b"GCDE": "binary G-code",
+    b"PK\x03\x04": "a zip or 3MF file",
+    b"\x89PNG": "a picture",
+    b"\xff\xd8\xff": "a picture",
+    b"%PDF": "a PDF file",
+    b"solid ": "an STL file",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Survey:
+    """What is known of a print before it is read through.
+
+    Parameters
+    ----------
+    size : int
+        Bytes.
+    slicer : str
+        As it names itself; "" if it does not.
+    settings : dict
+        Its settings by its own names, as far as the file tells them.
+    begin : State
+        Modes at the first layer, its place unknown.
+    stamped : bool
+        It was refilled before.
+    resets_filament : bool
+        It sets its counter of filament by G92 itself.
+    windows : tuple of bytes
+        Whole layers at several places of the file.
+    """
+
+    size: int
+    slicer: str
+    settings: dict[str, str]
+    begin: State
+    stamped: bool
+    resets_filament: bool
+    windows: tuple[bytes, ...]
+
+    def number(self, *names: str) -> float | None:
+        """Return the first of several settings that is there, as a number; the first one of a list."""
+        for name in names:
+            try:
+                return float(self.settings[name].split(",")[0].rstrip("%"))
+            except (KeyError, ValueError):
+                continue
+        return None
+
+
+def survey(file: BinaryIO, windows: int = 6) -> Survey:
+    """Look at a print; the file is left at its beginning.
+
+    Parameters
+    ----------
+    file : binary file
+    windows : int
+        At how many places to read layers.
+
+    Raises
+    ------
+    FormatError
+        If it is no G-code, or has no layers that are marked.
+    """
+    size = file.seek(0, os.SEEK_END)
+    file.seek(0)
+    head = file.read(HEAD)
+    _check(head, size)
+    file.seek(max(0, size - TAIL))
+    tail = file.read(TAIL)
+    settings = {
+        name.decode(): value.decode("utf-8", "replace").strip()
+        for text in (head, tail if size > HEAD else b"")
+        for name, value in _SETTING.findall(text)
+    }
+    slicer = _SLICER.search(head[:8192])
+    first = LAYER_TAG.search(head)
+    before = read(head[: first.start()] if first else head[: head.rfind(b"\n") + 1], State()).after
+    begin = State(
+        relative=before.relative,
+        relative_e=before.relative_e,
+        inches=before.inches,
+        tool=before.tool,
+        retracted=before.retracted,
+        f=before.f,
+    )
+    found = tuple(text for text in (_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
+    file.seek(0)
+    return Survey(
+        size=size,
+        slicer=slicer[1].decode("latin-1").strip() if slicer else "",
+        settings=settings,
+        begin=begin,
+        stamped=STAMP in head,
+        resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in found),
+        windows=tuple(dict.fromkeys(found)),
+    )
+
+
+def _check(head: bytes, size: int) -> None:
+    """Raise FormatError if a file that begins like this is no text of G-code."""
+    if not size:
+        raise FormatError("the file is empty; give the G-code that a slicer wrote")
+    for magic, name in OTHERS.items():
+        if head.startswith(magic):
+            raise FormatError(f"the file is {name}; give the G-code that a slicer wrote, as text")
+    if b"\0" in head:
+        raise FormatError("the file holds bytes that no text has; give the G-code that a slicer wrote, as text")
+    if b"\n" not in head and size > LONGEST_LINE:
+        raise FormatError("the file has no lines; give the G-code that a slicer wrote")
+    if not re.search(rb"^\s*(?:N\d+ ?)?[GgMm]\d", head, re.MULTILINE):
+        raise FormatError("the file has no line of G-code in it; give the G-code that a slicer wrote")
+
+
+def _window(file: BinaryIO, size: int, share: float) -> bytes:
+    """Return two whole layers around a place, or fewer; none if there is no layer."""
+    file.seek(int(size * share))
+    text = file.read(WINDOW)
+    while len(text) < MOST_WINDOW:
+        tags = [found.start() for found in LAYER_TAG.finditer(text)]
+        if len(tags) > 2:
+            return text[tags[0] : tags[2]]
+        more = file.read(len(text))
+        if not more:
+            break
+        text += more
+    tags = [found.start() for found in LAYER_TAG.finditer(text)]
+    return text[tags[0] : tags[-1]] if len(tags) >= 2 else b""

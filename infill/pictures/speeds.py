@@ -1,0 +1,79 @@
+"""A layer of a print from above, every line in the colour of its speed; several beside each other in one scale."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import BinaryIO, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from infill.inspection.layer_speeds import LayerSpeeds
+
+PANEL: Final = 640  # pixels
+MARGIN, CAPTION, BAR = 16, 28, 44
+SUPERSAMPLING: Final = 2
+PAPER, INK, TRAVEL = (255, 255, 255), (40, 40, 40), (205, 205, 205)
+STOPS: Final = np.array([(38, 56, 150), (20, 140, 180), (90, 180, 70), (240, 160, 40), (190, 30, 40)], dtype=float)
+
+
+def colours(speed: NDArray[np.floating], top: float) -> NDArray[np.uint8]:
+    """Return a colour for every speed, from blue at 0 to red at `top`, (N, 3).
+
+    >>> colours(np.array([0.0, 80.0]), 80.0).tolist()
+    [[38, 56, 150], [190, 30, 40]]
+    """
+    place = np.clip(np.asarray(speed) / top, 0, 1) * (len(STOPS) - 1)
+    return np.column_stack([np.interp(place, np.arange(len(STOPS)), channel) for channel in STOPS.T]).astype(np.uint8)
+
+
+def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
+    """Write layers side by side as PNG.
+
+    Parameters
+    ----------
+    layers : mapping of str to LayerSpeeds
+        By caption.
+    file : binary file
+    """
+    drawn = [layer.speed[layer.draws] for layer in layers.values()]
+    top = max([float(np.percentile(speed, 99)) for speed in drawn if len(speed)], default=1.0)
+    corners = np.concatenate([np.vstack([layer.start[:, :2], layer.end[:, :2]]) for layer in layers.values()])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    width = MARGIN + len(layers) * (PANEL + MARGIN)
+    sheet = Image.new("RGB", (width, MARGIN + CAPTION + PANEL + MARGIN + BAR), PAPER)
+    draw = ImageDraw.Draw(sheet)
+    font = ImageFont.load_default(size=14)
+    for number, (caption, layer) in enumerate(layers.items()):
+        left = MARGIN + number * (PANEL + MARGIN)
+        draw.text((left, MARGIN), caption, fill=INK, font=font)
+        sheet.paste(_panel(layer, low, float((high - low).max()) or 1.0, top), (left, MARGIN + CAPTION))
+    _bar(sheet, draw, font, top)
+    sheet.save(file, format="PNG", optimize=True)
+
+
+def _panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
+    size = PANEL * SUPERSAMPLING
+    scale = (size - 2 * SUPERSAMPLING) / extent
+    picture = Image.new("RGB", (size, size), PAPER)
+    draw = ImageDraw.Draw(picture)
+    ends = np.column_stack([layer.start[:, :2] - low, layer.end[:, :2] - low]) * scale + SUPERSAMPLING
+    ends[:, 1::2] = size - ends[:, 1::2]
+    shades = np.where(layer.draws[:, None], colours(layer.speed, top), np.array(TRAVEL, dtype=np.uint8))
+    for line, shade, draws in zip(ends.tolist(), shades.tolist(), layer.draws.tolist(), strict=True):
+        draw.line(line, fill=tuple(shade), width=2 * SUPERSAMPLING if draws else 1)
+    return picture.resize((PANEL, PANEL), Image.Resampling.BOX)
+
+
+def _bar(
+    sheet: Image.Image, draw: ImageDraw.ImageDraw, font: ImageFont.ImageFont | ImageFont.FreeTypeFont, top: float
+) -> None:
+    """Draw the scale of colours below the panels."""
+    row = sheet.height - BAR
+    shades = np.broadcast_to(colours(np.linspace(0, top, PANEL // 2), top), (10, PANEL // 2, 3))
+    sheet.paste(Image.fromarray(np.ascontiguousarray(shades)), (MARGIN, row))
+    draw.text((MARGIN, row + 14), "0", fill=INK, font=font)
+    draw.text((MARGIN + PANEL // 2, row + 14), f"{top:.0f} mm/s", fill=INK, font=font, anchor="ra")
+    draw.line([(MARGIN + PANEL // 2 + 20, row + 5), (MARGIN + PANEL // 2 + 50, row + 5)], fill=TRAVEL, width=2)
+    draw.text((MARGIN + PANEL // 2 + 58, row - 3), "travel", fill=INK, font=font)

@@ -1,0 +1,84 @@
+"""What holds a print's infill together, measured on the G-code by other means than the package's.
+
+Supported is what lies on the layer below: its centre line over a bead there, of any role. Bonded is what touches
+another line of infill at its side: a doubled wall.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from scipy.spatial import cKDTree
+
+from tests.gcode_judge import Move, lines_of, replayed
+
+STEP = 0.1  # mm between samples
+TOUCH = 1.05  # line widths from centre line to centre line: beads overlap by a tenth where they touch
+
+
+def layers_of(data: bytes) -> list[tuple[float, list[Move], list[Move]]]:
+    """Return height, beads of the sparse infill and all other beads of each layer, upwards."""
+    found: dict[float, tuple[list[Move], list[Move]]] = {}
+    parts, runs = replayed(data)
+    for part, ran in zip(parts, runs, strict=True):
+        for move in ran.beads():
+            found.setdefault(round(move.end[2], 3), ([], []))[not part.sparse].append(move)
+    return [(z, *found[z]) for z in sorted(found)]
+
+
+def covered(moves: list[Move]):
+    """Return the area of beads."""
+    lines = [shapely.linestrings(path) for path in lines_of(moves)]
+    return shapely.union_all(shapely.buffer(lines, width_of(moves) / 2, quad_segs=3))
+
+
+def width_of(moves: list[Move]) -> float:
+    return float(np.median([move.width or 0.45 for move in moves]))
+
+
+def supported(data: bytes) -> float:
+    """Return the share of the infill's length that lies on a bead of the layer below."""
+    whole = held = 0.0
+    below: list[Move] = []
+    for _, infill, rest in layers_of(data):
+        if infill and below:
+            lines = shapely.multilinestrings([shapely.linestrings(path) for path in lines_of(infill)])
+            box = shapely.box(*shapely.buffer(lines, 2).bounds)
+            ground = shapely.intersection(covered(below), box)
+            shapely.prepare(ground)
+            pieces = [shapely.linestrings(path) for path in lines_of(infill)]
+            whole += shapely.length(pieces).sum()
+            held += shapely.length(shapely.intersection(pieces, ground)).sum()
+        below = infill + rest
+    return held / whole if whole else 1.0
+
+
+def bonded(data: bytes) -> float:
+    """Return the share of the infill's length beside which another strand of it lies, as near as beads touch."""
+    whole = touching = 0
+    for _, infill, _ in layers_of(data):
+        if not infill:
+            continue
+        points, along, path = samples(lines_of(infill))
+        width = width_of(infill)
+        tree = cKDTree(points)
+        near = np.zeros(len(points), bool)
+        for i, j in tree.query_pairs(TOUCH * width, output_type="ndarray").reshape(-1, 2):
+            # The same strand, a little further along, is no neighbour; nor one that is crossed.
+            if path[i] != path[j] or abs(along[i] - along[j]) > 4 * width:
+                near[i] = near[j] = True
+        whole += len(points)
+        touching += int(near.sum())
+    return touching / whole if whole else 0.0
+
+
+def samples(paths: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return points along paths, a step apart, with their place along the path and the path's number."""
+    points, along, number = [], [], []
+    for k, path in enumerate(paths):
+        length = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+        at = np.arange(STEP / 2, length[-1], STEP)
+        points.append(np.column_stack([np.interp(at, length, path[:, 0]), np.interp(at, length, path[:, 1])]))
+        along.append(at)
+        number.append(np.full(len(at), k))
+    return np.concatenate(points), np.concatenate(along), np.concatenate(number)

@@ -1,0 +1,129 @@
+"""Refilling changes the sparse infill and nothing else, in every print of the corpus: an independent judge says so."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+
+from infill import FormatError
+from tests.gcode_corpus import CORPUS, prints
+from tests.gcode_judge import changed, infilled, judge, pushed
+
+
+def refill(path: Path, **options: Any) -> Any:
+    from infill import refill
+
+    return refill(path, **options)
+
+
+# What a pattern's filament may be of the slicer's own: rounding shortens paths, most so a honeycomb's, and a curve in
+# the place of chords is a little longer.
+FILAMENT = {"keep": (0.85, 1.003)}
+STRAIGHT = "straight lines have no corner"
+ARCS = "a section with arcs is left as it was"
+# What is kept as it was, and why: the test fails if it is not.
+KEPT: dict[tuple[str, str], str] = {
+    ("prusa-loose-lines", "keep"): STRAIGHT,
+    ("cura-firmware", "keep"): STRAIGHT,
+    ("cura-combined", "keep"): STRAIGHT,
+    ("orca-arcs", "keep"): ARCS,
+    ("bambu-arcs", "keep"): ARCS,
+    ("prusa-slowed", "keep"): "every layer is slowed for cooling",
+    ("prusa-equalised", "keep"): "speed changes from move to move",
+    ("prusa-purge", "keep"): "all infill is purged filament",
+    ("packed", "keep"): "words without blanks between are left as they are",
+}
+# What is refused in one line, and why.
+REFUSED: dict[str, str] = {
+    "orca-numbered": "with a number before it, a tag is none",
+}
+
+
+def refilled(path: Path, output: Path, pattern: str) -> bytes:
+    refill(path, output=output, pattern=pattern)
+    return output.read_bytes()
+
+
+@pytest.mark.parametrize("pattern", FILAMENT)
+@pytest.mark.parametrize("name", CORPUS)
+def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
+    entry = CORPUS[name]
+    if entry.missing():
+        pytest.skip(entry.missing())
+    path, output = prints_of_all_kinds[name], tmp_path / "out.gcode"
+    old = path.read_bytes()
+    if name in REFUSED:
+        with pytest.raises(FormatError) as error:
+            refill(path, output=output, pattern=pattern)
+        assert "\n" not in str(error.value)
+        assert not output.exists()
+        return
+    new = refilled(path, output, pattern)
+    assert path.read_bytes() == old
+    assert judge(old, new, filament=FILAMENT[pattern]) == []
+    replaced = changed(old, new)
+    if (name, pattern) in KEPT or not entry.infilled:
+        assert replaced == 0
+    else:
+        assert replaced >= 0.5 * infilled(old)
+    refill(output, pattern=pattern)  # which finds the stamp, and does nothing
+    assert output.read_bytes() == new
+
+
+@pytest.mark.parametrize("pattern", FILAMENT)
+def test_in_place_is_as_beside(pattern: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
+    path = tmp_path / "print.gcode"
+    old = prints_of_all_kinds["orca"].read_bytes()
+    path.write_bytes(old)
+    beside = refilled(path, tmp_path / "beside.gcode", pattern)
+    assert path.read_bytes() == old
+    refill(path, pattern=pattern)
+    assert path.read_bytes() == beside != old
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["beside.gcode", "print.gcode"]
+
+
+def test_a_kept_path_is_shorter(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
+    """Filament, as the judge counts it: of the infill, and of all else."""
+    path = prints_of_all_kinds["bambu"]
+    infill, rest = pushed(path.read_bytes())
+    kept = pushed(refilled(path, tmp_path / "keep.gcode", "keep"))
+    assert kept[1] == pytest.approx(rest, abs=1e-3)  # mm: roundings of some hundred lines
+    assert 0.85 * infill < kept[0] < infill
+
+
+@pytest.mark.parametrize(
+    "name", ["prusa", "prusa-absolute", "prusa-grid", "prusa-gyroid", "cura-slowed", "cura", "orca"]
+)
+@pytest.mark.parametrize("deviation", [0.05, 0.15])
+def test_kept_paths_lie_as_near_as_is_asked(
+    name: str, deviation: float, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path
+) -> None:
+    """Then travels and retractions are the slicer's too. Curves are cut into chords, which lie 0.02 mm off at most."""
+    if CORPUS[name].missing():
+        pytest.skip(CORPUS[name].missing())
+    path, output = prints_of_all_kinds[name], tmp_path / "out.gcode"
+    refill(path, output=output, max_deviation=deviation)
+    old, new = path.read_bytes(), output.read_bytes()
+    assert changed(old, new)
+    assert judge(old, new, deviation=deviation + 0.02, filament=FILAMENT["keep"]) == []
+
+
+@settings(max_examples=20)
+@given(data=prints())
+@pytest.mark.parametrize("pattern", FILAMENT)
+def test_nothing_else_changes_in_any_dialect(
+    pattern: str, data: bytes, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    folder = tmp_path_factory.mktemp("any")
+    path = folder / "print.gcode"
+    path.write_bytes(data)
+    new = refilled(path, folder / "out.gcode", pattern)
+    # Very small regions may take less of a pattern than of lines: the sum over the corpus is judged above.
+    assert judge(data, new, filament=(0.5, 1.3)) == []
+    if re.search(rb"^M82", new, re.MULTILINE):
+        assert new.count(b"G92 E") >= data.count(b"G92 E")
