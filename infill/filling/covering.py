@@ -78,7 +78,7 @@ def cover(
 
     >>> from shapely import box
     >>> from infill.filling.families.catalogue import FAMILIES
-    >>> len(cover(box(0, 0, 20, 20), FAMILIES["rectilinear"], cell=3, line_width=0.45, z=0.2, layer=0))
+    >>> len(cover(box(0, 0, 20, 20), FAMILIES["honeycomb"], cell=6, line_width=0.45, z=0.2, layer=0))
     1
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
