@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 from lines import least_spacing, length_of
+from scipy.spatial import cKDTree
 from shapely import box
 
 from infill import ParameterError
@@ -252,6 +253,27 @@ def test_three_dimensional_honeycomb_lies_on_itself_where_rows_turn() -> None:
     inner = box(-8, -8, 8, 8)
     supported = above.intersection(inner).intersection(below.buffer(WIDTH / 2)).length
     assert supported / above.intersection(inner).length > 0.95
+
+
+SPATIAL = [family for family in FAMILIES.values() if not family.prismatic and family.name != "rectilinear"]
+
+
+@pytest.mark.parametrize("family", SPATIAL, ids=lambda family: family.name)
+def test_each_layer_lies_on_the_one_below(family: Family) -> None:
+    """Within half a line width of one of its lines; in layers where waves turn, most of it does."""
+    shares = []
+    below: list[Path] = []
+    for layer in range(41):  # 8 mm: every section of a cell of 6.5 mm
+        paths = strands(family, 6.5, bounds=(-8.0, -8.0, 8.0, 8.0), z=0.2 * layer)
+        if below:
+            tree = cKDTree(shapely.get_coordinates(shapely.segmentize(multi(below), 0.05)))
+            points = shapely.get_coordinates(shapely.segmentize(multi(paths), 0.2))
+            points = points[(np.abs(points) < 7).all(axis=-1)]
+            # Points below are 0.025 mm away along the line at most, which adds 0.002 mm to a distance of 0.2.
+            shares.append(float((tree.query(points)[0] < WIDTH / 2).mean()))
+        below = paths
+    assert np.mean(shares) > 0.9
+    assert min(shares) > 0.6
 
 
 def test_concentric_lines_follow_the_region() -> None:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 ANCHOR, ANCHOR_MAX = 2.5, 12.0  # mm, as slicers have them
 CLOSE = 0.005  # of the length asked for: near enough
 SECANTS = 6
-MORE = 14  # steps, if secants found none
+MORE = 10  # steps, if secants found none
 AROUND = 1.012  # the factor between cells that are tried around the nearest one
 FINEST = 1.002  # the factor between cells within which a jump is taken for one
 
