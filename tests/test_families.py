@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 from lines import least_spacing, length_of
+from scipy.spatial import cKDTree
 from shapely import box
 
 from infill import ParameterError
@@ -17,6 +18,7 @@ from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.grid import TURN as HALF_RIGHT
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.hilbert import numbers
+from infill.filling.families.honeycomb import Honeycomb
 from infill.filling.families.level_sets import Gyroid, SchwarzD, SchwarzP
 from infill.filling.families.protocol import TOUCH, Family, Path, RegionFamily
 from infill.filling.families.waves import BOND
@@ -102,9 +104,7 @@ def test_lines_are_finite_paths_that_cover_the_box(family: Family, cell: float) 
 @every_cell
 @pytest.mark.parametrize("rounded", [False, True])
 def test_lines_never_cross_and_beads_never_overlap(family: Family, cell: float, rounded: bool) -> None:
-    radius = family.largest_radius(cell, WIDTH) if rounded else 0.0
-    if rounded and radius == 0:
-        radius = 1.0  # more than the largest counts as the largest
+    radius = math.inf if rounded else 0.0  # more than the largest counts as the largest
     for z in layers_of(family, cell):
         paths = strands(family, cell, z=z, radius=radius)
         assert multi(paths).is_simple
@@ -113,12 +113,12 @@ def test_lines_never_cross_and_beads_never_overlap(family: Family, cell: float, 
         assert least_spacing(paths, near=NEAR, most=0.6) > share * GAP - SAMPLED
 
 
-@every_family
+@pytest.mark.parametrize(
+    "family", [family for name, family in FAMILIES.items() if name != "concentric"], ids=lambda family: family.name
+)
 @every_cell
 def test_lines_do_not_depend_on_the_box(family: Family, cell: float) -> None:
     """So that neighbouring regions, and layers, fit each other."""
-    if isinstance(family, RegionFamily):
-        pytest.skip("follows its region")
     if isinstance(family, ConcentricHeart):
         family = ConcentricHeart(middle=(1.0, 2.0))
     inner = (-5.0, -4.0, 3.0, 6.0)
@@ -191,16 +191,18 @@ def cut_back(path: Path, back: float) -> Path:
     return np.concatenate([path[:1], corners, path[-1:]])
 
 
-def test_half_of_the_honeycomb_touches() -> None:
-    family = FAMILIES["honeycomb"]
-    for radius in (0.0, 1.0):
-        paths = [shapely.LineString(path) for path in strands(family, 6.5, radius=radius)]
-        middle = paths[len(paths) // 2]
-        beside = shapely.union_all([p.buffer(GAP * 1.001, cap_style="flat") for p in paths if p is not middle])
-        flats = 2 * radius * math.tan(math.radians(30)) + 6.5 / math.sqrt(3)
-        share = flats / (flats + 6.5 / math.sqrt(3))
-        # The ends of the line and the corners beside a flat are less than a cell of 9.
-        assert middle.intersection(beside).length / middle.length == pytest.approx(share, abs=0.06)
+@pytest.mark.parametrize("flats", [1.0, 1.5])
+@pytest.mark.parametrize("radius", [0.0, 1.0])
+def test_half_of_the_honeycomb_touches(flats: float, radius: float) -> None:
+    """Or more, if its flats are longer than its flanks."""
+    side = 6.5 / math.sqrt(3)
+    paths = [shapely.LineString(path) for path in strands(Honeycomb(flats=flats), 6.5, radius=radius)]
+    middle = paths[len(paths) // 2]
+    beside = shapely.union_all([p.buffer(GAP * 1.001, cap_style="flat") for p in paths if p is not middle])
+    flat = 2 * radius * math.tan(math.radians(30)) + flats * side
+    # The ends of the line and what touches around corners beside the flats: less than a gap at each of its corners.
+    wrong = GAP / side
+    assert middle.intersection(beside).length / middle.length == pytest.approx(flat / (flat + side), abs=wrong)
 
 
 @pytest.mark.parametrize("family", LEVEL_SETS, ids=lambda family: family.name)
@@ -251,6 +253,32 @@ def test_three_dimensional_honeycomb_lies_on_itself_where_rows_turn() -> None:
     inner = box(-8, -8, 8, 8)
     supported = above.intersection(inner).intersection(below.buffer(WIDTH / 2)).length
     assert supported / above.intersection(inner).length > 0.95
+
+
+SPATIAL = [family for family in FAMILIES.values() if not family.prismatic and family.name != "rectilinear"]
+
+
+@pytest.mark.parametrize("family", SPATIAL, ids=lambda family: family.name)
+def test_each_layer_lies_on_the_one_below(family: Family) -> None:
+    """Within half a line width of one of its lines."""
+    shares = []
+    below: list[Path] = []
+    for layer in range(41):  # 8 mm: every section of a cell of 6.5 mm
+        paths = strands(family, 6.5, bounds=(-8.0, -8.0, 8.0, 8.0), z=0.2 * layer)
+        if below:
+            tree = cKDTree(shapely.get_coordinates(shapely.segmentize(multi(below), 0.05)))
+            lines = [shapely.LineString(path) for path in paths]
+            even = [shapely.line_interpolate_point(line, np.arange(0, line.length, 0.1)) for line in lines]
+            points = shapely.get_coordinates(np.concatenate(even))
+            points = points[(np.abs(points) < 7).all(axis=-1)]
+            # Points below are 0.025 mm away along the line at most, which adds 0.002 mm to a distance of 0.2.
+            shares.append(float((tree.query(points)[0] < WIDTH / 2).mean()))
+        below = paths
+    # Minimal surfaces lie flat near their saddles, where a section moves on by more than a bead: a gyroid of this period
+    # has 0.89 of its lines supported, whoever slices it. Families of planes move by a third of a bead a layer.
+    planes = family.name in ("cubic", "honeycomb-3d")
+    assert np.mean(shares) > (0.97 if planes else 0.88)
+    assert min(shares) > (0.9 if planes else 0.5)
 
 
 def test_concentric_lines_follow_the_region() -> None:

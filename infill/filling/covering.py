@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 ANCHOR, ANCHOR_MAX = 2.5, 12.0  # mm, as slicers have them
 CLOSE = 0.005  # of the length asked for: near enough
 SECANTS = 6
-MORE = 14  # steps, if secants found none
+MORE = 10  # steps, if secants found none
 AROUND = 1.012  # the factor between cells that are tried around the nearest one
 FINEST = 1.002  # the factor between cells within which a jump is taken for one
 
@@ -78,7 +78,7 @@ def cover(
 
     >>> from shapely import box
     >>> from infill.filling.families.catalogue import FAMILIES
-    >>> len(cover(box(0, 0, 20, 20), FAMILIES["rectilinear"], cell=3, line_width=0.45, z=0.2, layer=0))
+    >>> len(cover(box(0, 0, 20, 20), FAMILIES["honeycomb"], cell=6, line_width=0.45, z=0.2, layer=0))
     1
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
