@@ -44,7 +44,7 @@ class Print:
     stands: bytes = b""  # what stands in it, if it is what it should be
 
 
-def block(folder: Path, size: tuple[float, float, float] = (12, 12, 2), name: str = "block") -> Path:
+def block(folder: Path, size: tuple[float, float, float] = (12, 12, 1.6), name: str = "block") -> Path:
     path = folder / f"{name}.stl"
     mesh = trimesh.creation.box(size)
     mesh.apply_translation([0, 0, size[2] / 2])
@@ -55,7 +55,7 @@ def block(folder: Path, size: tuple[float, float, float] = (12, 12, 2), name: st
 def ring(folder: Path) -> Path:
     """A thick ring, so that there is a hole that no infill may bridge."""
     path = folder / "ring.stl"
-    trimesh.creation.annulus(r_min=4, r_max=9.5, height=2).export(path)
+    trimesh.creation.annulus(r_min=4, r_max=9.5, height=1.6, sections=24).export(path)
     return path
 
 
@@ -71,7 +71,7 @@ def overhang(folder: Path) -> Path:
 
 
 def two(folder: Path) -> list[Path]:
-    return [block(folder, name="one"), block(folder, (10, 14, 2), name="other")]
+    return [block(folder, name="one"), block(folder, (10, 14, 1.6), name="other")]
 
 
 def in_ranges(folder: Path) -> Path:
@@ -81,9 +81,7 @@ def in_ranges(folder: Path) -> Path:
     points = "".join(f'<vertex x="{x:g}" y="{y:g}" z="{z:g}"/>' for x, y, z in mesh.vertices)
     triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in mesh.faces)
     head = '<?xml version="1.0" encoding="utf-8"?>\n'
-    ranges = (
-        '<range min_z="1" max_z="2"><option opt_key="extruder">0</option><option opt_key="layer_height">0.1</option>'
-    )
+    ranges = '<range min_z="0.8" max_z="1.6"><option opt_key="extruder">0</option><option opt_key="layer_height">0.1</option>'
     files = {
         "[Content_Types].xml": '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default '
         'Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default '
