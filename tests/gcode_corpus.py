@@ -286,7 +286,7 @@ def prints() -> st.SearchStrategy[bytes]:
     @st.composite
     def one(draw: st.DrawFn) -> bytes:
         slicer = draw(st.sampled_from(["prusa", "orca", "bambu", "cura"]))
-        yes = st.booleans()
+        yes, seldom = st.booleans(), st.sampled_from([False, False, False, True])
         objects = draw(st.integers(1, 2))
         return written(
             Dialect(
@@ -300,7 +300,7 @@ def prints() -> st.SearchStrategy[bytes]:
                 labels=draw(st.sampled_from(labels[slicer])),
                 progress=draw(st.sampled_from(["", "P{done} R{left}", "P{done}"])),
                 fan_in_infill=draw(yes),
-                arcs=draw(yes),
+                arcs=draw(seldom),
                 acceleration=draw(st.sampled_from(["", "M204 S{}", "SET_VELOCITY_LIMIT ACCEL={}"])),
                 zero=draw(yes),
                 comments=draw(yes),
@@ -312,7 +312,7 @@ def prints() -> st.SearchStrategy[bytes]:
                 heights=draw(st.sampled_from([(), (0.2, 0.1)])),
                 odd=tuple(draw(st.lists(st.sampled_from(ODD), max_size=3))),
                 newline=draw(yes),
-                packed=draw(yes),
+                packed=draw(seldom),
                 size=draw(st.sampled_from([7.0, 9.0, 14.0])),
                 cell=draw(st.sampled_from([1.6, 3.0, 5.0])),
                 infill_first=draw(yes),

@@ -310,8 +310,10 @@ def test_filament_may_be_set_back_where_it_is_absolute() -> None:
 def test_times_may_be_told_anew_and_nothing_else() -> None:
     old = written(FULL)
     new = re.sub(rb"M73 P\d+ R\d+", b"M73 P7 R3", halves(old))
-    new = new.replace(b"(normal mode) = 3m 1s", b"(normal mode) = 2m 1s").replace(b"[mm] = ", b"[mm] = 1")
+    new = new.replace(b"(normal mode) = 3m 1s", b"(normal mode) = 2m 1s")
     assert judge(old, new) == []
+    wrong = new.replace(b"filament used [mm] = ", b"filament used [mm] = 1")
+    assert [line.split(":")[0] for line in judge(old, wrong)] == ["filament told"]
     assert any(
         "comment changed" in line
         for line in judge(old, new.replace(b"filament_diameter = 1", b"filament_diameter = 2"))
