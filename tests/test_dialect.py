@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from infill.gcode.dialect import OTHER, ROLES, TAGS, role_of, tag_of
+from infill.gcode.dialect import OTHER, ROLES, TAGS, UNTAGGED, role_of, tag_of
 
 
 def test_a_name_has_one_role() -> None:
@@ -15,9 +15,14 @@ def test_a_name_has_one_role() -> None:
         assert {role_of(name) for name in several} == {role}
 
 
-@pytest.mark.parametrize("name", [b"infill", b"Internal infill 2", b"internal INFILL", b"FILLER", b""])
+@pytest.mark.parametrize("name", [b"infill", b"Internal infill 2", b"internal INFILL", b"FILLER", b" "])
 def test_only_whole_names_count(name: bytes) -> None:
     assert role_of(name) == OTHER
+
+
+def test_no_name_is_untagged() -> None:
+    assert role_of(b"") == UNTAGGED
+    assert UNTAGGED not in ROLES
 
 
 def test_both_families_say_the_same() -> None:

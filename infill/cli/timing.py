@@ -103,11 +103,11 @@ def _check_plot(path: Path, *, overwrite: bool) -> None:
 
 def _write_plot(paths: Sequence[Path], layer: int, given: dict[str, Any], plot: Path) -> None:
     from infill.formats.whole_files import deliver
-    from infill.inspection.printing_time import layer_motion
+    from infill.inspection.layer_speeds import layer_speeds
     from infill.pictures.speeds import write_speeds
 
     layers = {
-        f"{number}: {path.name}, layer {layer}": layer_motion(path, layer, **given)
+        f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **given)
         for number, path in enumerate(paths, 1)
     }
     deliver({plot: partial(write_speeds, layers)})

@@ -143,7 +143,7 @@ def solve_cell(
         found.append((share, cell))
         if abs(share - 1) <= CLOSE:
             break
-    share, cell = min(found, key=lambda pair: abs(pair[0] - 1))
+    share, cell = min(found, key=lambda pair: abs(math.log(pair[0])) if pair[0] > 0 else math.inf)
     return Solved(cell=cell, length=share * wanted, error=share - 1)
 
 
@@ -195,9 +195,7 @@ def _joined(
     """Return the paths of a family in a region, in no order."""
     if isinstance(family, RegionFamily):
         return family.strands_inside(outline.region, cell=cell, line_width=line_width)
-    strands = family.strands(
-        outline.region.bounds, cell=cell, line_width=line_width, z=z, layer=layer, radius=radius
-    )
+    strands = family.strands(outline.region.bounds, cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
     pieces = clip(strands, outline)
     return join(pieces, outline, line_width=line_width, anchor=anchor, anchor_max=anchor_max)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +11,8 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import Contact, Samples, contact, sampled
 from infill.filling.corners import Machine, Rounded, rounded
-from infill.filling.curves import recut
-from infill.filling.surroundings import beads, bounded_deviation
+from infill.filling.curves import MOST_BULGE, recut
+from infill.filling.surroundings import BESIDE, TOWARDS, Beads, beads, beside, bounded_deviation
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.splicing import UNIT, Redrawn
 from infill.gcode.table import Table
@@ -70,25 +71,64 @@ def rounded_strokes(
     """
     opens = first_moves(infill)
     commanded = marks.acceleration[opens]
-    known = np.where(np.isnan(commanded), acceleration, commanded)
-    speed = np.maximum(table.f[opens] / 60, 1.0)
+    return smoothed(
+        infill.points,
+        infill.first,
+        walls=beads(table, marks, infill),
+        layer=marks.layer[opens],
+        acceleration=np.where(np.isnan(commanded), acceleration, commanded),
+        speed=np.maximum(table.f[opens] / 60, 1.0),
+        rounding=rounding,
+        line_width=float(np.median(line_width(marks, opens))) if len(opens) else LINE_WIDTH,
+    )
+
+
+def smoothed(
+    points: Floats,
+    first: Places,
+    *,
+    walls: Beads | Floats | None,
+    layer: Places | None = None,
+    acceleration: Floats,
+    speed: Floats,
+    rounding: Rounding,
+    line_width: float,
+) -> Rounded:
+    """Cut the curves of some paths anew and round the corners.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    first : (M + 1,) int
+        Where each path begins.
+    walls : Beads, or (K, 2) float64, optional
+        What corners may lie beside, of all layers or of the only one.
+    layer : (M,) int, ascending, optional
+        Of the paths; needed if `walls` has layers.
+    acceleration, speed : (M,) float64
+        mm/s² and mm/s.
+    rounding : Rounding
+    line_width : float, mm
+    """
 
     def machine(begins: Places) -> Machine:
         count = np.diff(begins)
-        return Machine(acceleration=np.repeat(known, count), speed=np.repeat(speed, count), corner=rounding.corner)
+        return Machine(
+            acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=rounding.corner
+        )
 
-    curves = recut(infill.points, infill.first, machine(infill.first))
+    near = _near_walls(points, first, walls, layer, line_width)
+    curves = recut(points, first, machine(first), np.where(near, TOWARDS, MOST_BULGE))
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corner = np.flatnonzero(inner)
-    layer = np.repeat(marks.layer[opens], np.diff(curves.first))[corner]
-    others = beads(table, marks, infill)
-    width = float(np.median(line_width(marks, opens)))
     deviation = np.zeros(len(curves.points))
-    for number in np.unique(layer):
-        some = corner[slice(*np.searchsorted(layer, [number, number + 1]))]
+    deviation[corner] = rounding.deviation
+    # Corners of their own beside other beads hardly move.
+    corner = corner[near[curves.source[corner]]]
+    for some, others in _by_layer(corner, curves.first, walls, layer):
         deviation[some] = bounded_deviation(
-            curves.points, some, others.of(number), deviation=rounding.deviation, line_width=width
+            curves.points, some, others, deviation=rounding.deviation, line_width=line_width
         )
     done = rounded(
         curves.points,
@@ -101,7 +141,29 @@ def rounded_strokes(
     return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=done.radius)
 
 
-def _points_of(first: Places, some: Places) -> Places:
+def _by_layer(
+    some: Places, first: Places, walls: Beads | Floats | None, layer: Places | None
+) -> Iterator[tuple[Places, Floats]]:
+    """Yield the points among some that belong to one layer, and the points on its other beads."""
+    if isinstance(walls, Beads) and layer is not None:
+        of = np.repeat(layer, np.diff(first))[some]
+        for number in np.unique(of):
+            yield some[slice(*np.searchsorted(of, [number, number + 1]))], walls.of(int(number))
+    elif isinstance(walls, np.ndarray):
+        yield some, walls
+
+
+def _near_walls(
+    points: Floats, first: Places, walls: Beads | Floats | None, layer: Places | None, line_width: float
+) -> NDArray[np.bool_]:
+    """Return which points lie beside another bead of their layer."""
+    near = np.zeros(len(points), dtype=bool)
+    for some, others in _by_layer(np.arange(len(points)), first, walls, layer):
+        near[some[beside(points[some], others, BESIDE * line_width)[0]]] = True
+    return near
+
+
+def points_of(first: Places, some: Places) -> Places:
     """Return the numbers of the points of some paths, one path after another."""
     number = first[some + 1] - first[some]
     begins = np.repeat(first[some] - np.concatenate([[0], np.cumsum(number)[:-1]]), number)
@@ -119,7 +181,7 @@ def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: 
     """Return the strokes to draw anew: those chosen that rounding changed."""
     number = np.diff(new.first)
     which = np.flatnonzero(chosen & _changed(infill, new))
-    at = _points_of(new.first, which)
+    at = points_of(new.first, which)
     length = lengths(new.points, new.first)[which]
     rate = infill.filament[which] / infill.length[which]
     filament = rate * length
@@ -138,7 +200,7 @@ def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
     """Return which strokes have other points than before."""
     changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
     alike = np.flatnonzero(~changed)
-    old, now = infill.points[_points_of(infill.first, alike)], new.points[_points_of(new.first, alike)]
+    old, now = infill.points[points_of(infill.first, alike)], new.points[points_of(new.first, alike)]
     moved = np.abs(old - now).max(axis=1) > UNIT / 2
     owner = np.repeat(alike, np.diff(infill.first)[alike])
     changed[owner[moved]] = True
@@ -172,7 +234,7 @@ def layer_of(marks: Marks, infill: Strokes, walls: Floats, points: Floats, first
     """
     some = np.flatnonzero(marks.layer[first_moves(infill)] == number)
     ends = np.concatenate([[0], np.cumsum((first[1:] - first[:-1])[some])])
-    return Layer(infill=sampled(points[_points_of(first, some)], ends), walls=walls)
+    return Layer(infill=sampled(points[points_of(first, some)], ends), walls=walls)
 
 
 def contact_of(layer: Layer, below: Layer, width: float) -> Contact:

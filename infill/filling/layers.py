@@ -9,17 +9,21 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import Contact
 from infill.filling.keeping import Rounding, first_moves, lengths, redrawn, rounded_strokes
+from infill.filling.replacing import Memory, Plan, fresh_sections, outside, retractions
 from infill.filling.request import SAME, Request
 from infill.filling.support import Sample
 from infill.filling.timing import neutral_limits, path_seconds
+from infill.gcode.bodies import composed, exchanged, unlawful, ways_of
+from infill.gcode.limits import Limits
 from infill.gcode.sections import SPARSE, Marks, Strokes, strokes
-from infill.gcode.splicing import UNIT, spliced, unlike
+from infill.gcode.splicing import UNIT, differing, spliced, unlike
 from infill.gcode.survey import Survey
-from infill.gcode.table import State, Table
+from infill.gcode.table import State, Table, read
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
+LEAST_TRAVEL = 1.0  # mm: shorter ways are never retracted
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 SLOWED = 0.97  # a layer whose infill is slower than this share of the usual was slowed down to cool
 
@@ -44,6 +48,12 @@ class Rules:
         The print sets its counter of filament by G92, so that we may.
     before, after : Contact
         Of the layers that were looked at.
+    plan : Plan, optional
+        Paths of our own; without it, the slicer's are kept.
+    memory : Memory
+        What one batch leaves for the next.
+    limits : Limits
+        What paths are timed with.
     """
 
     rounding: Rounding
@@ -55,6 +65,9 @@ class Rules:
     resets_filament: bool = True
     before: Contact = field(default_factory=Contact)
     after: Contact = field(default_factory=Contact)
+    plan: Plan | None = None
+    memory: Memory = field(default_factory=Memory)
+    limits: Limits = field(default_factory=neutral_limits)
 
     def with_survey(self, found: Survey, some: list[Sample]) -> Rules:
         """Return the rules with what a survey tells."""
@@ -67,6 +80,10 @@ class Rules:
             least_layer=least or 0.0,
             resets_filament=found.resets_filament,
         )
+
+    def with_plan(self, plan: Plan) -> Rules:
+        """Return the rules with paths of our own."""
+        return replace(self, plan=plan)
 
     def with_deviation(self, deviation: float, before: Contact, after: Contact) -> Rules:
         """Return the rules with a deviation that was measured."""
@@ -120,6 +137,7 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
     tally.layers += int(marks.layer[-1] - (marks.layer[0] - (marks.tagged[0]))) if len(marks.layer) else 0
     tally.filament[tool] = tally.filament.get(tool, 0.0) + float(table.extruded.sum())
     infill = strokes(table, marks)
+    rules.memory.ways = ways_of(table, rules.memory.ways)
     sparse = marks.is_role(SPARSE)
     sections = np.unique(marks.section[sparse & (table.extruded > 0)])
     tally.sections += len(sections)
@@ -127,15 +145,14 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
         if len(sections):
             _count(tally, "no plain moves", len(sections))
         return table.data, tally
+    if rules.plan is not None:
+        return _replaced(table, marks, infill, rules, tally, tool)
     opens = first_moves(infill)
     section = marks.section[opens]
     new = rounded_strokes(table, marks, infill, rules.rounding, acceleration=rules.acceleration)
-    speed = np.maximum(table.f[opens] / 60, 1.0)
-    commanded = marks.acceleration[opens]
-    acceleration = np.where(np.isnan(commanded), rules.acceleration, commanded)
-    limits = neutral_limits()
-    before = path_seconds(infill.points, infill.first, speed, acceleration, limits)
-    after = path_seconds(new.points, new.first, speed, acceleration, limits)
+    speed, acceleration = table.f[opens] / 60, _accelerations(marks, opens, rules)
+    before = _seconds(infill.points, infill.first, speed, acceleration, rules)
+    after = _seconds(new.points, new.first, speed, acceleration, rules)
     chosen, reasons = _chosen(table, marks, infill, rules, after <= before * SLOWER)
     anew = redrawn(infill, new, chosen, rules.rounding)
     done = spliced(table, infill, anew)
@@ -161,6 +178,70 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
     tally.change[tool] = tally.change.get(tool, 0.0) - saved
     _count_corners(infill, changed, new.radius, tally)
     return done.text, tally
+
+
+def _replaced(
+    table: Table, marks: Marks, infill: Strokes, rules: Rules, tally: Tally, tool: int
+) -> tuple[bytes, Tally]:
+    """Return the text of a batch with paths of our own."""
+    plan, ways = rules.plan, rules.memory.ways
+    assert plan is not None
+    opens = first_moves(infill)
+    before = _seconds(infill.points, infill.first, table.f[opens] / 60, _accelerations(marks, opens, rules), rules)
+    fresh, reasons = fresh_sections(table, marks, infill, plan, rules.memory, rules.acceleration)
+    may, why = _chosen(table, marks, infill, rules, np.ones(len(infill), dtype=bool))
+    for reason, which in why.items():
+        sections = np.unique(marks.section[opens[which]])
+        _count(tally, reason, len(sections))
+    fresh = [each for each in fresh if may[each.body.strokes].all()]
+    for reason, number in reasons.items():
+        _count(tally, reason, number)
+    leaving = [each for each in fresh if outside(each)]
+    if leaving:
+        _count(tally, "a path would leave its region", len(leaving))
+        fresh = [each for each in fresh if each not in leaving]
+    if not fresh:
+        return _nothing(table, infill, before, tally)
+    texts, filament = [], []
+    for each in fresh:
+        text, pushed, _ = composed(table, each.body, each.paths, each.rate, ways, retractions(each, LEAST_TRAVEL))
+        texts.append(text)
+        filament.append(pushed)
+    done = exchanged(table, [each.body for each in fresh], texts)
+    other = read(done.text, table.before)
+    wrong = differing(table, other, done) or unlawful(other, done, [each.body.z for each in fresh])
+    if wrong:
+        _count(tally, f"a check failed: {wrong}", len(fresh))
+        return _nothing(table, infill, before, tally)
+    tally.replaced += len(fresh)
+    changed = np.zeros(len(infill), dtype=bool)
+    for each in fresh:
+        changed[each.body.strokes] = True
+    tally.seconds += float(before.sum())
+    tally.length += float(infill.length.sum())
+    tally.infill_filament += float(infill.filament.sum())
+    tally.seconds_after += float(before[~changed].sum())
+    tally.length_after += float(infill.length[~changed].sum())
+    for each in fresh:
+        first = np.concatenate([[0], np.cumsum([len(path) for path in each.paths])])
+        points = np.concatenate(each.paths)
+        speed = np.full(len(each.paths), each.body.feed / 60)
+        acceleration = np.full(len(each.paths), _accelerations(marks, np.array([each.body.first]), rules)[0])
+        tally.seconds_after += float(_seconds(points, first, speed, acceleration, rules).sum())
+        tally.length_after += float(lengths(points, first).sum())
+    tally.infill_filament_after += float(infill.filament[~changed].sum()) + sum(filament)
+    saved = float(infill.filament[changed].sum()) - sum(filament)
+    tally.change[tool] = tally.change.get(tool, 0.0) - saved
+    return done.text, tally
+
+
+def _accelerations(marks: Marks, line: Places, rules: Rules) -> Floats:
+    commanded = marks.acceleration[line]
+    return np.where(np.isnan(commanded), rules.acceleration, commanded)
+
+
+def _seconds(points: Floats, first: Places, speed: Floats, acceleration: Floats, rules: Rules) -> Floats:
+    return path_seconds(points, first, np.maximum(speed, 1.0), acceleration, rules.limits)
 
 
 def _nothing(table: Table, infill: Strokes, before: Floats, tally: Tally) -> tuple[bytes, Tally]:

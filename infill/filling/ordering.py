@@ -9,6 +9,8 @@ import numpy as np
 from infill.filling.clipping import is_closed
 from infill.filling.families.protocol import Path
 
+ENTRIES = 12  # of a closed path that are compared with those of others
+
 
 def order(paths: Sequence[Path], start: tuple[float, float] | None = None) -> list[Path]:
     """Return `paths` ordered for short travel; open ones may be reversed, closed ones may begin at another corner.
@@ -27,25 +29,25 @@ def order(paths: Sequence[Path], start: tuple[float, float] | None = None) -> li
     if not paths:
         return []
     closed = [is_closed(path) for path in paths]
-    # Where a path may be entered: at its ends, or at any corner of a closed one.
-    corner = [np.arange(len(path) - 1) if ring else np.array([0, len(path) - 1]) for path, ring in zip(paths, closed)]
-    owner = np.repeat(np.arange(len(paths)), [len(each) for each in corner])
-    where = np.concatenate([path[each] for path, each in zip(paths, corner, strict=True)])
-    entry = np.concatenate(corner)
+    # Where a path may be entered: at its ends, or at some corners of a closed one.
+    steps = [1 + len(path) // ENTRIES if ring else len(path) - 1 for path, ring in zip(paths, closed, strict=True)]
+    entries = [path[: len(path) - ring : step] for path, ring, step in zip(paths, closed, steps, strict=True)]
+    where = np.concatenate(entries)
+    first = np.concatenate([[0], np.cumsum([len(each) for each in entries])])
     here = np.array(paths[0][0] if start is None else start, dtype=np.float64)
     ordered: list[Path] = []
-    while len(owner):
+    for _ in paths:
         nearest = int(((where - here) ** 2).sum(axis=-1).argmin())
-        number, first = int(owner[nearest]), int(entry[nearest])
+        number = int(np.searchsorted(first, nearest, side="right")) - 1
         path = paths[number]
         if closed[number]:
-            path = np.concatenate([path[first:], path[1 : first + 1]])
-        elif first:
+            corner = int(((path[:-1] - here) ** 2).sum(axis=-1).argmin())
+            path = np.concatenate([path[corner:], path[1 : corner + 1]])
+        elif nearest != first[number]:
             path = path[::-1]
         ordered.append(path)
         here = path[-1]
-        left = owner != number
-        owner, where, entry = owner[left], where[left], entry[left]
+        where[first[number] : first[number + 1]] = np.inf
     return ordered
 
 

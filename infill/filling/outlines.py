@@ -1,4 +1,4 @@
-"""The outline of a region as edges that know their place along it: where paths are cut, and along which they are joined."""
+"""The outline of a region as edges that know their place along it: it cuts paths, and paths are joined along it."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Outline:
         return np.stack([np.interp(places, known, points[:, axis]) for axis in (0, 1)], axis=-1)
 
     def stretch(self, ring: int, begin: float, end: float) -> Path:
-        """Return the corners of a ring from one place to another, forwards if `end` > `begin`: (N, 2), ends included."""
+        """Return the corners of a ring from one place to another, backwards if `end` < `begin`: (N, 2), with ends."""
         low, high = min(begin, end), max(begin, end)
         around = self.around[ring]
         known = self.place[self.first[ring] : self.first[ring + 1]]
@@ -80,7 +80,7 @@ def outline_of(region: Polygon | MultiPolygon) -> Outline:
     if region.is_empty or not region.is_valid:
         said = "empty" if region.is_empty else shapely.is_valid_reason(region)
         raise GeometryError(f"the region is not a valid one ({said}); give one whose rings neither cross nor vanish")
-    points, number = shapely.get_coordinates(shapely.get_rings(region), return_index=True)
+    points, number = shapely.get_coordinates(shapely.get_rings(shapely.get_parts(region)), return_index=True)
     begin, end = points[:-1], points[1:]
     edge = (number[1:] == number[:-1]) & (begin != end).any(axis=-1)
     begin, end, ring = begin[edge], end[edge], number[:-1][edge].astype(np.intp)

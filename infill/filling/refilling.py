@@ -17,9 +17,11 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from infill.errors import FormatError, GeometryError
+from infill.filling.families.catalogue import FAMILIES
 from infill.filling.keeping import Rounding
 from infill.filling.layers import Rules, Tally, refilled_batch
-from infill.filling.request import SAME, Request
+from infill.filling.replacing import planned
+from infill.filling.request import KEEP, SAME, Request
 from infill.filling.support import largest_deviation, samples
 from infill.filling.telling import report_of_refill
 from infill.formats.whole_files import check_target, told, whole_file
@@ -175,6 +177,11 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
     some = samples(found)
     rules = Rules(rounding=rounding, acceleration=acceleration, request=request)
     rules = rules.with_survey(found, some)
+    if request.pattern != KEEP:
+        family = FAMILIES[request.pattern]
+        density = request.density if isinstance(request.density, float) else None
+        plan = planned(family, some, rounding, density=density, acceleration=acceleration)
+        return rules.with_plan(plan)
     if request.smooth_radius == "auto" and some:
         deviation, before, after = largest_deviation(some, rounding, acceleration)
         rules = rules.with_deviation(deviation, before, after)

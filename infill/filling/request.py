@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 from dataclasses import dataclass
 
 from infill.checks import positive, within
 from infill.errors import ParameterError
+from infill.filling.families.catalogue import FAMILIES
 
 KEEP = "keep"
 AUTO = "auto"
@@ -64,8 +66,10 @@ class Request:
             within("max deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError(f"layers are {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
-        if self.pattern != KEEP:
-            raise ParameterError(f"pattern is {self.pattern!r}; give keep")
+        if self.pattern != KEEP and self.pattern not in FAMILIES:
+            near = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
+            advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
+            raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise ParameterError("keep has the slicer's density; give another pattern, or set it in the slicer")
 

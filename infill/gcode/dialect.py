@@ -64,12 +64,12 @@ _ROLE_OF: Final = {name: role for role, names in ROLES.items() for name in names
 def role_of(name: bytes) -> str:
     """Return what a slicer's name of a feature means, the same word for every slicer, or "other".
 
-    Whole names count: "Gap infill" is no sparse infill.
+    No name is "untagged": what stands before the first tag. Whole names count: "Gap infill" is no sparse infill.
 
     >>> role_of(b"Internal infill"), role_of(b"FILL"), role_of(b"Gap infill"), role_of(b"Mill")
     ('sparse infill', 'sparse infill', 'gap fill', 'other')
     """
-    return _ROLE_OF.get(name.strip(), OTHER)
+    return _ROLE_OF.get(name.strip(), OTHER if name else UNTAGGED)
 
 
 def tag_of(comment: bytes) -> tuple[str, bytes] | None:

@@ -174,6 +174,11 @@ def unlike(table: Table, strokes: Strokes, new: Redrawn, done: Spliced) -> str:
     moves: each extrudes what its stroke extrudes per mm, above 0, without a move of z.
     """
     other = read(done.text, table.before)
+    return differing(table, other, done) or _wrong_moves(strokes, new, done, other)
+
+
+def differing(table: Table, other: Table, done: Spliced) -> str:
+    """Say how the lines that were copied, or the state at the end, differ between old and new text."""
     if len(other) != len(table) + int(done.shift[-1]):
         return "the number of lines"
     old = np.flatnonzero(done.same)
@@ -189,9 +194,7 @@ def unlike(table: Table, strokes: Strokes, new: Redrawn, done: Spliced) -> str:
     absolute = ~table.relative_e[old]
     if np.abs(table.e[old] - other.e[now])[absolute].max(initial=0) > near:
         return "the counter of filament"
-    if (mine := other.after) != table.after and not _alike(mine, table.after):
-        return "the state at the end"
-    return _wrong_moves(strokes, new, done, other)
+    return "" if _alike(other.after, table.after) else "the state at the end"
 
 
 def _alike(one: object, other: object) -> bool:

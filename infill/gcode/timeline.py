@@ -166,7 +166,8 @@ class Timeline:
         if arcs.any():
             bent = np.flatnonzero(arcs & ~np.isnan(before[:, :2]).any(axis=1))
             centre = before[bent, :2] + np.nan_to_num(np.column_stack([table.i[bent], table.j[bent]]))
-            which, start, end = chords(before[bent], place[bent], centre, table.code[bent] == 2)
+            ends = np.nan_to_num(before[bent]), np.nan_to_num(place[bent])  # z may be unknown
+            which, start, end = chords(*ends, centre, table.code[bent] == 2)
             long = np.linalg.norm(end - start, axis=1)
             share = long / np.maximum(np.bincount(which, weights=long, minlength=len(bent))[which], 1e-300)
             order = np.argsort(np.concatenate([line, bent[which]]), kind="stable")

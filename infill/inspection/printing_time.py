@@ -8,11 +8,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from infill.errors import ParameterError
-from infill.gcode.dialect import UNTAGGED, role_of
+from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import USED, FoundLimits
 from infill.gcode.limits import Limits, Model
 from infill.gcode.timeline import Timeline
@@ -111,29 +108,6 @@ class Motion:
         return sum(each.seconds for each in self.features if each.role == role)
 
 
-@dataclass(frozen=True, kw_only=True)
-class LayerMotion:
-    """The moves of one layer.
-
-    Parameters
-    ----------
-    start, end : (N, 3) float64
-        mm
-    speed : (N,) float64
-        Mean speed, mm/s.
-    draws : (N,) bool
-        Filament is laid.
-    role : (N,) str
-        What the feature in force means.
-    """
-
-    start: NDArray[np.float64]
-    end: NDArray[np.float64]
-    speed: NDArray[np.float64]
-    draws: NDArray[np.bool_]
-    role: NDArray[np.str_]
-
-
 def motion(
     path: str | os.PathLike[str],
     *,
@@ -204,39 +178,6 @@ def motion(
     )
 
 
-def layer_motion(path: str | os.PathLike[str], layer: int, **given: Any) -> LayerMotion:  # noqa: ANN401
-    """Plan a file as `motion` does and return the moves of one layer.
-
-    Parameters
-    ----------
-    path : path
-    layer : int
-        Counted from 1.
-    **given
-        As for `motion`.
-
-    Raises
-    ------
-    ParameterError
-        If the file has no such layer.
-    """
-    timeline = Timeline(Path(path), given_limits(**given))
-    found = []
-    for steps, plan in timeline:
-        some = steps.layer == layer
-        delta, start = steps.moves.delta[some], steps.start[some]
-        distance = np.linalg.norm(delta[:, :3], axis=1)
-        speed = distance / np.maximum(plan.seconds[some], 1e-12)
-        roles = np.array([_role(name) for name in timeline.features])[steps.feature[some]]
-        moved = (distance > 0) & ~np.isnan(start[:, :2]).any(axis=1)
-        columns = (start, start + delta[:, :3], speed, delta[:, 3] > 0, roles)
-        found.append([column[moved] for column in columns])
-    if not sum(len(rows[0]) for rows in found):
-        raise ParameterError(f"layer is {layer}; {Path(path).name} has layers 1 to {timeline.layers} with moves")
-    start, end, speed, draws, role = (np.concatenate(columns) for columns in zip(*found, strict=True))
-    return LayerMotion(start=start, end=end, speed=speed, draws=draws, role=role)
-
-
 def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     """Return the fields of `Limits` that the arguments of `motion` mean.
 
@@ -259,10 +200,6 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     return fixed
 
 
-def _role(name: bytes) -> str:
-    return role_of(name) if name else UNTAGGED
-
-
 def _feature(number: int, name: bytes, strokes: Strokes, area: float) -> FeatureMotion:
     row = {
         each: float(strokes.total(each)[number]) if number < len(strokes.sums) else 0.0
@@ -274,7 +211,7 @@ def _feature(number: int, name: bytes, strokes: Strokes, area: float) -> Feature
     }
     return FeatureMotion(
         name=name.decode("utf-8", "replace"),
-        role=_role(name),
+        role=role_of(name),
         seconds=row["seconds"],
         drawing_seconds=row["drawing"],
         filament=row["filament"],

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from infill.inspection.printing_time import LayerMotion
+from infill.inspection.layer_speeds import LayerSpeeds
 
 PANEL: Final = 640  # pixels
 MARGIN, CAPTION, BAR = 16, 28, 44
@@ -28,12 +28,12 @@ def colours(speed: NDArray[np.floating], top: float) -> NDArray[np.uint8]:
     return np.column_stack([np.interp(place, np.arange(len(STOPS)), channel) for channel in STOPS.T]).astype(np.uint8)
 
 
-def write_speeds(layers: Mapping[str, LayerMotion], file: BinaryIO) -> None:
+def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
     """Write layers side by side as PNG.
 
     Parameters
     ----------
-    layers : mapping of str to LayerMotion
+    layers : mapping of str to LayerSpeeds
         By caption.
     file : binary file
     """
@@ -53,7 +53,7 @@ def write_speeds(layers: Mapping[str, LayerMotion], file: BinaryIO) -> None:
     sheet.save(file, format="PNG", optimize=True)
 
 
-def _panel(layer: LayerMotion, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
+def _panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
     size = PANEL * SUPERSAMPLING
     scale = (size - 2 * SUPERSAMPLING) / extent
     picture = Image.new("RGB", (size, size), PAPER)

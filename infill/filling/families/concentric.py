@@ -48,7 +48,7 @@ class Concentric:
         inner = region.buffer(-cell / 2, quad_segs=ARC)
         while not inner.is_empty:
             kept = shapely.simplify(inner.buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC), SIMPLER)
-            rings = shapely.get_rings(kept)
+            rings = shapely.get_rings(shapely.get_parts(kept))
             paths.extend(shapely.get_coordinates(ring) for ring in rings)
             inner = inner.buffer(-cell, quad_segs=ARC)
         return paths

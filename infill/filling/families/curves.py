@@ -28,7 +28,8 @@ def parameters(curve: Callable[[Floats], Path], last: float) -> Floats:
     """
     place = np.linspace(0, last, SAMPLES + 1)
     points = curve(place)
-    first, second = np.gradient(points, axis=0), np.gradient(np.gradient(points, axis=0), axis=0)
+    first = np.gradient(points, axis=0, edge_order=2)
+    second = np.gradient(first, axis=0, edge_order=2)
     speed = np.hypot(*first.T)
     curvature = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / np.maximum(speed, 1e-12) ** 3
     longest = LONGEST * float(speed.mean()) * SAMPLES
@@ -54,9 +55,13 @@ def rows(curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Boun
     corners = np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]]) @ frame.T / (unit * math.tau)
     (u0, v0), (u1, v1) = corners.min(axis=0), corners.max(axis=0)
     column = np.arange(math.floor(u0), math.ceil(u1) + 1)
-    paths = []
+    paths: list[Path] = []
     for curve in curves:
-        u = parameters(lambda angle, curve=curve: unit * np.stack([angle, curve(angle)], axis=-1), math.tau)[:-1]
+
+        def points(angle: Floats, curve: Callable[[Floats], Floats] = curve) -> Path:
+            return unit * np.stack([angle, curve(angle)], axis=-1)
+
+        u = parameters(points, math.tau)[:-1]
         v = curve(u)
         row = np.arange(math.floor(v0 - v.max() / math.tau), math.ceil(v1 - v.min() / math.tau) + 1)
         along = np.tile(((column * math.tau)[:, None] + u).ravel(), (len(row), 1))

@@ -102,9 +102,7 @@ class SchwarzP:
 
         points = quarter(parameters(quarter, math.pi))
         turned = points[::-1]
-        loop = np.concatenate(
-            [points, (turned * [1, -1])[1:], (points * [-1, -1])[1:], (turned * [-1, 1])[1:]], axis=0
-        )
+        loop = np.concatenate([points, (turned * [1, -1])[1:], (points * [-1, -1])[1:], (turned * [-1, 1])[1:]], axis=0)
         return copies(loop + (cell / 2 if cosine > 0 else 0.0), cell, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -142,7 +140,9 @@ class SchwarzD:
             def swing(angle: Floats) -> Floats:
                 return np.arcsin(sine / cosine * np.cos(angle))
 
-            return rows([lambda angle: -swing(angle), lambda angle: math.pi + swing(angle)], unit, bounds, DIAGONAL[::-1])
+            return rows(
+                [lambda angle: -swing(angle), lambda angle: math.pi + swing(angle)], unit, bounds, DIAGONAL[::-1]
+            )
 
         def reach(angle: Floats) -> Floats:
             return np.arccos(-cosine / sine * np.sin(angle))

@@ -1,4 +1,4 @@
-r"""Three directions of lines, 60° apart, with every crossing resolved: triangles, stars and hexagons, and cubes on a corner.
+r"""Lines in three directions with every crossing resolved: triangles, stars and hexagons, and cubes on a corner.
 
 Lines along x cut the diamonds between the lines of the two other directions, at a share s of their half height::
 

@@ -1,10 +1,10 @@
-"""Rows of waves with straight flanks and flat crests, the common shape of families that touch but never cross.
+r"""Rows of waves with straight flanks and flat crests, the common shape of families that touch but never cross.
 
 ::
 
         .------.          .------.      top
-       /        \        /        \
-      /          \      /          \    height
+       /        \\        /        \
+      /          \\      /          \\    height
     -'            '----'            '-  bottom
     |<---- period ---->|
 
@@ -27,7 +27,7 @@ BOND = 1.0  # line widths that crests touch along, at least
 
 @dataclass(frozen=True, kw_only=True)
 class Wave:
-    """One wave of every row: lengths in mm, `base` the height of its bottom and `shift` where a bottom has its middle."""
+    """One wave of every row, mm: `base` is the height of its bottom, and `shift` where one has its middle."""
 
     period: float
     bottom: float

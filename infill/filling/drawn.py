@@ -1,0 +1,164 @@
+"""A drawing as a family of paths: a tile that is repeated, smoothed by the paper's equation."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.checks import length, positive, within
+from infill.errors import GeometryError
+from infill.filling.tile_fields import tile_grid, two_colours
+from infill.filling.tile_lines import TOUCH, borders
+from infill.filling.tile_paths import Strand, repeated, tile_strands
+from infill.filling.tiles import tile_of, traced
+from infill.formats.drawing import Bounds, Drawing, Picture
+from infill.formats.drawings import read_drawing
+
+IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
+LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
+BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
+LARGEST_RADIUS = 0.1  # of the smaller side of a tile
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Drawn:
+    """A drawing that is repeated in both directions; `cell` is the width of its tile, mm.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    drawing : Drawing
+        Its lines, with the tile as the page.
+    """
+
+    name: str
+    drawing: Drawing
+    summary: str = "a drawing, repeated"
+    prismatic: bool = True
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What the file holds besides lines, in words: "2 texts"."""
+        return self.drawing.left_out
+
+    @property
+    def width(self) -> float:
+        """The width of the tile as drawn, mm."""
+        x0, _, x1, _ = self.tile
+        return x1 - x0
+
+    @property
+    def tile(self) -> Bounds:
+        """The box that is repeated, mm."""
+        assert self.drawing.page is not None
+        return self.drawing.page
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float = 0.0,  # noqa: ARG002 - every layer is the same
+        layer: int = 0,  # noqa: ARG002
+        radius: float = 0.0,
+    ) -> list[NDArray[np.float64]]:
+        """Return paths that cover a box: no two cross, and those of open or branching lines run on both sides of them.
+
+        Parameters
+        ----------
+        bounds : (x0, y0, x1, y1)
+            mm.
+        cell : float
+            Width of the tile, mm.
+        line_width : float
+            mm.
+        z, layer
+            Of no effect.
+        radius : float
+            mm: about the radius that a right angle gets, up to `largest_radius`. Small outlines get less.
+
+        Raises
+        ------
+        GeometryError
+            If nothing is left of the drawing at this size, or the tile is too large for the line width.
+        """
+        width = length("cell", cell)
+        least = min(within("radius", radius, 0, 1e6, "mm"), self.largest_radius(width, line_width))
+        strands, size = _strands(self, width, length("line_width", line_width), least)
+        return repeated(strands, size, bounds)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the width of the tile at which the paths fill about `density` of the plane."""
+        within("density", density, 1e-4, 1)
+        positive("line_width", line_width, "mm")
+        _, y0, _, y1 = self.tile
+        drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
+        cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
+        for _ in range(IMPROVED):
+            strands, size = _strands(self, cell, line_width, 0.0)
+            found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
+            cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
+        return cell
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002 - as all families
+        """Return a tenth of the smaller side of the tile, mm: beyond, little would be left of the drawing."""
+        x0, y0, x1, y1 = self.tile
+        return LARGEST_RADIUS * cell * min(1.0, (y1 - y0) / (x1 - x0))
+
+
+def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
+    """Return a drawing as a family of paths.
+
+    Parameters
+    ----------
+    path : str or Path
+        .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. What is repeated is the page, where the drawing extends over
+        a quarter of it in one direction at least. Otherwise it is the box around the lines, from where they begin on
+        one side to where they go on from the other; outlines that do not go on get a gap between them.
+    width : float, optional
+        Width of the tile, mm; by default as drawn, and a tenth of a millimetre a pixel.
+
+    Raises
+    ------
+    FormatError
+        See `read_drawing`.
+    """
+    found = read_drawing(path)
+    drawing = traced(found, Path(path)) if isinstance(found, Picture) else replace(found, page=tile_of(found))
+    if width is not None:
+        drawing = _scaled(drawing, length("width", width))
+    return Drawn(name=Path(path).name, drawing=drawing)
+
+
+def _scaled(drawing: Drawing, width: float) -> Drawing:
+    assert drawing.page is not None
+    x0, y0, x1, y1 = drawing.page
+    factor = positive("width", width, "mm") / (x1 - x0)
+    lines = tuple((line - (x0, y0)) * factor for line in drawing.lines)
+    return replace(drawing, lines=lines, page=(0.0, 0.0, width, (y1 - y0) * factor))
+
+
+@lru_cache(maxsize=8)
+def _strands(family: Drawn, cell: float, line_width: float, radius: float) -> tuple[list[Strand], tuple[float, float]]:
+    """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
+    x0, y0, x1, y1 = family.tile
+    factor = cell / (x1 - x0)
+    size = cell, (y1 - y0) * factor
+    lines = [(line - (x0, y0)) * factor for line in family.drawing.lines]
+    blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
+    grid = tile_grid(size, line_width=line_width, blur=blur)
+    field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
+    strands = tile_strands(field, grid)
+    if not strands:
+        raise GeometryError(
+            f"nothing is left of {family.name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
+            f"{line_width:g} mm; make the cell larger"
+        )
+    return strands, size

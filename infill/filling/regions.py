@@ -1,0 +1,119 @@
+"""Where a slicer may print its infill: what its other beads leave free, as polygons.
+
+Step 1. On a grid, take the distance d from every node to the nearest other bead of the layer.
+Step 2. The slicer's infill keeps a distance d0 from them: its own paths along the walls tell it.
+Step 3. The outlines of {d > d0} are followed; those that hold some of the slicer's infill are the region.
+
+A layer whose beads agree with the region of the layer before it has that region.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from shapely import Polygon
+
+Floats = NDArray[np.float64]
+
+STEP = 0.15  # mm between the points on beads
+NODES = 0.2  # mm between the nodes of the grid
+REACH = 1.2  # mm: distances above this do not matter
+ALONG_WALLS = 0.7  # mm: infill nearer than this to another bead runs along it
+SHARE_BESIDE = 0.1  # of the points beside walls that may lie nearer than d0: where infill is anchored in skins
+LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
+SAME_WITHIN = 0.02  # mm
+LEAST_AREA = 0.5  # mm²
+
+
+@dataclass(frozen=True, kw_only=True)
+class Region:
+    """The free areas of a layer that hold infill.
+
+    Parameters
+    ----------
+    polygons : tuple of Polygon
+        mm, for centre lines.
+    distance : float, mm
+        How far they keep from other beads.
+    """
+
+    polygons: tuple[Polygon, ...]
+    distance: float
+
+
+def region_of(walls: Floats, infill: Floats, before: Region | None = None) -> Region:
+    """Return the region of a layer.
+
+    Parameters
+    ----------
+    walls : (N, 2) float64, mm
+        Points on the other beads of the layer, at most `STEP` apart.
+    infill : (M, 2) float64, mm
+        Points on the slicer's infill.
+    before : Region, optional
+        Of the layer before; returned if it fits.
+    """
+    from scipy.spatial import cKDTree
+
+    if not len(walls) or not len(infill):
+        return Region(polygons=(), distance=USUAL_DISTANCE)
+    tree = cKDTree(walls)
+    distance = _kept_distance(tree.query(infill, distance_upper_bound=ALONG_WALLS)[0])
+    if before is not None and _fits(before, tree, infill, distance):
+        return before
+    low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
+    x, y = (np.arange(low[axis], high[axis] + NODES, NODES) for axis in (0, 1))
+    nodes = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    near, _ = tree.query(nodes.reshape(-1, 2), distance_upper_bound=REACH)
+    field = np.minimum(near, REACH).reshape(nodes.shape[:2])
+    # Points stand half a step to either side of the nearest place on their bead.
+    field = np.sqrt(np.maximum(field**2 - (STEP / 4) ** 2, 0.0))
+    return Region(polygons=_outlines(field, x[0], y[0], distance, infill), distance=distance)
+
+
+def _kept_distance(near: Floats) -> float:
+    """Return the distance that infill keeps from other beads."""
+    beside = near[np.isfinite(near) & (near > LEAST_DISTANCE)]
+    if len(beside) < 10:
+        return USUAL_DISTANCE
+    return float(np.quantile(beside, SHARE_BESIDE))
+
+
+def _fits(region: Region, tree: object, infill: Floats, distance: float) -> bool:
+    """Return whether the region of another layer is that of this one too."""
+    import shapely
+
+    if not region.polygons or abs(region.distance - distance) > SAME_WITHIN:
+        return False
+    outline = shapely.get_coordinates(np.array(region.polygons, dtype=object))
+    near, _ = tree.query(outline, distance_upper_bound=REACH)  # type: ignore[attr-defined]
+    if np.abs(near - region.distance).max() > NODES / 4 + SAME_WITHIN:
+        return False
+    whole = shapely.union_all([polygon.buffer(0.1) for polygon in region.polygons])
+    shapely.prepare(whole)
+    inside = shapely.contains_xy(whole, infill[:, 0], infill[:, 1])
+    return bool(inside.mean() > 0.99)
+
+
+def _outlines(field: Floats, x0: float, y0: float, distance: float, infill: Floats) -> tuple[Polygon, ...]:
+    """Return the polygons in which the field is above `distance` and which hold some of the infill."""
+    import shapely
+    from skimage.measure import find_contours
+
+    padded = np.pad(field, 1, constant_values=0.0)
+    contours = find_contours(padded, distance)  # type: ignore[no-untyped-call]
+    rings = [shapely.linearrings((line - 1) * NODES + (x0, y0)) for line in contours if len(line) > 3]
+    if not rings:
+        return ()
+    free = shapely.build_area(shapely.GeometryCollection([shapely.LineString(ring.coords) for ring in rings]))
+    parts = shapely.get_parts(free)
+    parts = parts[shapely.area(parts) > LEAST_AREA]
+    tree = shapely.STRtree(shapely.points(infill))
+    held = np.bincount(tree.query(parts, predicate="contains")[0], minlength=len(parts))
+    kept = parts[held > 0]
+    return tuple(shapely.simplify(kept, SAME_WITHIN / 4))

@@ -1,0 +1,315 @@
+"""SVG: the outlines and strokes of its shapes, in mm and y upwards.
+
+Read are paths, the basic shapes, groups, nested pages, symbols and copies by `use`, with their transforms, and the
+size of the page in physical units. Lines have no width here, and colours do not matter; texts, pictures and the
+shapes of clips, masks and fills are left out and counted. Style sheets are not read.
+
+Source: Scalable Vector Graphics (SVG) 2, W3C 2018; CSS lengths at 96 px to the inch.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree import ElementTree
+from xml.parsers import expat
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.broken import told_broken
+from infill.formats.drawing import Bounds, Drawing, Line, checked_drawing
+from infill.formats.svg_paths import NUMBER, TURN, arc_points, path_lines
+
+Matrix = NDArray[np.float64]  # (2, 3)
+
+PX = 25.4 / 96  # mm
+UNITS = {"": 1.0, "px": 1.0, "pt": 4 / 3, "pc": 16.0, "mm": 1 / PX, "cm": 10 / PX, "q": 0.25 / PX, "in": 96.0}  # px
+LARGEST_FILE = 50_000_000  # bytes
+LONGEST_ENTITY = 256  # characters: names of namespaces, which some programs abbreviate
+MOST_ELEMENTS = 100_000  # copies counted, which may copy copies
+DEEPEST = 100
+HIDDEN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
+LEFT_OUT = {"text": "text", "image": "picture", "foreignObject": "foreign object"}
+IDENTITY = np.array([[1.0, 0, 0], [0, 1, 0]])
+
+
+def read_svg(path: Path) -> Drawing:
+    """Return the drawing of an SVG file; see the module for what is read."""
+    if path.stat().st_size > LARGEST_FILE:
+        raise FormatError(f"{path} has {path.stat().st_size} bytes; the limit is {LARGEST_FILE}; simplify the drawing")
+    with told_broken(path, advice="save it again as plain SVG"), np.errstate(all="ignore"):
+        root = _tree(path.read_bytes())
+        if _tag(root) != "svg":
+            raise ValueError(f"its root is {_tag(root)}, not svg")
+        reader = _Reader(root)
+        lines = list(reader.lines())
+    flip = np.array([1.0, -1.0])
+    upright = [line * (PX, PX) * flip + (0, reader.page[3] * PX if reader.page else 0) for line in lines]
+    page = None
+    if reader.page:
+        x0, y0, x1, y1 = (each * PX for each in reader.page)
+        page = (x0, y1 - y1, x1, y1 - y0)
+    return checked_drawing(path, upright, page=page, left_out=dict(reader.left_out))
+
+
+# --- XML -------------------------------------------------------------------------------------------------
+
+
+def _tree(data: bytes) -> ElementTree.Element:
+    """Return the root; entities that could grow are refused, and none is fetched from outside."""
+    builder = ElementTree.TreeBuilder()
+    parser = expat.ParserCreate(namespace_separator="}")
+    parser.buffer_text = True
+    depth = 0
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        nonlocal depth
+        depth += 1
+        if depth > DEEPEST:
+            raise ValueError(f"its groups are nested deeper than {DEEPEST}")
+        builder.start(name, attributes)
+
+    def end(name: str) -> None:
+        nonlocal depth
+        depth -= 1
+        builder.end(name)
+
+    def entity(name: str, _parameter: bool, value: str | None, *_rest: object) -> None:
+        if value is not None and (len(value) > LONGEST_ENTITY or "&" in value or "%" in value):
+            raise ValueError(f"its entity {name[:30]!r} holds others or is too long")
+
+    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.EntityDeclHandler = entity
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        raise ValueError(str(error)) from error
+    return builder.close()
+
+
+def _tag(element: ElementTree.Element) -> str:
+    return element.tag.rpartition("}")[2]
+
+
+# --- numbers ---------------------------------------------------------------------------------------------
+
+
+def _length(text: str | None, whole: float, otherwise: float = 0.0) -> float:
+    """Return a length in user units (px); `whole` is what 100 % means."""
+    if text is None or text.strip() in ("", "auto"):
+        return otherwise
+    found = re.fullmatch(rf"\s*({NUMBER})\s*([A-Za-z]*|%)\s*", text)
+    if found and found[2] == "%":
+        return float(found[1]) / 100 * whole
+    if not found or found[2].lower() not in UNITS:
+        raise ValueError(f"it gives the length {text[:30]!r}")
+    return float(found[1]) * UNITS[found[2].lower()]
+
+
+def _numbers(text: str) -> list[float]:
+    if re.sub(r"[\s,]", "", re.sub(NUMBER, "", text)):
+        raise ValueError(f"it gives {text.strip()[:30]!r} for numbers")
+    return [float(each) for each in re.findall(NUMBER, text)]
+
+
+def _matrix(text: str | None) -> Matrix:
+    """Return the matrix of an attribute `transform`."""
+    matrix = IDENTITY
+    for name, inside in re.findall(r"(\w+)\s*\(([^)]*)\)", text or ""):
+        numbers = _numbers(inside)
+        match name, numbers:
+            case "matrix", [a, b, c, d, e, f]:
+                each = [[a, c, e], [b, d, f]]
+            case "translate", [x, *y] if len(y) < 2:
+                each = [[1, 0, x], [0, 1, *(y or [0])]]
+            case "scale", [x, *y] if len(y) < 2:
+                each = [[x, 0, 0], [0, *(y or [x]), 0]]
+            case "rotate", [angle, *centre] if len(centre) in (0, 2):
+                cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+                x, y0 = centre or (0.0, 0.0)
+                each = [[cos, -sin, x - cos * x + sin * y0], [sin, cos, y0 - sin * x - cos * y0]]
+            case "skewX", [angle]:
+                each = [[1, math.tan(math.radians(angle)), 0], [0, 1, 0]]
+            case "skewY", [angle]:
+                each = [[1, 0, 0], [math.tan(math.radians(angle)), 1, 0]]
+            case _:
+                raise ValueError(f"it holds the transform {name}({inside[:30]})")
+        matrix = _then(matrix, np.array(each, dtype=np.float64))
+    return matrix
+
+
+def _then(outer: Matrix, inner: Matrix) -> Matrix:
+    both: Matrix = outer[:, :2] @ inner
+    both[:, 2] += outer[:, 2]
+    return both
+
+
+# --- shapes ----------------------------------------------------------------------------------------------
+
+
+class _Reader:
+    """Goes through the elements, and counts what it leaves out."""
+
+    def __init__(self, root: ElementTree.Element) -> None:
+        self.root = root
+        self.left_out: Counter[str] = Counter()
+        self.visited = 0
+        self.by_name = {each.get("id"): each for each in root.iter() if each.get("id")}
+        self.page = self._page()
+        x0, y0, x1, y1 = self.page or (0.0, 0.0, 0.0, 0.0)
+        self.view = (x1 - x0, y1 - y0)  # what 100 % means
+
+    def _page(self) -> Bounds | None:
+        box = self.root.get("viewBox")
+        numbers = _numbers(box) if box else []
+        wide, high = numbers[2:] if len(numbers) == 4 else (0.0, 0.0)
+        width = _length(self.root.get("width"), wide, wide)
+        height = _length(self.root.get("height"), high, high)
+        return (0.0, 0.0, width, height) if width > 0 and height > 0 else None
+
+    def lines(self) -> Iterator[Line]:
+        """Yield the lines in px of the page, y downwards."""
+        matrix = IDENTITY
+        if self.page:
+            matrix = _fitted(self.root, self.page[2], self.page[3])
+        box = self.root.get("viewBox")
+        if box:
+            self.view = (_numbers(box)[2], _numbers(box)[3])
+        for each in self.root:
+            yield from self._inside(each, matrix, 0)
+
+    def _inside(self, element: ElementTree.Element, outer: Matrix, depth: int) -> Iterator[Line]:
+        tag, get = _tag(element), element.get
+        style = f"{get('style', '')};display:{get('display', '')};visibility:{get('visibility', '')}"
+        if tag in HIDDEN or re.search(r"display:\s*none|visibility:\s*(hidden|collapse)", style):
+            return
+        if tag in LEFT_OUT:
+            self.left_out[LEFT_OUT[tag]] += 1
+            return
+        if get("clip-path") or get("mask"):
+            self.left_out["clip"] += 1
+        self.visited += 1
+        if self.visited > MOST_ELEMENTS:
+            raise ValueError(f"it draws more than {MOST_ELEMENTS} elements")
+        if depth > DEEPEST:
+            raise ValueError("a copy by `use` contains itself")
+        matrix = _then(outer, _matrix(get("transform")))
+        width, height = self.view
+        if tag in ("svg", "use", "symbol"):
+            place = np.array([[1, 0, _length(get("x"), width)], [0, 1, _length(get("y"), height)]])
+            matrix = _then(matrix, place)
+        if tag == "svg":
+            matrix = _then(matrix, self._nested(element, element))
+        if tag == "use":
+            yield from self._copied(element, matrix, depth)
+        elif tag in ("g", "svg", "a", "switch"):
+            for each in element:
+                yield from self._inside(each, matrix, depth + 1)
+        else:
+            for line in self._shape(element, tag):
+                yield line @ matrix[:, :2].T + matrix[:, 2]
+
+    def _nested(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:
+        width, height = (
+            _length(sized.get(name), whole, whole) for name, whole in zip(("width", "height"), self.view, strict=True)
+        )
+        return _fitted(element, width, height)
+
+    def _copied(self, element: ElementTree.Element, matrix: Matrix, depth: int) -> Iterator[Line]:
+        name = element.get("href") or element.get("http://www.w3.org/1999/xlink}href") or ""
+        target = self.by_name.get(name.removeprefix("#"))
+        if target is None:
+            self.left_out["copy of something outside"] += 1
+        elif _tag(target) == "symbol":
+            matrix = _then(matrix, self._nested(target, element))
+            for each in target:
+                yield from self._inside(each, matrix, depth + 1)
+        else:
+            yield from self._inside(target, matrix, depth + 1)
+
+    def _shape(self, element: ElementTree.Element, tag: str) -> list[Line]:
+        width, height = self.view
+        mean = math.hypot(width, height) / math.sqrt(2)
+
+        def get(name: str) -> float:
+            whole = {"x": width, "c": width, "w": width, "y": height, "h": height}.get(name[0], mean)
+            return _length(element.get(name), height if name in ("cy", "ry") else whole)
+
+        match tag:
+            case "path":
+                return path_lines(element.get("d") or "")
+            case "line":
+                return [np.array([[get("x1"), get("y1")], [get("x2"), get("y2")]])]
+            case "polyline" | "polygon":
+                numbers = _numbers(element.get("points") or "")
+                points = np.array(numbers[: len(numbers) // 2 * 2]).reshape(-1, 2)
+                return [np.vstack([points, points[:1]]) if tag == "polygon" else points]
+            case "circle":
+                return _ellipse(get("cx"), get("cy"), get("r"), get("r"))
+            case "ellipse":
+                rx, ry = (element.get(name) for name in ("rx", "ry"))
+                return _ellipse(get("cx"), get("cy"), get("rx" if rx else "ry"), get("ry" if ry else "rx"))
+            case "rect":
+                if self._is_ground(element, (get("x"), get("y"), get("width"), get("height"))):
+                    self.left_out["background"] += 1
+                    return []
+                across, up = get("rx"), get("ry")
+                return _rectangle(get("x"), get("y"), get("width"), get("height"), across or up, up or across)
+        return []
+
+    def _is_ground(self, element: ElementTree.Element, box: Bounds) -> bool:
+        """Return whether a rectangle is the ground of the page: filled, without a stroke, and covering it."""
+        stroke = re.search(r"stroke:\s*(\w+)", element.get("style", ""))
+        stroked = (stroke[1] if stroke else element.get("stroke", "none")) != "none"
+        return (
+            not stroked and self.page is not None and box[2] >= 0.999 * self.view[0] and box[3] >= 0.999 * self.view[1]
+        )
+
+
+def _fitted(element: ElementTree.Element, width: float, height: float) -> Matrix:
+    """Return the matrix that puts the view box of an element into width × height."""
+    box = element.get("viewBox")
+    if not box:
+        return IDENTITY
+    numbers = _numbers(box)
+    if len(numbers) != 4 or min(numbers[2:]) <= 0:
+        raise ValueError(f"it gives the view box {box[:40]!r}")
+    x, y, wide, high = numbers
+    across, up = width / wide, height / high
+    how = element.get("preserveAspectRatio", "xMidYMid meet")
+    if "none" not in how:
+        across = up = max(across, up) if "slice" in how else min(across, up)
+    left, top = width - wide * across, height - high * up
+    left *= 0 if "xMin" in how else 1 if "xMax" in how else 0.5
+    top *= 0 if "YMin" in how else 1 if "YMax" in how else 0.5
+    return np.array([[across, 0, left - x * across], [0, up, top - y * up]])
+
+
+def _ellipse(x: float, y: float, rx: float, ry: float) -> list[Line]:
+    if not (rx > 0 and ry > 0):
+        return []
+    angles = np.linspace(0, 2 * math.pi, 1 + math.ceil(2 * math.pi / TURN))
+    points = np.stack([x + rx * np.cos(angles), y + ry * np.sin(angles)], axis=1)
+    points[-1] = points[0]
+    return [points]
+
+
+def _rectangle(x: float, y: float, width: float, height: float, rx: float, ry: float) -> list[Line]:
+    if not (width > 0 and height > 0):
+        return []
+    rx, ry = min(rx, width / 2), min(ry, height / 2)
+    if rx <= 0 or ry <= 0:
+        return [np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height], [x, y]])]
+    corners = []
+    for sx, sy in ((1, 0), (1, 1), (0, 1), (0, 0)):  # clockwise on the page, from the upper right
+        corner = np.array([x + sx * width, y + sy * height])
+        inward = np.array([rx if sx == 0 else -rx, 0.0]), np.array([0.0, ry if sy == 0 else -ry])
+        first, last = (corner + inward[0], corner + inward[1]) if sx != sy else (corner + inward[1], corner + inward[0])
+        corners += [first[None], arc_points(first, last, (rx, ry), 0.0, large=False, sweep=True)]
+    points = np.concatenate(corners)
+    return [np.vstack([points, points[:1]])]

@@ -1,0 +1,157 @@
+"""The archives that Bambu Studio and OrcaSlicer print from (.gcode.3mf): a zip with the G-code of each plate.
+
+    Metadata/plate_1.gcode        the text
+    Metadata/plate_1.gcode.md5    its MD5 in hexadecimal digits
+
+A printer refuses a plate whose MD5 does not fit, so it is compared on reading and made anew on writing.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import zipfile
+import zlib
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from copy import copy
+from typing import BinaryIO
+
+from infill.errors import FormatError, ParameterError
+from infill.gcode.piece_file import LONGEST_TEXT, whole_lines
+
+PLATE = re.compile(r"Metadata/plate_([0-9]+)\.gcode")
+SUM = ".md5"
+LARGE = 1 << 30  # bytes; from here on the zip is told that a member may pass 2 GiB
+AGAIN = "copy or slice the file again"
+
+
+def is_archive(head: bytes) -> bool:
+    """Tell a zip by its first bytes (four are enough); `plates` tells whether there is G-code in it."""
+    return head[:4] == b"PK\x03\x04"
+
+
+def plates(file: BinaryIO) -> tuple[int, ...]:
+    """List the numbers of the plates that have G-code, in order.
+
+    Raises
+    ------
+    FormatError
+        The file is no zip, is damaged, or holds no G-code.
+    """
+    with _archive(file) as archive:
+        return tuple(sorted(_members(archive)))
+
+
+def plate_pieces(file: BinaryIO, plate: int) -> Iterator[bytes]:
+    """Read the G-code text of one plate in pieces of whole lines.
+
+    Raises
+    ------
+    FormatError
+        As `plates`; or, after the last piece, the MD5 beside the text does not fit.
+    ParameterError
+        There is no such plate.
+    """
+    return whole_lines(_text(file, plate))
+
+
+def rewritten_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, Iterable[bytes]]) -> None:
+    """Write an archive anew with other G-code for some plates, and its MD5; all other members keep their bytes.
+
+    Parameters
+    ----------
+    source, target : BinaryIO
+        The old file and the new one.
+    texts : mapping from plate to iterable of bytes
+        The new text of each plate that changes, in pieces of any length, taken one by one. It may come from
+        `plate_pieces` of the same file opened once more.
+
+    Raises
+    ------
+    FormatError, ParameterError
+        As `plate_pieces`.
+    """
+    with _archive(source) as old, zipfile.ZipFile(target, "w") as new:
+        members = _members(old)
+        changed = {_member(members, plate): text for plate, text in texts.items()}
+        for info in old.infolist():
+            if info.filename in changed:
+                _write_plate(old, new, info, changed[info.filename])
+            elif info.filename.removesuffix(SUM) not in changed:
+                with _opened(new, info) as writing:
+                    writing.writelines(_chunks(old, info.filename))
+        new.comment = old.comment
+
+
+def _write_plate(old: zipfile.ZipFile, new: zipfile.ZipFile, info: zipfile.ZipInfo, text: Iterable[bytes]) -> None:
+    digest = hashlib.md5(usedforsecurity=False)
+    with _opened(new, info) as writing:
+        for piece in text:
+            digest.update(piece)
+            writing.write(piece)
+    stated = _sum(old, info.filename)
+    if stated is not None:
+        new_sum = digest.hexdigest()
+        # Some readers want capitals: the old file knows.
+        new_sum = new_sum if stated == stated.lower() else new_sum.upper()
+        with _opened(new, old.getinfo(info.filename + SUM)) as writing:
+            writing.write(new_sum.encode())
+
+
+def _text(file: BinaryIO, plate: int) -> Iterator[bytes]:
+    with _archive(file) as archive:
+        name = _member(_members(archive), plate)
+        digest = hashlib.md5(usedforsecurity=False)
+        for piece in _chunks(archive, name):
+            digest.update(piece)
+            yield piece
+        stated = _sum(archive, name)
+    if stated is not None and stated.lower() != digest.hexdigest():
+        raise FormatError(f"{name} is damaged: its MD5 does not fit; {AGAIN}")
+
+
+def _sum(archive: zipfile.ZipFile, name: str) -> str | None:
+    """Read the MD5 that the archive states for a plate, if it does."""
+    if name + SUM not in archive.namelist():
+        return None
+    return next(_chunks(archive, name + SUM), b"").decode("ascii", "replace").strip()
+
+
+def _members(archive: zipfile.ZipFile) -> dict[int, str]:
+    found = (PLATE.fullmatch(name) for name in archive.namelist())
+    members = {int(match[1]): match[0] for match in found if match}
+    if not members:
+        raise FormatError("the archive holds no G-code (Metadata/plate_1.gcode); slice the plate, then export it again")
+    return members
+
+
+def _member(members: Mapping[int, str], plate: int) -> str:
+    if plate not in members:
+        raise ParameterError(f"plate {plate} is not in the archive; it has {', '.join(map(str, sorted(members)))}")
+    return members[plate]
+
+
+def _opened(new: zipfile.ZipFile, like: zipfile.ZipInfo) -> BinaryIO:
+    # A copy: writing changes sizes and places in what it is given.
+    return new.open(copy(like), "w", force_zip64=like.file_size > LARGE)  # type: ignore[return-value]
+
+
+def _archive(file: BinaryIO) -> zipfile.ZipFile:
+    with _readable():
+        return zipfile.ZipFile(file)
+
+
+def _chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
+    with _readable(), archive.open(name) as reading:
+        while piece := reading.read(LONGEST_TEXT):
+            yield piece
+
+
+@contextmanager
+def _readable() -> Iterator[None]:
+    """Say one line where the zip itself is at fault; RuntimeError is what an encrypted one ends in."""
+    try:
+        yield
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError) as trouble:
+        raise FormatError(f"the archive cannot be read ({trouble}); {AGAIN}") from None

@@ -1,0 +1,228 @@
+"""Binary G-code (.bgcode) as text and metadata, and written anew: the meaning of the blocks of `block_file`.
+
+What comes back from a file that was written with MeatPack is not every byte that went in: see `meatpack`.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import BinaryIO
+
+from infill.errors import FormatError, OutputError, ParameterError
+from infill.gcode import heatshrink, meatpack
+from infill.gcode.block_file import (
+    AGAIN,
+    HEAD,
+    MAGIC,
+    Block,
+    Compression,
+    Encoding,
+    Kind,
+    blocks,
+    is_binary,
+    stored,
+)
+from infill.gcode.piece_file import whole_lines
+
+__all__ = [
+    "Block",
+    "Compression",
+    "Encoding",
+    "Kind",
+    "blocks",
+    "decoded",
+    "edited",
+    "encoded",
+    "is_binary",
+    "metadata",
+    "rewritten",
+    "stored",
+    "text_pieces",
+]
+
+WINDOWS = {Compression.HEATSHRINK_11: 11, Compression.HEATSHRINK_12: 12}
+METADATA = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kind.PRINT_METADATA)
+
+
+def decoded(block: Block) -> bytes:
+    """Give what a block holds: G-code text, metadata as key=value lines, or an image.
+
+    Raises
+    ------
+    FormatError
+        The data does not decompress to the size that the block states, or does not unpack.
+    """
+    try:
+        data = _decompressed(block)
+        packed = block.kind == Kind.GCODE and block.encoding != Encoding.NONE
+        return meatpack.unpacked(data) if packed else data
+    except FormatError as told:
+        raise FormatError(f"{block.name}: {told}") from None
+
+
+def encoded(text: bytes, *, like: Block) -> Block:
+    """Make a block that holds a text, encoded and compressed as another block is.
+
+    MeatPack leaves out what `meatpack.normalised` says: blank lines, blanks, comments behind commands. Prusa's
+    firmware stops a print where a block of G-code has another encoding or compression than the one before, so
+    neither changes from block to block, even where a block grows. Each is decoded again before it is given back.
+
+    Parameters
+    ----------
+    text : bytes
+        Whole lines of G-code, or key=value lines of metadata.
+    like : Block
+        Where kind, encoding and compression come from.
+
+    Raises
+    ------
+    OutputError
+        The block does not decode to the text; with MeatPack the bytes 255 255 cannot be written.
+    """
+    data = wanted = text
+    if like.kind == Kind.GCODE and like.encoding != Encoding.NONE:
+        comments = like.encoding == Encoding.MEATPACK_COMMENTS
+        wanted = meatpack.normalised(text, comments=comments)
+        data = meatpack.packed(wanted, comments=comments)
+    result = replace(like, data=_compressed(data, like.compression), size=len(data), number=0)
+    try:
+        same = decoded(result) == wanted
+    except FormatError:
+        same = False
+    if not same:
+        raise OutputError(
+            f"a block of G-code from {text[:40]!r} on does not read back; is there text that is not UTF-8?"
+        )
+    return result
+
+
+def metadata(block: Block) -> dict[str, str]:
+    """Read the keys and values of a block of metadata."""
+    lines = _metadata_text(block).decode(errors="surrogateescape").split("\n")
+    return {key: value for key, equals, value in (line.partition("=") for line in lines) if equals}
+
+
+def edited(block: Block, changes: Mapping[str, str]) -> Block:
+    """Change values of a block of metadata; keys that it has not stay away, and all else stays as it is.
+
+    Raises
+    ------
+    ParameterError
+        A new value has a line break in it.
+    """
+    for key, value in changes.items():
+        if "\n" in value or "\r" in value:
+            raise ParameterError(
+                f"the value of {key} is {value!r}, and metadata has one line each; take the breaks out"
+            )
+    lines = _metadata_text(block).split(b"\n")
+    named = {_bytes(key): _bytes(value) for key, value in changes.items()}
+    new = []
+    for line in lines:
+        word = line.partition(b"=")[0]
+        new.append(word + b"=" + named[word] if b"=" in line and word in named else line)
+    return block if new == lines else replace(encoded(b"\n".join(new), like=block), number=block.number)
+
+
+def text_pieces(file: BinaryIO) -> Iterator[bytes]:
+    """Read the G-code text of a file in pieces of whole lines, LONGEST_TEXT bytes at most but for a longer line.
+
+    Raises
+    ------
+    FormatError
+        As `blocks` and `decoded`; or the file has no G-code in it.
+    """
+    return whole_lines(_texts(file))
+
+
+def rewritten(
+    source: BinaryIO, target: BinaryIO, text: Iterable[bytes], changes: Mapping[str, str] | None = None
+) -> frozenset[str]:
+    """Write a file anew with other G-code text; everything else is copied byte for byte.
+
+    The new blocks of G-code stand where the first old one stood, are encoded as that one is, and hold at most
+    LONGEST_TEXT bytes of text each in whole lines.
+
+    Parameters
+    ----------
+    source, target : BinaryIO
+        The old file at its start, and the new one.
+    text : iterable of bytes
+        The new text in pieces of any length, taken one by one; it may come from `text_pieces` of the same file
+        opened once more.
+    changes : mapping, optional
+        New values of metadata of the print and of the printer.
+
+    Returns
+    -------
+    frozenset of str
+        The keys of `changes` that the file has.
+    """
+    changes = changes or {}
+    found: set[str] = set()
+    started = copied = False
+    for block in blocks(source):
+        if not started:
+            target.write(HEAD.pack(MAGIC, 1, block.summed))
+            started = True
+        if block.kind == Kind.GCODE:
+            if not copied:
+                copied = True
+                target.writelines(stored(encoded(piece, like=block)) for piece in whole_lines(text))
+            continue
+        if changes and block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
+            found |= metadata(block).keys() & changes.keys()
+            block = edited(block, changes)
+        target.write(stored(block))
+    if not copied:
+        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+    return frozenset(found)
+
+
+def _texts(file: BinaryIO) -> Iterator[bytes]:
+    empty = True
+    for block in blocks(file):
+        if block.kind == Kind.GCODE:
+            empty = False
+            yield decoded(block)
+    if empty:
+        raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode(errors="surrogateescape")
+
+
+def _metadata_text(block: Block) -> bytes:
+    if block.kind not in METADATA:
+        raise ParameterError(f"{block.name} holds no metadata; take one of metadata")
+    if block.encoding != 0:
+        raise FormatError(f"{block.name} has encoding {block.encoding}, and only 0 (INI) is read here; {AGAIN}")
+    return decoded(block)
+
+
+def _decompressed(block: Block) -> bytes:
+    match block.compression:
+        case Compression.NONE:
+            return block.data
+        case Compression.DEFLATE:
+            inflating = zlib.decompressobj()
+            try:
+                data = inflating.decompress(block.data, block.size + 1)
+            except zlib.error as trouble:
+                raise FormatError(f"its data cannot be inflated ({trouble}); {AGAIN}") from None
+            if len(data) != block.size or not inflating.eof:
+                raise FormatError(f"its data does not inflate to the {block.size} bytes that it states; {AGAIN}")
+            return data
+    return heatshrink.decompressed(block.data, size=block.size, window=WINDOWS[block.compression])
+
+
+def _compressed(data: bytes, compression: Compression) -> bytes:
+    match compression:
+        case Compression.NONE:
+            return data
+        case Compression.DEFLATE:
+            return zlib.compress(data)
+    return heatshrink.compressed(data, window=WINDOWS[compression])

@@ -1,0 +1,60 @@
+"""Text that comes in pieces: cut into whole lines, or read as a file."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Iterator
+from typing import BinaryIO, final
+
+LONGEST_TEXT = 65_536  # bytes; libbgcode and PrusaSlicer put as many into a block of binary G-code
+
+
+def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
+    r"""Join texts and cut them at line ends, as late as LONGEST_TEXT allows; a longer line is a piece of its own.
+
+    Examples
+    --------
+    >>> list(whole_lines([b"G28\nG1 ", b"X1\n"]))
+    [b'G28\nG1 X1\n']
+    """
+    rest = bytearray()
+    for text in texts:
+        rest += text
+        while len(rest) > LONGEST_TEXT:
+            cut = rest.rfind(b"\n", 0, LONGEST_TEXT) + 1 or rest.find(b"\n", LONGEST_TEXT) + 1
+            if not cut:
+                break
+            yield bytes(rest[:cut])
+            del rest[:cut]
+    if rest:
+        yield bytes(rest)
+
+
+def as_file(texts: Iterable[bytes]) -> BinaryIO:
+    r"""Give texts as a file that can be read once, from front to back; each text is taken when it is needed.
+
+    Examples
+    --------
+    >>> as_file([b"G28\nG1 ", b"X1\n"]).readlines()
+    [b'G28\n', b'G1 X1\n']
+    """
+    return io.BufferedReader(_Texts(iter(texts)), LONGEST_TEXT)
+
+
+@final
+class _Texts(io.RawIOBase):
+    def __init__(self, texts: Iterator[bytes]) -> None:
+        self._texts, self._rest = texts, b""
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: memoryview) -> int:  # type: ignore[override]
+        while not self._rest:
+            try:
+                self._rest = next(self._texts)
+            except StopIteration:
+                return 0
+        count = min(len(buffer), len(self._rest))
+        buffer[:count], self._rest = self._rest[:count], self._rest[count:]
+        return count
