@@ -935,13 +935,14 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
         room, _ = region(layers.get(part.layer, []), beads, step)
         grown = shapely.buffer(room, OUTSIDE)
         shapely.prepare(grown)
+        over_walls = shapely.buffer(room, beads[0].width or 0.45)  # a travel along a wall does no harm
         ends = {tuple(round(v, 3) for v in m.end) for m in old.moved()}
         for m in fresh:
             line = shapely.linestrings(m.points)
             if shapely.covers(grown, line):
                 continue
-            out = shapely.difference(line, grown)
-            far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room))
+            out = shapely.difference(line, grown if m.pushed else over_walls)
+            far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room), default=0.0)
             if m.extrudes:
                 yield f"move outside: {_name(m.line)} leaves the region of the infill by {far:.3f} mm"
             elif m.pushed < 0:

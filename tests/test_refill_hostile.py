@@ -31,7 +31,7 @@ def refill(path: Path, **options: Any) -> Any:
 RUN = [sys.executable, "-m", "infill.cli"]
 PRINT = written(Dialect(layers=5, labels="comment"))
 ABSOLUTE = written(Dialect(slicer="orca", absolute=True, layers=5))
-PATTERNS = ["keep"]
+PATTERNS = ["keep", "honeycomb"]
 FIRST = b";TYPE:Internal infill\n"
 
 
