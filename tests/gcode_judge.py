@@ -761,7 +761,7 @@ def _without_new_origins(old: list[Line], new: list[Line]) -> list[Line]:
 def _places(x: list[Line], y: list[Line], a: Section, b: Section, was: Replay, now: Replay) -> Iterator[str]:
     """A command that came before all beads, or after them, still does; one between is not far from where it was."""
     for p, q, one, two in zip(x, y, _shares(x, a, was), _shares(y, b, now), strict=True):
-        if p.kind in ("progress", "blank", "comment", "origin") or one is None or two is None:
+        if p.kind in ("progress", "blank", "comment", "origin") or p.name == b"M117" or None in (one, two):
             continue
         if (one == 0) != (two == 0) or (one == 1) != (two == 1) or abs(one - two) > 0.35:
             yield f"{p.kind} moved: {_name(q)} stands after {two:.0%} of the infill, not after {one:.0%}"

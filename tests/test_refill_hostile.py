@@ -31,7 +31,6 @@ def refill(path: Path, **options: Any) -> Any:
 RUN = [sys.executable, "-m", "infill.cli"]
 PRINT = written(Dialect(layers=5, labels="comment"))
 ABSOLUTE = written(Dialect(slicer="orca", absolute=True, layers=5))
-PATTERNS = ["keep", "honeycomb"]
 FIRST = b";TYPE:Internal infill\n"
 
 
@@ -164,8 +163,12 @@ SPOILT: dict[str, Callable[[bytes], bytes]] = {
 }
 
 
-@pytest.mark.parametrize("pattern", PATTERNS)
-@pytest.mark.parametrize("name", SPOILT)
+OURS = ("NaN", "1e308", "far away", "relative moves", "a tool", "a full circle", "a megabyte line")
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern"), [*((name, "keep") for name in SPOILT), *((name, "honeycomb") for name in OURS)]
+)
 def test_odd_lines_in_the_infill(name: str, pattern: str, tmp_path: Path) -> None:
     """The section is left as it was, or lawfully replaced; or the print is refused in one line."""
     old = SPOILT[name](PRINT)
