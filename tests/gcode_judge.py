@@ -943,6 +943,8 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
                 continue
             out = shapely.difference(line, grown if m.pushed else over_walls)
             far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room), default=0.0)
+            if m.pushed and far < OUTSIDE + NEAR:
+                continue
             if m.extrudes:
                 yield f"move outside: {_name(m.line)} leaves the region of the infill by {far:.3f} mm"
             elif m.pushed < 0:

@@ -5,22 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import Phase, given, settings
 
-from infill import FormatError, InfillError, ParameterError
+from infill import FormatError, InfillError, ParameterError, refill
 from tests.gcode_corpus import CORPUS, prints
 from tests.gcode_judge import changed, infilled, judge, pushed
 from tests.gcode_structure import bonded, supported
-
-
-def refill(path: Path, **options: Any) -> Any:
-    from infill import refill
-
-    return refill(path, **options)
-
 
 # What a pattern's filament may be of the slicer's own: rounding shortens paths, most so a Hilbert curve's, and a curve in
 # the place of chords is a little longer.
@@ -45,16 +37,19 @@ KEPT: dict[tuple[str, str], str] = {
     ("prusa-equalised", "keep"): "speed changes from move to move",
     ("prusa-purge", "keep"): PURGED,
     ("packed", "keep"): PACKED,
+    ("prusa-loose-lines", "honeycomb"): "lines that end before the walls tell no region",
+    ("prusa-two-tools", "honeycomb"): "where tools change in the infill, a retraction stays open",
     ("orca-limits", "honeycomb"): "a G4 in every section, and it is not known when to wait",
 }
+# Where fewer than half of the sections are replaced.
+FEW = {("odd", "honeycomb"): "commands of all kinds stand between the beads"}
 # What is refused in one line, and why.
 REFUSED: dict[tuple[str, str], str] = {
     ("orca-numbered", "keep"): "with a number before it, a tag is none",
     ("orca-numbered", "honeycomb"): "with a number before it, a tag is none",
     ("prusa-combined", "honeycomb"): COMBINED,
-    ("cura-combined", "honeycomb"): COMBINED,
     ("thick", "honeycomb"): COMBINED,
-    ("prusa-two-tools", "honeycomb"): "every second layer has no tag",
+    ("prusa-support", "honeycomb"): "no region is wide enough",
     ("prusa-purge", "honeycomb"): PURGED,
     ("packed", "honeycomb"): PACKED,
     ("prusa-vase", "honeycomb"): "no infill, no pattern",
@@ -88,7 +83,7 @@ def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapp
     if (name, pattern) in KEPT or not entry.infilled:
         assert replaced == 0
     else:
-        assert replaced >= 0.5 * infilled(old)
+        assert replaced >= (1 if (name, pattern) in FEW else 0.5 * infilled(old))
     refill(output, pattern=pattern)  # which finds the stamp, and does nothing
     assert output.read_bytes() == new
 

@@ -17,16 +17,9 @@ from typing import Any
 import pytest
 from test_command_line_posix import MOMENTS, calls_of, interrupted, limited
 
-from infill import FormatError, InfillError, OutputError
+from infill import FormatError, InfillError, OutputError, refill
 from tests.gcode_judge import changed, judge
 from tests.handmade_prints import Dialect, written
-
-
-def refill(path: Path, **options: Any) -> Any:
-    from infill import refill
-
-    return refill(path, **options)
-
 
 RUN = [sys.executable, "-m", "infill.cli"]
 PRINT = written(Dialect(layers=5, labels="comment"))
