@@ -28,6 +28,8 @@ SHARE_BESIDE = 0.1  # of the points beside walls that may lie nearer than d0: wh
 LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
 SAME_WITHIN = 0.02  # mm
 LEAST_AREA = 0.5  # mm²
+STRAIGHTENED = 0.5  # mm: narrower dents in an outline, such as between the ends of lines, are left out
+ARM = 0.3  # mm²: an arm as large as this stays, however narrow
 MOST_NODES = 20_000_000  # of a grid: a square of 900 mm; a region beyond that is not looked for
 
 
@@ -96,7 +98,7 @@ def _fits(region: Region, tree: object, infill: Floats, distance: float) -> bool
     outline = shapely.get_coordinates(np.array(region.polygons, dtype=object))
     near, _ = tree.query(outline, distance_upper_bound=REACH)  # type: ignore[attr-defined]
     # At corners, an outline keeps further away.
-    if near.min() < region.distance - SAME_WITHIN / 2 or near.max() > region.distance + NODES:
+    if near.min() < region.distance - SAME_WITHIN / 2 or near.max() > region.distance + STRAIGHTENED:
         return False
     if abs(float(np.median(near)) - region.distance) > SAME_WITHIN / 2:
         return False
@@ -122,4 +124,18 @@ def _outlines(field: Floats, x0: float, y0: float, distance: float, infill: Floa
     shapely.prepare(parts)
     held = [bool(shapely.contains_xy(part, infill[:, 0], infill[:, 1]).any()) for part in parts]
     kept = parts[held]
-    return tuple(shapely.simplify(kept, SAME_WITHIN / 4))
+    return tuple(area for part in kept for area in _straightened(part))
+
+
+def _straightened(area: Polygon) -> list[Polygon]:
+    """Return an area without the dents along skins, where lines end one beside the other; narrow arms stay."""
+    import shapely
+
+    smooth = shapely.buffer(shapely.buffer(area, -STRAIGHTENED, quad_segs=4), STRAIGHTENED, quad_segs=4)
+    rest = shapely.get_parts(shapely.difference(area, smooth))
+    arms = rest[shapely.area(rest) > ARM]
+    whole = shapely.union_all([smooth, *shapely.buffer(arms, 1e-3)]) if len(arms) else smooth
+    whole = shapely.intersection(shapely.simplify(whole, SAME_WITHIN / 2), shapely.buffer(area, SAME_WITHIN / 4))
+    parts = shapely.get_parts(whole)
+    kept = parts[(shapely.get_type_id(parts) == 3) & (shapely.area(parts) > LEAST_AREA)]
+    return list(kept) or [shapely.simplify(area, SAME_WITHIN / 4)]

@@ -37,6 +37,7 @@ LOST = 0.1  # of a section's infill may lie outside every area that was found
 INSIDE = 0.02  # mm that a path may leave its region
 LARGEST_RADIUS = 1000.0  # mm: as large as it gets
 OFF = 0.05  # of the length that an area should have, before it gets a cell of its own
+FAR_OFF = 0.3  # of it, before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
 NEWEST = 0.2  # how much the last layer counts in the density of a column
@@ -74,11 +75,14 @@ class Column:
     cell : float, mm
     density : float
         mm of the slicer's infill per mm², over the last layers: it varies from layer to layer.
+    fresh : bool
+        Nothing stands below the area, so that its cell is still free.
     """
 
     area: Polygon
     cell: float
     density: float
+    fresh: bool
 
 
 @dataclass(kw_only=True)
@@ -161,7 +165,7 @@ def planned(
         layer = sample.marks.layer[opens]
         others = beads(sample.table, sample.marks, sample.infill)
         width = float(np.median(line_width(sample.marks, opens)))
-        number = sample.pairs[-1][1]
+        number = sample.filled[-1]
         chosen = np.flatnonzero(layer == number)
         region = region_of(others.of(number, STEP), layer_samples(sample.infill, chosen))
         if not region.polygons:
@@ -280,8 +284,8 @@ def _column(area: Polygon, length: float, plan: Plan, memory: Memory) -> Column:
             if shared > max(most, area.area / 2):
                 best, most = column, shared
     if best is None:
-        return Column(area=area, cell=plan.cell, density=density)
-    return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density)
+        return Column(area=area, cell=plan.cell, density=density, fresh=True)
+    return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density, fresh=False)
 
 
 def _length(paths: Paths) -> float:
@@ -363,7 +367,7 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     best, cell = paths, column.cell
     if layer.plan.same_filament and wanted > LEAST_LENGTH:
         error = _length(paths) / wanted - 1
-        if abs(error) > OFF:
+        if abs(error) > (OFF if column.fresh else FAR_OFF):
             for _ in range(TRIES):
                 cell *= float(np.clip(1 + error, 0.6, 1.6))
                 cell = max(cell, TOUCH * layer.plan.line_width)
