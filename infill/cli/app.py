@@ -18,7 +18,6 @@ from infill.cli.smoothing import smooth
 from infill.cli.timing import motion
 from infill.version import __version__
 
-
 # By name: the function, and an example. All but `list` show their help when nothing is given.
 COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
     "make": (make, "infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf"),
