@@ -49,7 +49,7 @@ class Recut:
     curved: NDArray[np.bool_]
 
 
-def recut(points: Floats, first: Places, machine: Machine) -> Recut:
+def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats = MOST_BULGE) -> Recut:
     """Cut the curves among some paths into the chords that a machine needs.
 
     Parameters
@@ -59,6 +59,8 @@ def recut(points: Floats, first: Places, machine: Machine) -> Recut:
     first : (M + 1,) int
         Where each begins, and N.
     machine : Machine
+    bulge : float or (N,) float64, mm
+        How far a curve may leave the chords at each point.
 
     Returns
     -------
@@ -75,7 +77,8 @@ def recut(points: Floats, first: Places, machine: Machine) -> Recut:
     longer = np.maximum(length[:-1], length[1:])
     gentle = np.zeros(count, dtype=bool)
     gentle[1:-1] = same[:-1] & same[1:] & (np.minimum(length[:-1], length[1:]) > 0)
-    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < MOST_BULGE)
+    most = bulge[1:-1] if isinstance(bulge, np.ndarray) else bulge
+    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < most)
     bent = np.flatnonzero(gentle[:-1] & gentle[1:] & same)
     if not len(bent):
         return Recut(points=points, first=first, source=np.arange(count), curved=np.zeros(count, dtype=bool))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +11,8 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import Contact, Samples, contact, sampled
 from infill.filling.corners import Machine, Rounded, rounded
-from infill.filling.curves import recut
-from infill.filling.surroundings import Beads, beads, bounded_deviation
+from infill.filling.curves import MOST_BULGE, recut
+from infill.filling.surroundings import BESIDE, TOWARDS, Beads, beads, beside, bounded_deviation
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.splicing import UNIT, Redrawn
 from infill.gcode.table import Table
@@ -116,24 +117,19 @@ def smoothed(
             acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=rounding.corner
         )
 
-    curves = recut(points, first, machine(first))
+    near = _near_walls(points, first, walls, layer, line_width)
+    curves = recut(points, first, machine(first), np.where(near, TOWARDS, MOST_BULGE))
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corner = np.flatnonzero(inner)
     deviation = np.zeros(len(curves.points))
     deviation[corner] = rounding.deviation
-
-    def bound(some: Places, near: Floats) -> None:
+    # Corners of their own beside other beads hardly move.
+    corner = corner[near[curves.source[corner]]]
+    for some, others in _by_layer(corner, curves.first, walls, layer):
         deviation[some] = bounded_deviation(
-            curves.points, some, near, deviation=rounding.deviation, line_width=line_width
+            curves.points, some, others, deviation=rounding.deviation, line_width=line_width
         )
-
-    if isinstance(walls, Beads) and layer is not None:
-        of = np.repeat(layer, np.diff(curves.first))[corner]
-        for number in np.unique(of):
-            bound(corner[slice(*np.searchsorted(of, [number, number + 1]))], walls.of(int(number)))
-    elif isinstance(walls, np.ndarray):
-        bound(corner, walls)
     done = rounded(
         curves.points,
         curves.first,
@@ -143,6 +139,28 @@ def smoothed(
         unit=UNIT,
     )
     return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=done.radius)
+
+
+def _by_layer(
+    some: Places, first: Places, walls: Beads | Floats | None, layer: Places | None
+) -> Iterator[tuple[Places, Floats]]:
+    """Yield the points among some that belong to one layer, and the points on its other beads."""
+    if isinstance(walls, Beads) and layer is not None:
+        of = np.repeat(layer, np.diff(first))[some]
+        for number in np.unique(of):
+            yield some[slice(*np.searchsorted(of, [number, number + 1]))], walls.of(int(number))
+    elif isinstance(walls, np.ndarray):
+        yield some, walls
+
+
+def _near_walls(
+    points: Floats, first: Places, walls: Beads | Floats | None, layer: Places | None, line_width: float
+) -> NDArray[np.bool_]:
+    """Return which points lie beside another bead of their layer."""
+    near = np.zeros(len(points), dtype=bool)
+    for some, others in _by_layer(np.arange(len(points)), first, walls, layer):
+        near[some[beside(points[some], others, BESIDE * line_width)[0]]] = True
+    return near
 
 
 def points_of(first: Places, some: Places) -> Places:

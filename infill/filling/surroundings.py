@@ -61,6 +61,34 @@ def _moves(infill: Strokes) -> Places:
     return infill.line[inner]
 
 
+def beside(points: Floats, walls: Floats, distance: float) -> tuple[Places, Floats]:
+    """Return which points lie within `distance` of other beads, and how near.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    walls : (K, 2) float64, mm
+        Points on the other beads.
+    distance : float, mm
+    """
+    from scipy.spatial import cKDTree
+
+    if not len(points) or not len(walls):
+        return np.empty(0, dtype=np.intp), np.empty(0)
+    # Squares as wide as the distance: only those around a bead are worth a closer look.
+    low = np.minimum(walls.min(axis=0), points.min(axis=0)) - 2 * distance
+    square = ((walls - low) / distance).astype(np.intp)
+    own = ((points - low) / distance).astype(np.intp)
+    taken = np.zeros(np.maximum(square.max(axis=0), own.max(axis=0)) + 3, dtype=bool)
+    for right in (-1, 0, 1):
+        for up in (-1, 0, 1):
+            taken[square[:, 0] + right, square[:, 1] + up] = True
+    some = np.flatnonzero(taken[own[:, 0], own[:, 1]])
+    near, _ = cKDTree(walls).query(points[some], distance_upper_bound=distance)
+    found = np.isfinite(near)
+    return some[found], near[found]
+
+
 def bounded_deviation(points: Floats, corners: Places, walls: Floats, *, deviation: float, line_width: float) -> Floats:
     """Return how far some corners of paths may move, mm: `deviation`, less where one lies beside another bead.
 
@@ -70,15 +98,13 @@ def bounded_deviation(points: Floats, corners: Places, walls: Floats, *, deviati
     from scipy.spatial import cKDTree
 
     allowed = np.full(len(corners), deviation)
-    if not len(walls) or not len(corners):
+    some, near = beside(points[corners], walls, BESIDE * line_width)
+    if not len(some):
         return allowed
-    tree = cKDTree(walls)
-    near, _ = tree.query(points[corners], distance_upper_bound=BESIDE * line_width)
-    beside = np.flatnonzero(np.isfinite(near))
     least = min(deviation, ANCHORED * line_width)
-    allowed[beside] = least
-    then, _ = tree.query(points[corners[beside]] + _inward(points, corners[beside]) * least)
-    allowed[beside[then < near[beside] - TOWARDS]] = min(deviation, TOWARDS)
+    allowed[some] = least
+    then, _ = cKDTree(walls).query(points[corners[some]] + _inward(points, corners[some]) * least)
+    allowed[some[then < near - TOWARDS]] = min(deviation, TOWARDS)
     return allowed
 
 
