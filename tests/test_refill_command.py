@@ -278,12 +278,13 @@ def test_it_starts_fast(tmp_path: Path) -> None:
 SMALL: Mapping[str, object] = {**SETTINGS, "top_solid_layers": 2, "bottom_solid_layers": 2}
 
 
-def sliced(folder: Path, *, script: str) -> subprocess.CompletedProcess[str]:
+def sliced(folder: Path, *, script: str, **settings: str) -> subprocess.CompletedProcess[str]:
     """Slice a box with PrusaSlicer, which runs a script of ours on what it wrote."""
     ini = folder / "print.ini"
-    ini.write_text("".join(f"{name} = {value}\n" for name, value in SMALL.items()))
+    ini.write_text("".join(f"{name} = {value}\n" for name, value in {**SMALL, **settings}.items()))
     command = ["prusa-slicer", "--datadir", str(folder / "settings"), "--load", str(ini), "--export-gcode"]
-    command += ["--post-process", script, "-o", str(folder / "out.gcode"), str(box(folder, (20, 20, 4)))]
+    command += ["--post-process", script] if script else []
+    command += ["-o", str(folder / "out.gcode"), str(box(folder, (20, 20, 4)))]
     return subprocess.run(command, capture_output=True, encoding="utf-8", errors="replace", timeout=120, check=False)
 
 
@@ -309,6 +310,15 @@ def test_prusaslicer_runs_it(program: str, tmp_path: Path) -> None:
     assert not log_of(tmp_path / "out.gcode").exists()
     replaced, sections = map(int, re.search(STAMP + rb" \S+: (\d+) of (\d+) sections\n", new).groups())
     assert replaced == sections == 16  # of 20 layers, four are solid
+
+
+@pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
+def test_a_settings_file_has_quotes_within_quotes(program: str, tmp_path: Path) -> None:
+    """As on Windows, where only double quotes keep a path with blanks together."""
+    path = program.removesuffix(" refill").strip("'")
+    done = sliced(tmp_path, script="", post_process=rf'"\"{path}\" refill"')
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert (tmp_path / "out.gcode").read_bytes().count(STAMP) == 1
 
 
 @pytest.mark.skipif(bool(missing_prusa()), reason=missing_prusa())
