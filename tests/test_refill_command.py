@@ -12,8 +12,11 @@ from pathlib import Path
 import pytest
 from slicers import missing_prusa
 from test_architecture import modules_after
+from test_binary_gcode import made, parts
 from test_command_line import one_line_error, run
 
+from infill.gcode.binary import Block, Kind, blocks, decoded, encoded, stored
+from infill.gcode.meatpack import normalised
 from tests.gcode_judge import changed, judge
 from tests.handmade_prints import Dialect, written
 from tests.prints import PRINT as SETTINGS
@@ -130,6 +133,29 @@ def test_names_as_slicers_give_them(name: str, gcode: Path) -> None:
     path = gcode.rename(gcode.with_name(name))
     assert run("refill", path).exit_code == 0
     assert STAMP in path.read_bytes()
+
+
+def test_binary_gcode_stays_binary(tmp_path: Path) -> None:
+    """Under a name that says nothing of it, as PrusaSlicer hands it to a script: as MeatPack within Heatshrink."""
+    text = normalised(PRINT, comments=True)
+    path = tmp_path / "1234.gcode.pp"
+    path.write_bytes(b"".join(parts([stored(encoded(text, like=made(compression=3, encoding=2)))])))
+    pictures = [block.data for block in blocks_of(path) if block.kind == Kind.THUMBNAIL]
+    result = run("refill", path)
+    assert result.exit_code == 0, result.stderr
+    assert "3 of 3 sections" in result.stderr
+    new = b"".join(decoded(block) for block in blocks_of(path) if block.kind == Kind.GCODE)
+    assert new.count(STAMP) == 1
+    assert judge(text, new, filament=(0.85, 1.003)) == []
+    assert [block.data for block in blocks_of(path) if block.kind == Kind.THUMBNAIL] == pictures
+    once = path.read_bytes()
+    assert "it was refilled before" in run("refill", path).stderr
+    assert path.read_bytes() == once
+
+
+def blocks_of(path: Path) -> list[Block]:
+    with path.open("rb") as file:
+        return list(blocks(file))
 
 
 # --- what it says ----------------------------------------------------------------------------------------
