@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-STEP = 0.15  # mm between the points that are looked at
+STEP = 0.1  # mm between the points that are looked at
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
-OWN = 3.0  # line widths along a path within which it is its own neighbour
-MOST_NEIGHBOURS = 16  # within 1.05 line widths of 0.45 mm: 7 on the path itself, and as many on each of the others
+OWN = 4.0  # line widths along a path within which it is its own neighbour
+MOST_NEIGHBOURS = 24  # within 1.05 line widths of 0.45 mm: 9 on the path itself, and as many on each of the others
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -133,9 +133,9 @@ class Tally:
 
 def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tuple[bytes, Tally]:
     """Return the new text of a batch of whole layers, and the tally with what was done added to it."""
-    tool = table.before.tool
+    tools = _tools(table)
     tally.layers += int(marks.layer[-1] - (marks.layer[0] - (marks.tagged[0]))) if len(marks.layer) else 0
-    tally.filament[tool] = tally.filament.get(tool, 0.0) + float(table.extruded.sum())
+    _add(tally.filament, tools, table.extruded)
     infill = strokes(table, marks)
     rules.memory.ways = ways_of(table, rules.memory.ways)
     sparse = marks.is_role(SPARSE)
@@ -146,7 +146,7 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
             _count(tally, "no plain moves", len(sections))
         return table.data, tally
     if rules.plan is not None:
-        return _replaced(table, marks, infill, rules, tally, tool)
+        return _replaced(table, marks, infill, rules, tally, tools)
     opens = first_moves(infill)
     section = marks.section[opens]
     new = rounded_strokes(table, marks, infill, rules.rounding, acceleration=rules.acceleration)
@@ -173,15 +173,15 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
     tally.length += float(infill.length.sum())
     tally.length_after += float(np.where(changed, length, infill.length).sum())
     saved = float(infill.filament[changed].sum() - anew.filament.sum())
+    _add(tally.change, tools[opens[anew.which]], anew.filament - infill.filament[anew.which])
     tally.infill_filament += float(infill.filament.sum())
     tally.infill_filament_after += float(infill.filament.sum()) - saved
-    tally.change[tool] = tally.change.get(tool, 0.0) - saved
     _count_corners(infill, changed, new.radius, tally)
     return done.text, tally
 
 
 def _replaced(
-    table: Table, marks: Marks, infill: Strokes, rules: Rules, tally: Tally, tool: int
+    table: Table, marks: Marks, infill: Strokes, rules: Rules, tally: Tally, tools: Places
 ) -> tuple[bytes, Tally]:
     """Return the text of a batch with paths of our own."""
     plan, ways = rules.plan, rules.memory.ways
@@ -209,7 +209,7 @@ def _replaced(
         filament.append(pushed)
     done = exchanged(table, [each.body for each in fresh], texts)
     other = read(done.text, table.before)
-    wrong = differing(table, other, done) or unlawful(other, done, [each.body.z for each in fresh])
+    wrong = differing(table, other, done) or unlawful(other, done, [each.body for each in fresh], texts)
     if wrong:
         _count(tally, f"a check failed: {wrong}", len(fresh))
         return _nothing(table, infill, before, tally)
@@ -232,8 +232,8 @@ def _replaced(
         tally.seconds_after += float(_seconds(points, first, speed, acceleration, rules).sum())
         tally.length_after += float(lengths(points, first).sum())
     tally.infill_filament_after += float(infill.filament[~changed].sum()) + sum(filament)
-    saved = float(infill.filament[changed].sum()) - sum(filament)
-    tally.change[tool] = tally.change.get(tool, 0.0) - saved
+    first = np.array([each.body.first for each in fresh])
+    _add(tally.change, tools[first], np.array(filament) - np.array([each.body.filament for each in fresh]))
     return done.text, tally
 
 
@@ -244,6 +244,21 @@ def _accelerations(marks: Marks, line: Places, rules: Rules) -> Floats:
 
 def _seconds(points: Floats, first: Places, speed: Floats, acceleration: Floats, rules: Rules) -> Floats:
     return path_seconds(points, first, np.maximum(speed, 1.0), acceleration, rules.limits)
+
+
+def _tools(table: Table) -> Places:
+    """Return the tool in use on every line."""
+    tools = np.full(len(table), table.before.tool)
+    for command in table.commands:
+        if command.code[:1] == "T" and command.code[1:].isdigit():
+            tools[command.line :] = int(command.code[1:])
+    return tools
+
+
+def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:
+    """Add values to the sums of their tools."""
+    for tool in np.unique(tools).tolist():
+        sums[tool] = sums.get(tool, 0.0) + float(values[tools == tool].sum())
 
 
 def _nothing(table: Table, infill: Strokes, before: Floats, tally: Tally) -> tuple[bytes, Tally]:
