@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import json
 import os
@@ -246,3 +247,11 @@ def test_the_environment_of_a_packed_program_stays_outside(
     names = {line.partition("=")[0] for line in told.read_text().splitlines()}
     assert "LANG" in names
     assert not {"PYTHONHOME", "PYTHONPATH", "LD_LIBRARY_PATH"} & names
+
+
+def test_the_python_of_older_versions_of_cura_reads_it() -> None:
+    tree = ast.parse(SCRIPT.read_text(encoding="utf-8"), feature_version=(3, 7))
+    imported = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    imported |= {name.name for node in ast.walk(tree) if isinstance(node, ast.Import) for name in node.names}
+    others = {name for name in imported if name.partition(".")[0] not in sys.stdlib_module_names}
+    assert others == {"UM.Logger", "UM.Message", "Script"}

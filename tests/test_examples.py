@@ -187,7 +187,9 @@ SLICERS = FOLDER / "slicers"
 needs_prusa = pytest.mark.skipif(
     shutil.which("prusa-slicer") is None, reason="prusa-slicer is not installed: make slicers"
 )
-needs_bash = pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
+needs_bash = pytest.mark.skipif(
+    shutil.which("bash") is None or sys.platform == "win32", reason="there is no bash of a POSIX system here"
+)
 SECTIONS = 16  # of 20 layers, four are solid
 
 
