@@ -45,7 +45,7 @@ class Sample:
         """Layers with infill, the lowest left out unless it is the only one: nothing is known of what is below it."""
         there = np.unique(self.marks.layer[first_moves(self.infill)]).tolist()
         lowest = int(self.marks.layer.min())
-        return [number for number in there if number > lowest + 1] or there[-1:]
+        return [number for number in there if number > lowest] or there[-1:]
 
 
 def samples(found: Survey) -> list[Sample]:
