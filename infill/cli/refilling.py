@@ -33,8 +33,8 @@ def refill(
         str,
         typer.Option(
             help="keep: the slicer's own paths, with round corners. Or one of ours: honeycomb, zigzag, "
-            "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, schwarz-d, concentric, "
-            "honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt.",
+            "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, "
+            "schwarz-d, concentric, honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt.",
             rich_help_panel=PATHS,
         ),
     ] = "keep",

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ONE_OF = 3  # points are looked at, and fewer in large layers:
+ONE_OF = 2  # pieces is looked at, and fewer in large layers:
 MOST_POINTS = 5000
-STEP = 0.1  # mm between the points that are looked at
+STEP = 0.2  # mm, of the pieces that paths are cut into
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
-MOST_NEIGHBOURS = 28  # within 1.05 line widths of 0.45 mm: 11 on the path itself, and fewer on each of the others
+MOST_NEIGHBOURS = 18  # within 1.05 line widths of 0.45 mm: 6 pieces of the path itself, and fewer of each other
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,8 +89,8 @@ def merged(one: Samples, other: Samples) -> Samples:
 def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
     """Return the middles of equal pieces of every segment, at most `step` long.
 
-    >>> sampled(np.array([[0.0, 0.0], [0.2, 0.0]]), np.array([0, 2])).points[:, 0].round(3).tolist()
-    [0.05, 0.15]
+    >>> sampled(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2])).points[:, 0].round(3).tolist()
+    [0.1, 0.3]
     """
     path = np.repeat(np.arange(len(first) - 1), np.diff(first))
     segment = np.flatnonzero(np.diff(path) == 0)
@@ -139,7 +139,7 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
         reach = line_width / 2
-        _, other = cKDTree(below.points).query(points, k=2, distance_upper_bound=reach + STEP / 2)
+        _, other = cKDTree(below.points).query(points, k=3, distance_upper_bound=reach + STEP / 2)
         supported |= (_distances(points, below, other) <= reach).any(axis=1)
     bonded = _beside(points, some, infill, TOUCHING * line_width)
     return Contact(

@@ -128,7 +128,7 @@ def _oddness(
             return f"a {code or 'strange'} command in between"
     # Everything that extrudes between its first and last move must be a stroke.
     drawn = np.flatnonzero(table.extruded[inside] > 0) + first
-    moving = drawn[table.given[drawn, :2].any(axis=1)]
+    moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
     own = np.isin(moving, infill.line)
     return "" if own.all() and (marks.section[inside] == marks.section[first]).all() else "extrusion of another kind"
 
@@ -160,7 +160,7 @@ class Ways:
 
 def ways_of(table: Table, before: Ways | None = None) -> Ways:
     """Return how a table travels and retracts: the usual amounts and feed rates."""
-    moved = table.given[:, :2].any(axis=1)
+    moved = table.given[:, 0] | table.given[:, 1]
     still = (table.kind == MOVE) & ~moved
     back, forth = still & (table.extruded < 0), still & (table.extruded > 0)
     travel = (table.kind == MOVE) & moved & (table.extruded == 0)
@@ -281,7 +281,7 @@ def unlawful(other: Table, done: Spliced, some: Sequence[Body], texts: Sequence[
     fresh = np.ones(len(other), dtype=bool)
     old = np.flatnonzero(done.same)
     fresh[old + done.shift[old]] = False
-    drawn = fresh & (other.kind == MOVE) & other.given[:, :2].any(axis=1) & (other.extruded != 0)
+    drawn = fresh & (other.kind == MOVE) & (other.given[:, 0] | other.given[:, 1]) & (other.extruded != 0)
     if (other.kind[fresh] == ODD).any():
         return "a new line that cannot be read"
     if (other.extruded[drawn] < 0).any():
@@ -322,7 +322,7 @@ def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: by
 def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
     """Return the lines of a body that are no moves, in their order, with the share of the filament before each."""
     inside = slice(body.first, body.last + 1)
-    moved = table.given[inside, :2].any(axis=1)
+    moved = table.given[inside, 0] | table.given[inside, 1]
     pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
     share = pushed / max(float(pushed[-1]), 1e-12)
     kept = np.flatnonzero(table.kind[inside] != MOVE)

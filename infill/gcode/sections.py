@@ -227,7 +227,7 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
         passive[command.line] |= command.code in TALK
     feed = _shifted(table.f, table.before.f)
     with np.errstate(invalid="ignore"):
-        passive |= (table.kind == MOVE) & ~table.given[:, [0, 1, 2, 3]].any(axis=1) & (table.f == feed)
+        passive |= (table.kind == MOVE) & ~table.moves & (table.f == feed)
     here = np.flatnonzero(drawn)
     broken = np.cumsum(~(drawn | passive))
     rate = table.extruded[here] / length[here]
