@@ -16,6 +16,7 @@ from infill.gcode.table import ARC, MOVE, ODD, Table
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
+LEAST_STEP = 1e-6  # mm
 ALIKE = 0.03  # strokes of one section that are drawn anew extrude alike to this share
 # What a machine is told on the way, and may as well be told at the end of a section.
 HARMLESS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
@@ -225,11 +226,8 @@ def composed(
     whole = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
     drawn = 0.0
     for path, retract in zip(paths, retracts[:-1], strict=True):
-        while held and held[0][0] * whole <= drawn:
-            pieces.append(held.pop(0)[1])
         go(path[0], retract)
         along = np.cumsum(np.hypot(*np.diff(path, axis=0).T))
-        drawn += float(along[-1])
         steps = np.rint((pushed + along * rate) / FILAMENT_UNIT)
         if relative:
             words = np.diff(steps, prepend=np.rint(pushed / FILAMENT_UNIT)) * FILAMENT_UNIT
@@ -241,7 +239,15 @@ def composed(
         if feed != body.feed:
             feeds[0] = feed = body.feed
         columns = [(b" X", path[1:, 0], 3), (b" Y", path[1:, 1], 3), (b" E", words, 5), (b" F", feeds, 3)]
-        pieces.append(write_words(columns, b"G1", ends).text)
+        rows = write_words(columns, b"G1", ends)
+        done = 0
+        while held and held[0][0] * whole < drawn + along[-1]:  # a line that stood between moves
+            share, text = held.pop(0)
+            row = int(np.searchsorted(along, share * whole - drawn + LEAST_STEP))
+            pieces += [rows.text[rows.start[done] : rows.start[row]], text]
+            done = row
+        pieces.append(rows.text[rows.start[done] :])
+        drawn += float(along[-1])
         here = path[-1]
     go(body.end, retracts[-1])
     pieces.extend(text for _, text in held)
