@@ -197,7 +197,7 @@ def _kinds(
 
     blank = byte() <= SPACE
     for _ in range(8):  # indented lines are rare; deeper ones are odd
-        inner = ((byte() == SPACE) | (byte() == TAB)) & (first < start[1:] - 1)
+        inner = (byte() == SPACE) | (byte() == TAB)  # a line end is neither, and the text ends with one
         if not inner.any():
             break
         first += inner
