@@ -35,11 +35,12 @@ SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
 INSIDE = 0.02  # mm that a path may leave its region
 LARGEST_RADIUS = 1000.0  # mm: as large as it gets
-OFF = 0.04  # of the length that an area should have, before it gets a cell of its own
-FAR_OFF = 0.3  # of it, before a column changes its cell, so that its layers no longer lie on one another
+OFF = 0.08  # of the length that an area should have, which beads cannot make up for, before it gets a cell of its own
+FAR_OFF = 0.12  # of it, before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
+NEAR = 0.02  # of the length: near enough
 SMALL = 300.0  # mm of lines, below which cells around are tried too: the length jumps there
-SPREAD, SCANNED = 0.25, 11
+SPREAD, SCANNED = 0.25, 26
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
 NEWEST = 0.2  # how much the last layer counts in the density of a column
 
@@ -379,7 +380,7 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
                 if abs(error) < abs(_length(best) / wanted - 1):
                     best = paths
                     memory.columns[area] = replace(column, cell=cell)
-                if abs(error) < OFF / 4:
+                if abs(error) < NEAR:
                     break
     return best
 
