@@ -77,15 +77,18 @@ def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats
     longer = np.maximum(length[:-1], length[1:])
     gentle = np.zeros(count, dtype=bool)
     gentle[1:-1] = same[:-1] & same[1:] & (np.minimum(length[:-1], length[1:]) > 0)
-    most = bulge[1:-1] if isinstance(bulge, np.ndarray) else bulge
-    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < most)
+    most = np.broadcast_to(bulge, count)
+    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < most[1:-1])
     bent = np.flatnonzero(gentle[:-1] & gentle[1:] & same)
-    if not len(bent):
-        return Recut(points=points, first=first, source=np.arange(count), curved=np.zeros(count, dtype=bool))
     # The circle through three points turns towards each neighbour by that leg's share.
     part = np.zeros(count)
     part[1:-1] = length[:-1] / np.maximum(length[:-1] + length[1:], 1e-300)
     leaving, arriving = -turn[bent] * (1 - part[bent]), turn[bent + 1] * part[bent + 1]
+    # A leg beside shorter ones takes nearly all of the turn at both of its ends.
+    low = length[bent] * (np.abs(leaving) + np.abs(arriving)) / 8 < np.minimum(most[bent], most[bent + 1])
+    bent, leaving, arriving = bent[low], leaving[low], arriving[low]
+    if not len(bent):
+        return Recut(points=points, first=first, source=np.arange(count), curved=np.zeros(count, dtype=bool))
     start, end = heading[bent] + leaving, heading[bent] + arriving
     handle = length[bent] / 3
     control = np.stack(
