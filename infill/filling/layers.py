@@ -256,10 +256,9 @@ def _replaced(
     fresh = [each for each in fresh if may[each.body.strokes].all()]
     for reason, number in reasons.items():
         _count(tally, reason, number)
-    leaving = [each for each in fresh if outside(each)]
-    if leaving:
-        _count(tally, "a path would leave its region", len(leaving))
-        fresh = [each for each in fresh if each not in leaving]
+    within = [each for each in fresh if not outside(each)]
+    _count(tally, "a path would leave its region", len(fresh) - len(within))
+    fresh = within
     if not fresh:
         return _nothing(table, infill, before, tally)
     fresh = _unhurried(table, marks, fresh, rules)
@@ -360,8 +359,7 @@ def _count(tally: Tally, reason: str, number: int) -> None:
 
 def _count_corners(infill: Strokes, changed: NDArray[np.bool_], radius: Floats, tally: Tally) -> None:
     bent = np.repeat(changed, np.diff(infill.first))
-    radius = radius[: len(bent)] if len(radius) == len(bent) else radius
-    found = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
+    found = radius[bent & (radius > LEAST_RADIUS) & np.isfinite(radius)]
     tally.corners += len(found)
     tally.radii.add(found)
 
