@@ -394,6 +394,16 @@ def test_a_batch_is_no_longer_than_what_is_asked_and_a_layer() -> None:
     assert file.most == size
 
 
+def test_after_a_long_layer_batches_are_as_short_as_before() -> None:
+    layer = LAYERS[0] + b"G1 X1 Y2 E.5\n" * 50
+    long = LAYERS[0] + b"G1 X1 Y2 E.5\n" * 20_000
+    size = 10_000
+    found = list(batches(io.BytesIO(layer * 20 + long + layer * 2000), size))
+    longest = max(range(len(found)), key=lambda k: len(found[k]))
+    assert max(map(len, found[longest + 2 :])) <= size + len(layer)
+    assert len(found[longest]) <= 2 * (len(long) + size)  # what is asked doubles until the layer ends
+
+
 def test_a_layer_longer_than_any_is_cut_between_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stream, "LARGEST_LAYER", 4096)
     line = b"G1 X1 Y2 E.5\n"
@@ -522,6 +532,7 @@ BETWEEN: dict[str, bool] = {
     "M117 hello\n": True,
     "G1 F900\n": True,  # as it was
     "G1 F1200\n": False,
+    "G1 F1200\nG1 F900\n": False,
     "G0 X9 Y0\nG0 X10 Y0\n": False,
     "G1 E-.8\nG1 E.8\n": False,
     "G10\nG11\n": False,
