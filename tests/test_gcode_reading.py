@@ -166,7 +166,7 @@ def number(draw: st.DrawFn) -> str:
 
 @st.composite
 def move(draw: st.DrawFn) -> str:
-    front = draw(st.sampled_from(["", "", "", " ", "\t ", "N12 ", "n7", "  N8 "]))
+    front = draw(st.sampled_from(["", "", "", " ", "\t ", "N12 ", "n7", "  N8 ", "N9 \t "]))
     name = draw(st.sampled_from(["G1"] * 6 + ["G0", "G01", "g1", "G00", "G2", "G3", "g03"]))
     letters = draw(st.lists(st.sampled_from("XYZEFIJ"), unique=True, max_size=5))
     words = ""
@@ -196,7 +196,7 @@ def kind_of(line: bytes) -> tuple[int, int, bytes]:
     line = line.rstrip(b"\r\n")
     if len(line) - len(line.lstrip(b" \t")) > 8:
         return ODD, -1, b""
-    line = re.sub(rb"^[Nn]\d+ ?", b"", line.lstrip(b" \t"))
+    line = re.sub(rb"^[Nn]\d+[ \t]*", b"", line.lstrip(b" \t"))
     if not line:
         return BLANK, -1, b""
     if line.startswith(b";"):
