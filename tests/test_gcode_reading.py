@@ -166,7 +166,7 @@ def number(draw: st.DrawFn) -> str:
 
 @st.composite
 def move(draw: st.DrawFn) -> str:
-    front = draw(st.sampled_from(["", "", "", " ", "\t ", "N12 ", "n7", "  N8 "]))
+    front = draw(st.sampled_from(["", "", "", " ", "\t ", "N12 ", "n7", "  N8 ", "N9 \t "]))
     name = draw(st.sampled_from(["G1"] * 6 + ["G0", "G01", "g1", "G00", "G2", "G3", "g03"]))
     letters = draw(st.lists(st.sampled_from("XYZEFIJ"), unique=True, max_size=5))
     words = ""
@@ -196,7 +196,7 @@ def kind_of(line: bytes) -> tuple[int, int, bytes]:
     line = line.rstrip(b"\r\n")
     if len(line) - len(line.lstrip(b" \t")) > 8:
         return ODD, -1, b""
-    line = re.sub(rb"^[Nn]\d+ ?", b"", line.lstrip(b" \t"))
+    line = re.sub(rb"^[Nn]\d+[ \t]*", b"", line.lstrip(b" \t"))
     if not line:
         return BLANK, -1, b""
     if line.startswith(b";"):
@@ -394,6 +394,16 @@ def test_a_batch_is_no_longer_than_what_is_asked_and_a_layer() -> None:
     assert file.most == size
 
 
+def test_after_a_long_layer_batches_are_as_short_as_before() -> None:
+    layer = LAYERS[0] + b"G1 X1 Y2 E.5\n" * 50
+    long = LAYERS[0] + b"G1 X1 Y2 E.5\n" * 20_000
+    size = 10_000
+    found = list(batches(io.BytesIO(layer * 20 + long + layer * 2000), size))
+    longest = max(range(len(found)), key=lambda k: len(found[k]))
+    assert max(map(len, found[longest + 2 :])) <= size + len(layer)
+    assert len(found[longest]) <= 2 * (len(long) + size)  # what is asked doubles until the layer ends
+
+
 def test_a_layer_longer_than_any_is_cut_between_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stream, "LARGEST_LAYER", 4096)
     line = b"G1 X1 Y2 E.5\n"
@@ -522,6 +532,7 @@ BETWEEN: dict[str, bool] = {
     "M117 hello\n": True,
     "G1 F900\n": True,  # as it was
     "G1 F1200\n": False,
+    "G1 F1200\nG1 F900\n": False,
     "G0 X9 Y0\nG0 X10 Y0\n": False,
     "G1 E-.8\nG1 E.8\n": False,
     "G10\nG11\n": False,

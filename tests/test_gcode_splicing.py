@@ -258,7 +258,7 @@ OLD = {
 # Of each: what stands in the text, what is put in its place, and what must be said; by mode where they differ.
 FAULTS: dict[str, tuple[str, str, str]] = {
     "a wrong E": (r"(Y1 E)(\S+)(?=\nM73)", r"\g<1>9\2", "filament|the state at the end"),
-    "an E left out": (r"(X10 Y9) E\S+", r"\1", "filament"),
+    "an E left out": (r"(X10 Y9) E\S+", r"\1", "a new move without filament"),
     "an E that is a little wrong": (r"(X10 Y9 E\S*?)(\d)$", "", "the filament per mm of a new move"),
     "a moved end": (r"X20 Y10 E", r"X20.1 Y10 E", "X after a line that was copied"),
     "another moved end": (r"X20 Y10 E", r"X20 Y10.01 E", "Y after a line that was copied"),
@@ -323,6 +323,37 @@ def test_a_counter_that_is_not_reset_is_named() -> None:
     assert done.text.count(b"G92 E8\n") == 1
     told = unlike(table, infill, new, replace(done, text=done.text.replace(b"G92 E8\n", b";G92 E8\n")))
     assert told in ("the filament of a line that was copied", "the counter of filament")
+
+
+@pytest.mark.parametrize(
+    ("after", "old", "instead", "told"),
+    [
+        ("M107\nG92 E0\n", "G92 E8\n", ";G92 E8\n", "the counter of filament"),
+        ("G1 Z.6\n", "X20 Y10 E", "X20 Y10 Z.3 E", "a new move in z"),
+        ("G1 X1 Y1 F900\n", "X20 Y10 E", "X20.01 Y10 E", "the end of a stroke"),
+        ("G1 X1 Y1 F900\n", "X20 Y10 E", "X20 Y9.99 E", "the end of a stroke"),
+    ],
+)
+def test_a_fault_that_the_next_line_covers_is_named(after: str, old: str, instead: str, told: str) -> None:
+    moves = "G1 X10 Y0 E6\nG1 X10 Y10 E7\nG1 X20 Y10 E8\n"
+    table, infill, new, done = cut_corner(f"M82\nG92 E5\n{HEAD}{moves}{after}")
+    assert unlike(table, infill, new, done) == ""
+    assert done.text.count(old.encode()) == 1
+    text = done.text.replace(old.encode(), instead.encode())
+    assert unlike(table, infill, new, replace(done, text=text)) == told
+
+
+@pytest.mark.parametrize(("steps", "resets"), [(0, 0), (1, 1), (-1, 1), (3, 1)])
+@pytest.mark.parametrize("mode", ["M82", "M83"])
+def test_a_counter_is_reset_if_it_is_off_by_a_step(mode: str, steps: int, resets: int) -> None:
+    words = [1, 2] if mode == "M82" else [1, 1]
+    text = f"{mode}\n{HEAD}G1 X10 Y0 E{words[0]}\nG1 X10 Y10 E{words[1]}\nG1 X0 F7200\n"
+    table, infill = looked_at(text.encode())
+    new = as_it_was(infill, [0])
+    new = replace(new, filament=new.filament + steps * FILAMENT_UNIT)
+    done = spliced(table, infill, new)
+    assert done.text.count(b"G92 E2\n") == done.text.count(b"G92") == (resets if mode == "M82" else 0)
+    assert unlike(table, infill, new, done) == ""
 
 
 # Sections drawn anew.
@@ -402,6 +433,7 @@ def test_a_section_drawn_anew_leaves_all_as_it_was(
     assert (places[-1] if len(places) else body.start).tolist() == body.end.tolist()
     assert (other.f[part][drawn] == body.feed).all()
     assert (other.f[part][moves & ~drawn] == ways.travel).all()
+    assert text.count(b"\r\n") == (text.count(b"\n") if b"\r" in section[0] else 0)
     length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
     assert pushed == pytest.approx(length * body.rate)
     # Relative words, or the words of an absolute counter: every path is rounded once.
@@ -491,6 +523,13 @@ def test_a_plain_section_is_found(middle: str) -> None:
     drawn = table.given[:, :2].any(axis=1)[body.first : body.last + 1]
     assert body.filament == pytest.approx(table.extruded[body.first : body.last + 1][drawn].sum())
     assert body.length == pytest.approx(body.filament / 0.04)
+
+
+def test_the_feed_rate_of_a_section_is_that_of_most_of_it() -> None:
+    _, body = one_body(square("G1 F1200\nG1 X10 Y9 E.04\n"))
+    assert (len(body.strokes), body.feed, body.feed_after) == (3, 1800, 1800)
+    _, body = one_body(square().replace(b"G1 X5 Y0", b"G1 F1500\nG1 X5 Y0"))
+    assert (len(body.strokes), body.feed, body.feed_after) == (3, 1800, 1500)
 
 
 def test_every_section_has_its_own_body() -> None:
