@@ -159,7 +159,7 @@ def planned(
     """
     import shapely
 
-    regions, length, width = [], 0.0, 0.0
+    regions, walls, length, width = [], [], 0.0, 0.0
     for sample in some:
         opens = first_moves(sample.infill)
         layer = sample.marks.layer[opens]
@@ -167,9 +167,11 @@ def planned(
         width = float(np.median(line_width(sample.marks, opens)))
         number = sample.filled[-1]
         chosen = np.flatnonzero(layer == number)
-        region = region_of(others.of(number, STEP), layer_samples(sample.infill, chosen))
+        beside = others.of(number, STEP)
+        region = region_of(beside, layer_samples(sample.infill, chosen))
         if not region.polygons:
             continue
+        walls.append(beside)
         area = shapely.MultiPolygon(list(region.polygons))
         regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
         heights = sample.marks.height[opens]
@@ -182,8 +184,11 @@ def planned(
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))
 
-    def measure(paths: Sequence[Floats]) -> float:
-        done = _rounded(list(paths), None, rounding, width, acceleration, 80.0)
+    around = np.concatenate(walls)  # of all layers at once: where they differ, a few more corners stay sharp
+
+    def measure(paths: Sequence[Floats], cell: float) -> float:
+        arcs = replace(rounding, radius=min(rounding.radius, family.largest_radius(cell, width)))
+        done = _rounded(list(paths), around, arcs, width, acceleration, 80.0)
         return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in done))
 
     radius = min(rounding.radius, LARGEST_RADIUS)
