@@ -33,7 +33,7 @@ Paths = list[Floats]
 LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
 SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
-INSIDE = 0.02  # mm that a path may leave its region
+INSIDE = 0.01  # mm that a path may leave its region
 LARGEST_RADIUS = 1000.0  # mm: as large as it gets
 OFF = 0.08  # of the length that an area should have, which beads cannot make up for, before it gets a cell of its own
 FAR_OFF = 0.12  # of it, before a column changes its cell, so that its layers no longer lie on one another
@@ -55,15 +55,15 @@ class Plan:
     cell : float, mm
     line_width : float, mm
     rounding : Rounding
-    same_filament : bool
-        Every section keeps its filament; else the beads keep their width.
+    density : float, optional
+        mm of line per mm², if it was asked for; else every section keeps its filament.
     """
 
     family: Family
     cell: float
     line_width: float
     rounding: Rounding
-    same_filament: bool
+    density: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -161,7 +161,7 @@ def planned(
     """
     import shapely
 
-    regions, length, width = [], 0.0, 0.0
+    regions, walls, length, width, spacing = [], [], 0.0, 0.0, 1.0
     for sample in some:
         opens = first_moves(sample.infill)
         layer = sample.marks.layer[opens]
@@ -169,9 +169,11 @@ def planned(
         width = float(np.median(line_width(sample.marks, opens)))
         for number in sample.filled:
             chosen = np.flatnonzero(layer == number)
-            region = region_of(others.of(number, STEP), layer_samples(sample.infill, chosen).points)
+            beside = others.of(number, STEP)
+            region = region_of(beside, layer_samples(sample.infill, chosen).points)
             if not region.polygons:
                 continue
+            walls.append(beside)
             area = shapely.MultiPolygon(list(region.polygons))
             regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
             spacing = _spacing(width, float(np.median(sample.marks.height[opens])))
@@ -183,13 +185,22 @@ def planned(
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))
 
-    def measure(paths: Sequence[Floats]) -> float:
-        done = _rounded(list(paths), None, rounding, width, acceleration, 80.0)
+    around = np.concatenate(walls)  # of all layers at once: where they differ, a few more corners stay sharp
+
+    def measure(paths: Sequence[Floats], cell: float) -> float:
+        arcs = replace(rounding, radius=min(rounding.radius, family.largest_radius(cell, width)))
+        done = _rounded(list(paths), around, arcs, width, acceleration, 80.0)
         return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in done))
 
     radius = min(rounding.radius, LARGEST_RADIUS)
     solved = solve_cell(regions, family, length, line_width=width, radius=radius, measure=measure)
-    return Plan(family=family, cell=solved.cell, line_width=width, rounding=rounding, same_filament=density is None)
+    return Plan(
+        family=family,
+        cell=solved.cell,
+        line_width=width,
+        rounding=rounding,
+        density=None if density is None else density / spacing,
+    )
 
 
 def _spacing(width: float, height: float) -> float:
@@ -233,11 +244,13 @@ def fresh_sections(
             if not pushed:
                 reasons["no path fits"] = reasons.get("no path fits", 0) + len(members)
                 continue
-            factor = 1.0
-            if plan.same_filament:
-                wanted = sum(body.filament for body in members) + memory.owed
-                factor = float(np.clip(wanted / pushed, LEAST_WIDTH, MOST_WIDTH))
-                memory.owed = wanted - factor * pushed
+            wanted = sum(body.filament for body in members)
+            if plan.density is not None:
+                area = sum(region.polygons[each].area for some_areas in group.areas.values() for each in some_areas)
+                wanted = members[0].rate * plan.density * area
+            wanted += memory.owed
+            factor = float(np.clip(wanted / pushed, LEAST_WIDTH, MOST_WIDTH))
+            memory.owed = wanted - factor * pushed
             areas = tuple(region.polygons[area] for each in group.areas.values() for area in each)
             fresh += [
                 Fresh(body=body, paths=drawn[body.section], rate=body.rate * factor, areas=areas) for body in members
@@ -274,7 +287,7 @@ class _Layer:
 
 def _column(area: Polygon, length: float, plan: Plan, memory: Memory) -> Column:
     """Return the column that an area continues, or begins."""
-    density = length / area.area
+    density = length / area.area if plan.density is None else plan.density
     best, most = None, 0.0
     for column in memory.columns:
         if column.area is area:
@@ -368,7 +381,7 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     paths = _covered(body, column.area, column.cell, layer)
     best, cell = paths, column.cell
     # What varies with the height has one cell everywhere, or its layers would not fit one another.
-    if layer.plan.same_filament and layer.plan.family.prismatic and wanted > LEAST_LENGTH:
+    if layer.plan.family.prismatic and wanted > LEAST_LENGTH:
         error = _length(paths) / wanted - 1
         if abs(error) > (OFF if column.fresh else FAR_OFF):
             around = cell * np.exp(np.linspace(-SPREAD, SPREAD, SCANNED)) if wanted < SMALL else ()
@@ -406,7 +419,7 @@ def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
     done = _rounded(strands, layer.walls, rounding, plan.line_width, layer.acceleration, speed)
     near = shapely.buffer(area, INSIDE)
     shapely.prepare(near)
-    inside = [bool(shapely.contains_xy(near, path[:, 0], path[:, 1]).all()) for path in done]
+    inside = shapely.covers(near, [shapely.linestrings(path) for path in done]).tolist()
     if all(inside):
         return done
     plain = [np.rint(path / UNIT) * UNIT for path in strands if len(path) > 1]
@@ -452,7 +465,6 @@ def outside(fresh: Fresh) -> bool:
 
     if not fresh.paths:
         return False
-    near = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + 0.001)
+    near = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + UNIT)
     shapely.prepare(near)
-    points = np.concatenate(fresh.paths)
-    return not bool(shapely.contains_xy(near, points[:, 0], points[:, 1]).all())
+    return not bool(shapely.covers(near, [shapely.linestrings(path) for path in fresh.paths]).all())
