@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ONE_OF = 3  # points are looked at
+ONE_OF = 3  # points is looked at, where there are many: of a few hundred, shares would be wrong by hundredths
+MANY = 10_000
 STEP = 0.1  # mm between the points that are looked at
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
@@ -132,8 +133,9 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
     random = np.random.default_rng(0)
-    some = np.arange(0, len(infill.points), ONE_OF)
-    some = np.minimum(some + random.integers(0, ONE_OF, len(some)), len(infill.points) - 1)
+    one_of = ONE_OF if len(infill.points) > MANY else 1
+    some = np.arange(0, len(infill.points), one_of)
+    some = np.minimum(some + random.integers(0, one_of, len(some)), len(infill.points) - 1)
     points = infill.points[some] + infill.half[some] * random.uniform(-1, 1, (len(some), 1))
     weight = infill.weight[some] * (infill.weight.sum() / infill.weight[some].sum())
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
