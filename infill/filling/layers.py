@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from infill.filling.contact import Contact
 from infill.filling.keeping import Rounding, first_moves, lengths, line_width, redrawn, rounded_strokes
 from infill.filling.measuring import MEASURED, Below, Drawing, drawing, measured
-from infill.filling.replacing import Memory, Plan, fresh_sections, outside, retractions
+from infill.filling.replacing import Fresh, Memory, Plan, fresh_sections, outside, retractions
 from infill.filling.request import SAME, Request
 from infill.filling.support import Sample
 from infill.filling.surroundings import beads
@@ -27,6 +27,7 @@ Places = NDArray[np.intp]
 
 LEAST_RADIUS = 0.02  # mm: below this a corner beside a wall was hardly touched
 LEAST_TRAVEL = 1.0  # mm: shorter ways are never retracted
+SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the file tells
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 SLOWED = 0.97  # a layer whose infill is slower than this share of the usual was slowed down to cool
 
@@ -260,6 +261,7 @@ def _replaced(
     fresh = within
     if not fresh:
         return _nothing(table, infill, before, tally)
+    fresh = _unhurried(table, marks, fresh, rules)
     texts, filament = [], []
     for each in fresh:
         text, pushed, _ = composed(table, each.body, each.paths, each.rate, ways, retractions(each, LEAST_TRAVEL))
@@ -300,6 +302,19 @@ def _replaced(
     first = np.array([each.body.first for each in fresh])
     _add(tally.change, tools[first], np.array(filament) - np.array([each.body.filament for each in fresh]))
     return done.text, tally
+
+
+def _unhurried(table: Table, marks: Marks, fresh: list[Fresh], rules: Rules) -> list[Fresh]:
+    """Slow down new paths that are shorter than the old ones, in layers that may be as short as cooling allows."""
+    short = _layer_seconds(table, marks) < max(SHORT_LAYER, rules.least_layer)
+    slowed = []
+    for each in fresh:
+        body = each.body
+        length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in each.paths)
+        if short[body.layer - int(marks.layer[0])] and 0 < length < body.length:
+            body = replace(body, feed=body.feed * length / body.length)
+        slowed.append(replace(each, body=body))
+    return slowed
 
 
 def _accelerations(marks: Marks, line: Places, rules: Rules) -> Floats:
@@ -359,6 +374,9 @@ def _chosen(
     if rules.request.layers is not None:
         low, high = rules.request.layers
         reasons["not among the layers asked for"] = (layer < low) | (layer > high)
+    if rules.request.part is not None:
+        wanted = [number for number, name in marks.names.items() if rules.request.part in name]
+        reasons["another object"] = ~np.isin(marks.section[opens], wanted)
     reasons["slowed down to cool"] = _slowed(table, marks, layer, table.f[opens], rules)
     ends = np.stack([infill.points[infill.first[:-1]], infill.points[infill.first[1:] - 1]])
     last = infill.line[infill.first[1:] - 1] == len(table) - 1
@@ -379,12 +397,16 @@ def _slowed(table: Table, marks: Marks, layer: Places, speed: Floats, rules: Rul
     if not rules.least_layer:
         return slowed
     slowed |= speed < SLOWED * rules.usual_speed
-    x = np.diff(table.x, prepend=table.before.x)
-    y = np.diff(table.y, prepend=table.before.y)
-    seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
-    number = marks.layer - marks.layer[0]
-    each = np.bincount(number, weights=seconds)
+    each = _layer_seconds(table, marks)
     # Rounding takes a tenth of the length of the infill at most.
     short = each * 0.9 < rules.least_layer
     found: NDArray[np.bool_] = slowed | short[layer - marks.layer[0]]
     return found
+
+
+def _layer_seconds(table: Table, marks: Marks) -> Floats:
+    """Return how long each layer of a table takes at its feed rates, without acceleration, as slicers reckon."""
+    x = np.diff(table.x, prepend=table.before.x)
+    y = np.diff(table.y, prepend=table.before.y)
+    seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
+    return np.bincount(marks.layer - marks.layer[0], weights=seconds).astype(np.float64)

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.contact import STEP as CONTACT_STEP
-from infill.filling.contact import sampled
+from infill.filling.contact import Samples, sampled
 from infill.filling.covering import cover, solve_cell
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.heart import ConcentricHeart
@@ -36,9 +35,12 @@ SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
 INSIDE = 0.02  # mm that a path may leave its region
 LARGEST_RADIUS = 1000.0  # mm: as large as it gets
-OFF = 0.05  # of the length that an area should have, before it gets a cell of its own
-FAR_OFF = 0.3  # of it, before a column changes its cell, so that its layers no longer lie on one another
+OFF = 0.08  # of the length that an area should have, which beads cannot make up for, before it gets a cell of its own
+FAR_OFF = 0.12  # of it, before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
+NEAR = 0.02  # of the length: near enough
+SMALL = 300.0  # mm of lines, below which cells around are tried too: the length jumps there
+SPREAD, SCANNED = 0.25, 26
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
 NEWEST = 0.2  # how much the last layer counts in the density of a column
 
@@ -136,10 +138,10 @@ def family_of(pattern: str) -> Family:
     return drawn(pattern)
 
 
-def layer_samples(infill: Strokes, some: Places) -> Floats:
-    """Return points on some strokes, (N, 2) float64, mm."""
+def layer_samples(infill: Strokes, some: Places) -> Samples:
+    """Return samples of some strokes."""
     ends = np.concatenate([[0], np.cumsum(np.diff(infill.first)[some])])
-    return sampled(infill.points[points_of(infill.first, some)], ends).points
+    return sampled(infill.points[points_of(infill.first, some)], ends)
 
 
 def planned(
@@ -165,18 +167,17 @@ def planned(
         layer = sample.marks.layer[opens]
         others = beads(sample.table, sample.marks, sample.infill)
         width = float(np.median(line_width(sample.marks, opens)))
-        number = sample.filled[-1]
-        chosen = np.flatnonzero(layer == number)
-        beside = others.of(number, STEP)
-        region = region_of(beside, layer_samples(sample.infill, chosen))
-        if not region.polygons:
-            continue
-        walls.append(beside)
-        area = shapely.MultiPolygon(list(region.polygons))
-        regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
-        heights = sample.marks.height[opens]
-        spacing = _spacing(width, float(np.median(heights)))
-        length += float(sample.infill.length[chosen].sum()) if density is None else density * area.area / spacing
+        for number in sample.filled:
+            chosen = np.flatnonzero(layer == number)
+            beside = others.of(number, STEP)
+            region = region_of(beside, layer_samples(sample.infill, chosen).points)
+            if not region.polygons:
+                continue
+            walls.append(beside)
+            area = shapely.MultiPolygon(list(region.polygons))
+            regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
+            spacing = _spacing(width, float(np.median(sample.marks.height[opens])))
+            length += float(sample.infill.length[chosen].sum()) if density is None else density * area.area / spacing
     if not regions:
         return None
     if isinstance(family, ConcentricHeart):  # one centre for the whole print
@@ -213,7 +214,7 @@ def fresh_sections(
     for number in np.unique(layer):
         some = np.flatnonzero(layer == number)
         walls = others.of(int(number), STEP)
-        region = region_of(walls, layer_samples(infill, some), memory.region)
+        region = region_of(walls, layer_samples(infill, some).points, memory.region)
         if region is not memory.region:
             memory.paths.clear()
         memory.region = region
@@ -314,12 +315,13 @@ def _grouped(region: Region, infill: Strokes, some: Places, section: Places) -> 
     grown = shapely.buffer(np.array(region.polygons, dtype=object), 0.1)
     shapely.prepare(grown)
     numbers = np.unique(section[some]).tolist()
-    held = np.zeros((len(numbers), len(grown)), dtype=np.int64)
+    held = np.zeros((len(numbers), len(grown)))
     lost: set[int] = set()
     for place, number in enumerate(numbers):
-        points = layer_samples(infill, some[section[some] == number])
+        drawn = layer_samples(infill, some[section[some] == number])
+        points = drawn.points
         inside = np.array([shapely.contains_xy(area, points[:, 0], points[:, 1]) for area in grown])
-        held[place] = inside.sum(axis=1) if len(grown) else 0
+        held[place] = inside @ drawn.weight if len(grown) else 0.0
         if not len(grown) or inside.any(axis=0).mean() < 1 - LOST:
             lost.add(number)
     # A section that printed next to nothing of an area has no share in it.
@@ -335,7 +337,7 @@ def _grouped(region: Region, infill: Strokes, some: Places, section: Places) -> 
         for place in np.flatnonzero(label == each).tolist():
             own = [area for area in range(len(grown)) if held[:, area].any() and held[:, area].argmax() == place]
             areas[numbers[place]] = tuple(own)
-        amount = held[label == each].sum(axis=0) * CONTACT_STEP
+        amount = held[label == each].sum(axis=0)
         lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
         groups.append(_Group(areas=areas, lengths=lengths))
     return groups, lost
@@ -374,17 +376,17 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     if layer.plan.same_filament and layer.plan.family.prismatic and wanted > LEAST_LENGTH:
         error = _length(paths) / wanted - 1
         if abs(error) > (OFF if column.fresh else FAR_OFF):
-            for _ in range(TRIES):
-                cell *= float(np.clip(1 + error, 0.6, 1.6))
+            around = cell * np.exp(np.linspace(-SPREAD, SPREAD, SCANNED)) if wanted < SMALL else ()
+            for tried in range(TRIES + len(around)):
+                cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if tried < TRIES else float(around[tried - TRIES])
                 cell = max(cell, TOUCH * layer.plan.line_width)
                 paths = _covered(body, column.area, cell, layer)
-                then = _length(paths) / wanted - 1
-                if abs(then) < abs(_length(best) / wanted - 1):
+                error = _length(paths) / wanted - 1
+                if abs(error) < abs(_length(best) / wanted - 1):
                     best = paths
                     memory.columns[area] = replace(column, cell=cell)
-                if abs(then) < OFF / 2:
+                if abs(error) < NEAR:
                     break
-                error = then
     return best
 
 

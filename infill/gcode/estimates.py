@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 _LINE = re.compile(
-    rb"^(?:M73 [^\n]*|; (?:total )?filament used \[[a-z0-9]+\] = [^\n]*|; total filament cost = [^\n]*"
+    rb"^(?:M73 [^\n]*|; (?:total )?filament used \[[a-z0-9]+\] = [^\n]*|; (?:total )?filament cost = [^\n]*"
+    rb"|; total filament (?:length|volume|weight) \[[a-z0-9^]+\] : [^\n]*"
     rb"|; estimated printing time [^\n]*|; model printing time: [^\n]*|;TIME:\d[^\n]*|;TIME_ELAPSED:[^\n]*"
     rb"|;PRINT\.TIME:\d[^\n]*|;Filament used: [^\n]*)$",
     re.MULTILINE,
@@ -36,7 +37,7 @@ class Change:
     filament: float = 1.0
     tools: tuple[float, ...] = ()
 
-    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float]) -> Change:
+    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float], area: float = 1.0) -> Change:
         """Return the change with ratios of the filament that the print says it takes, if it says so by tool.
 
         Parameters
@@ -44,12 +45,14 @@ class Change:
         lines : iterable of bytes
             That tell time or filament.
         change : mapping of int to float
-            mm of filament more, by tool.
+            Filament more, by tool, in what the print counts: mm, or mm³ for volumetric E.
+        area : float
+            Section of the filament, mm², for volumetric E; else 1.
         """
         for line in lines:
             if line.startswith(b"; filament used [mm] = "):
                 said = [float(number) for number in _NUMBER.findall(line.partition(b" = ")[2])]
-                now = [length + change.get(tool, 0.0) for tool, length in enumerate(said)]
+                now = [length + change.get(tool, 0.0) / area for tool, length in enumerate(said)]
                 if all(length > 0 for length in now if length) and sum(said) > 0:
                     ratios = tuple(new / old if old > 0 else 1.0 for new, old in zip(now, said, strict=True))
                     return replace(self, filament=sum(now) / sum(said), tools=ratios)
@@ -122,13 +125,16 @@ def _progress(line: bytes, so_far: float, saved: float, total: float) -> bytes:
 
     def anew(found: re.Match[bytes]) -> bytes:
         value = float(found[2])
+        decimals = len(found[2].partition(b".")[2])
         if found[1] in b"RS":
-            return found[1] + b"%d" % max(0, round(value - (saved - so_far) / 60))
+            return found[1] + b"%.*f" % (decimals, max(0.0, value - (saved - so_far) / 60))
         if found[1] in b"PQ" and total > saved:
-            return found[1] + b"%d" % min(100, max(0, round((value * total - 100 * so_far) / (total - saved))))
+            share = (value * total - 100 * so_far) / (total - saved)
+            return found[1] + b"%.*f" % (decimals, min(100.0, max(0.0, share)))
         return found[0]
 
-    return _WORD.sub(anew, line)
+    words, mark, remark = line.partition(b";")
+    return _WORD.sub(anew, words) + mark + remark
 
 
 def _scaled(number: bytes, factor: float) -> bytes:

@@ -144,6 +144,13 @@ class Table:
     def __len__(self) -> int:
         return len(self.kind)
 
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """Whether each line has a word that moves something: X, Y, Z or E."""
+        given = self.given
+        something: NDArray[np.bool_] = given[:, 0] | given[:, 1] | given[:, 2] | given[:, 3]
+        return something
+
     def text(self, first: int, last: int) -> bytes:
         """Return lines `first` to `last` (exclusive) as they stand in the file."""
         return self.data[self.start[first] : self.start[last]]
@@ -190,7 +197,7 @@ def _kinds(
 
     blank = byte() <= SPACE
     for _ in range(8):  # indented lines are rare; deeper ones are odd
-        inner = ((byte() == SPACE) | (byte() == TAB)) & (first < start[1:] - 1)
+        inner = (byte() == SPACE) | (byte() == TAB)  # a line end is neither, and the text ends with one
         if not inner.any():
             break
         first += inner
@@ -200,7 +207,11 @@ def _kinds(
         first += numbered
         for _ in range(10):
             first += numbered & _is_digit(byte())
-        first += numbered & (byte() == SPACE)
+        for _ in range(8):
+            inner = numbered & ((byte() == SPACE) | (byte() == TAB))
+            if not inner.any():
+                break
+            first += inner
     head = byte()
     kind = np.full(len(first), OTHER, dtype=np.uint8)
     kind[head == SEMICOLON] = COMMENT
