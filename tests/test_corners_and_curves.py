@@ -11,6 +11,7 @@ import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from infill.filling.contact import STEP as CONTACT_STEP
 from infill.filling.contact import Contact, Samples, contact, merged, sampled
 from infill.filling.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
 from infill.filling.curves import GENTLE, MOST_BULGE, recut
@@ -322,14 +323,14 @@ NOTHING = sampled(np.empty((0, 2)), np.array([0]))
 
 @given(paths=st.lists(walks(170, 0.01), min_size=1, max_size=4))
 def test_weights_add_up_to_the_length(paths: list[np.ndarray]) -> None:
-    """And each sample stands for two tenths of a millimetre at most, in the middle of its piece."""
+    """And each sample stands for a fifth of a millimetre at most, in the middle of its piece."""
     found = sampled(np.concatenate(paths), ends_of(paths))
     for k, path in enumerate(paths):
         own = found.path == k
         assert found.weight[own].sum() == pytest.approx(length_of(path))
         assert found.along[own] == pytest.approx(np.cumsum(found.weight[own]) - found.weight[own] / 2, abs=1e-6)
         assert shapely.distance(shapely.points(found.points[own]), shapely.LineString(path)).max() < EXACT
-    assert found.weight.max() <= STEP + EXACT
+    assert found.weight.max() <= CONTACT_STEP + EXACT
     assert 2 * np.hypot(*found.half.T) == pytest.approx(found.weight)
 
 

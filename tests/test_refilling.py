@@ -84,11 +84,7 @@ def room(path: Path) -> float:
 # --- patterns --------------------------------------------------------------------------------------------------
 
 
-# Its length changes by more than a tenth from layer to layer, beads by 8 %: what the last layers owe, none takes.
-OWING = pytest.mark.xfail(reason="a gyroid takes 1.021 of the filament that was there, in six layers", strict=True)
-
-
-@pytest.mark.parametrize("name", [pytest.param(name, marks=OWING) if name == "gyroid" else name for name in FAMILIES])
+@pytest.mark.parametrize("name", FAMILIES)
 def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tmp_path: Path) -> None:
     """Within 1 %, with no more retractions; an independent judge finds nothing else changed."""
     report = refill(taller, output=tmp_path / "new.gcode", pattern=name).report

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ONE_OF = 2  # pieces is looked at, and fewer in large layers:
-MOST_POINTS = 5000
+ONE_OF = 2  # pieces is looked at, and fewer in large layers; all of a few, or shares would be off
+FEW, MOST_POINTS = 2000, 5000
 STEP = 0.2  # mm, of the pieces that paths are cut into
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
@@ -133,7 +133,7 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
     random = np.random.default_rng(0)
-    apart = max(ONE_OF, len(infill.points) // MOST_POINTS)
+    apart = max(ONE_OF, len(infill.points) // MOST_POINTS) if len(infill.points) > FEW else 1
     some = np.arange(0, len(infill.points), apart)
     some = np.minimum(some + random.integers(0, apart, len(some)), len(infill.points) - 1)
     points = infill.points[some] + infill.half[some] * random.uniform(-1, 1, (len(some), 1))
