@@ -98,18 +98,13 @@ def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tm
 @pytest.mark.parametrize("density", [0.05, 0.2, 0.4])
 @pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "grid"])
 def test_density_is_the_share_that_lines_fill(name: str, density: float, wide: Path, tmp_path: Path) -> None:
-    """Length times spacing over the area, within 1 % and a quarter of a line: lines come and go whole.
-
-    Beads keep their width.
-    """
+    """Filament, as length times spacing over the area; lines come and go whole, and beads make up for that."""
     new = tmp_path / "new.gcode"
     report = refill(wide, output=new, pattern=name, density=density).report
-    assert length_of(new) * SPACING / room(wide) == pytest.approx(
-        density, rel=0, abs=0.01 * density + 15 * SPACING / room(wide)
-    )
-    filament, per_mm = report["filament"], report["filament"]["infill_before_mm"] / length_of(honeycomb)
-    asked = density * len(FILLED) * room(honeycomb) / SPACING  # mm of line; beads make up for what is missing
-    assert filament["infill_after_mm"] == pytest.approx(per_mm * asked, rel=0.01)
+    drawn = length_of(new) * SPACING / room(wide)
+    assert drawn == pytest.approx(density, rel=0, abs=0.01 * density + 15 * SPACING / room(wide))
+    filament, per_mm = report["filament"], report["filament"]["infill_before_mm"] / length_of(wide)
+    assert filament["infill_after_mm"] / per_mm * SPACING / room(wide) == pytest.approx(density, rel=0.01)
 
 
 def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
