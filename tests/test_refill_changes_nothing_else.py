@@ -166,3 +166,17 @@ def test_nothing_else_changes_in_any_dialect(
     assert judge(data, new, filament=(0.7, 1.01) if pattern == "keep" else (0.5, 1.3)) == []  # of regions of some mm
     if re.search(rb"^M82", new, re.MULTILINE):
         assert new.count(b"G92 E") >= data.count(b"G92 E")
+
+
+def test_one_object_of_two(prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
+    """The sections of the other one are as they were; a name that no object bears changes nothing."""
+    path, output = prints_of_all_kinds["prusa-labels"], tmp_path / "out.gcode"
+    names = sorted(set(re.findall(rb"^; printing object (.*)$", path.read_bytes(), re.MULTILINE)))
+    assert len(names) == 2
+    whole = refill(path, output=output).report["sections"]
+    halves = [refill(path, output=output, part=name.decode()).report["sections"] for name in names]
+    assert all(half["replaced"] > 0 for half in halves)
+    assert sum(half["replaced"] for half in halves) == whole["replaced"]
+    assert halves[0]["kept"]["another object"] == halves[1]["replaced"]
+    assert refill(path, output=output, part="nobody").report["sections"]["replaced"] == 0
+    assert output.read_bytes() == path.read_bytes()
