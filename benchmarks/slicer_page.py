@@ -1,0 +1,2 @@
+"""dummy"""
+def write_page(*a,**k): pass

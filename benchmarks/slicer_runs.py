@@ -1,0 +1,100 @@
+"""One case of the slicer report: sliced, refilled in each mode, judged."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from pathlib import Path
+from typing import Any
+
+from benchmarks.slicer_cases import OURS, Case, sliced
+from benchmarks.slicer_judge import Judged, judged
+from infill import refill
+from infill.errors import InfillError
+
+NEAR = 0.01  # of the filament: equal
+TRIES = 4
+
+
+def run_case(case: Case, modes: list[str]) -> dict[str, dict[str, Any]]:
+    """Return what each mode gives: numbers of `Judged`, and what refill reports; or an error."""
+    with tempfile.TemporaryDirectory(prefix="slicer-report-") as name:
+        folder = Path(name)
+        try:
+            plain = sliced(case, case.density, folder)
+        except (RuntimeError, AssertionError, OSError) as error:
+            return {mode: {"error": f"slicing: {error}"[-300:]} for mode in modes}
+        own = judged(plain, case.acceleration)
+        if not own.length:
+            return {mode: {"error": "the slicer made no sparse infill"} for mode in modes}
+        found: dict[str, dict[str, Any]] = {}
+        for mode in modes:
+            try:
+                found[mode] = _mode(case, mode, plain, own, folder)
+            except (InfillError, RuntimeError) as error:
+                found[mode] = {"error": str(error)[:300]}
+        return found
+
+
+def _mode(case: Case, mode: str, plain: Path, own: Judged, folder: Path) -> dict[str, Any]:
+    if mode == "slicer":
+        return own.to_dict()
+    if mode == "keep":
+        return refilled(plain, folder, case, "keep")
+    if mode == "ours":
+        if case.pattern not in OURS:
+            return {"error": "we have no such pattern"}
+        return refilled(plain, folder, case, OURS[case.pattern])
+    return _equal(case, plain, own, folder)
+
+
+def refilled(plain: Path, folder: Path, case: Case, pattern: str) -> dict[str, Any]:
+    """Refill a print; return what was measured on it, and what refill reports of itself."""
+    output = folder / "refilled.gcode"
+    begin = time.perf_counter()
+    report = refill(plain, output=output, pattern=pattern, overwrite=True).report
+    seconds = time.perf_counter() - begin
+    numbers: dict[str, Any] = judged(output if output.exists() else plain, case.acceleration).to_dict()
+    output.unlink(missing_ok=True)
+    return {
+        **numbers,
+        "refill_seconds": seconds,
+        "sections": report["sections"],
+        "rounding": report.get("rounding"),
+        "density_for_the_same": (report.get("filament") or {}).get("density_for_the_same_percent"),
+        "reported": {"contact": report.get("contact"), "time": report.get("time")},
+        "problems": report["problems"],
+    }
+
+
+def _equal(case: Case, plain: Path, own: Judged, folder: Path) -> dict[str, Any]:
+    """Slice again at the density that gives back, after rounding, the filament of the slicer's own."""
+    density, tried = case.density, plain
+    known: list[tuple[float, float]] = []  # densities, and filament over the slicer's own
+    best: dict[str, Any] = {}
+    for _ in range(TRIES):
+        found = refilled(tried, folder, case, "keep")
+        ratio = found["filament"] / own.filament
+        if not best or abs(ratio - 1) < abs(best["filament"] / own.filament - 1):
+            best = {**found, "density": density}
+        if abs(ratio - 1) <= NEAR:
+            break
+        known.append((density, ratio))
+        proposed = found["density_for_the_same"] if len(known) == 1 else None
+        density = proposed or _next(known)
+        tried = sliced(case, density, folder)
+    return {**best, "tries": len(known) + 1}
+
+
+def _next(known: list[tuple[float, float]]) -> float:
+    """Return the density at which the filament should be the slicer's own, by the last two known.
+
+    >>> _next([(10.0, 0.9), (11.0, 0.98)])
+    11.25
+    """
+    density, ratio = known[-1]
+    if len(known) > 1 and known[-2][1] != ratio and known[-2][0] != density:
+        slope = (ratio - known[-2][1]) / (density - known[-2][0])
+        if slope > 0:
+            return min(max(density + (1 - ratio) / slope, density * 0.8), density * 1.25)
+    return density / ratio
