@@ -42,7 +42,7 @@ def main() -> None:
     given = words.parse_args()
     results = read_results(given.results)
     if not given.page:
-        os.nice(10)
+        os.nice(5)
         fill(results, given)
     write_page(PAGE, results, total=len(list(cases())))
     print(f"wrote {PAGE}")
@@ -96,7 +96,6 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
 
 
 def _timed(case: Case, modes: list[str], until: float) -> dict[str, Any]:
-    os.nice(10)
     return run_case(case, modes) if time.monotonic() < until else {}
 
 

@@ -30,13 +30,15 @@ def run_case(case: Case, modes: list[str]) -> dict[str, dict[str, Any]]:
         found: dict[str, dict[str, Any]] = {}
         for mode in modes:
             try:
-                found[mode] = _mode(case, mode, plain, own, folder)
+                found[mode] = _mode(case, mode, plain, own, folder, found)
             except (InfillError, RuntimeError) as error:
                 found[mode] = {"error": str(error)[:300]}
         return found
 
 
-def _mode(case: Case, mode: str, plain: Path, own: Judged, folder: Path) -> dict[str, Any]:
+def _mode(
+    case: Case, mode: str, plain: Path, own: Judged, folder: Path, found: dict[str, dict[str, Any]]
+) -> dict[str, Any]:
     if mode == "slicer":
         return own.to_dict()
     if mode == "keep":
@@ -45,7 +47,8 @@ def _mode(case: Case, mode: str, plain: Path, own: Judged, folder: Path) -> dict
         if case.pattern not in OURS:
             return {"error": "we have no such pattern"}
         return refilled(plain, folder, case, OURS[case.pattern])
-    return _equal(case, plain, own, folder)
+    first = found.get("keep") or refilled(plain, folder, case, "keep")
+    return _equal(case, first, own, folder)
 
 
 def refilled(plain: Path, folder: Path, case: Case, pattern: str) -> dict[str, Any]:
@@ -67,23 +70,25 @@ def refilled(plain: Path, folder: Path, case: Case, pattern: str) -> dict[str, A
     }
 
 
-def _equal(case: Case, plain: Path, own: Judged, folder: Path) -> dict[str, Any]:
+def _equal(case: Case, first: dict[str, Any], own: Judged, folder: Path) -> dict[str, Any]:
     """Slice again at the density that gives back, after rounding, the filament of the slicer's own."""
-    density, tried = case.density, plain
-    known: list[tuple[float, float]] = []  # densities, and filament over the slicer's own
-    best: dict[str, Any] = {}
-    for _ in range(TRIES):
-        found = refilled(tried, folder, case, "keep")
+    if "error" in first:
+        return first
+    ratio = first["filament"] / own.filament
+    if abs(ratio - 1) <= NEAR:
+        return {**first, "density": case.density, "tries": 1}
+    known = [(case.density, ratio)]  # densities, and filament over the slicer's own
+    density = first["density_for_the_same"] or _next(known)
+    found = first
+    for tries in range(2, TRIES + 1):
+        found = refilled(sliced(case, density, folder), folder, case, "keep")
+        found |= {"density": density, "tries": tries}
         ratio = found["filament"] / own.filament
-        if not best or abs(ratio - 1) < abs(best["filament"] / own.filament - 1):
-            best = {**found, "density": density}
         if abs(ratio - 1) <= NEAR:
             break
         known.append((density, ratio))
-        proposed = found["density_for_the_same"] if len(known) == 1 else None
-        density = proposed or _next(known)
-        tried = sliced(case, density, folder)
-    return {**best, "tries": len(known) + 1}
+        density = _next(known)
+    return found
 
 
 def _next(known: list[tuple[float, float]]) -> float:
