@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import shapely
 import trimesh
 
-from tests.prints import FAST, PRINT, box, cura_print, prusa_print
+from tests.prints import FAST, box, cura_print, prusa_print
 
 PRUSA = ("honeycomb", "3dhoneycomb", "gyroid", "hilbertcurve", "rectilinear", "grid", "triangles", "cubic", "stars")
 CURA = ("gyroid", "zigzag", "cubic", "cross")
@@ -121,14 +122,12 @@ def cura_settings(case: Case, density: float) -> dict[str, Any]:
     }
 
 
-def limits_of(case: Case) -> dict[str, float]:
-    """Return the limits that the planner gets: of the printer, whichever slicer wrote the file."""
-    return {"acceleration": case.acceleration}
-
-
-def size_of(part: str, folder: Path) -> list[float]:
-    """Return the extents of a part, mm."""
-    return [float(each) for each in trimesh.load_mesh(mesh_of(part, folder)).extents]
-
-
-SETTINGS = {"normal": PRINT, "fast": {**PRINT, **FAST}}
+def width_of(part: str, folder: Path) -> float:
+    """Return the diameter of the largest circle in the middle section of a part, mm."""
+    mesh = trimesh.load_mesh(mesh_of(part, folder))
+    section = mesh.section(plane_origin=mesh.bounds.mean(axis=0), plane_normal=[0, 0, 1])
+    if section is None:
+        return 0.0
+    rings = shapely.multilinestrings([shapely.linestrings(loop[:, :2]) for loop in section.discrete])
+    areas = shapely.get_parts(shapely.build_area(rings))
+    return max((2 * shapely.maximum_inscribed_circle(each, tolerance=0.1).length for each in areas), default=0.0)

@@ -133,7 +133,7 @@ def curvature(paths: list[np.ndarray]) -> tuple[np.ndarray, int]:
     >>> turn = np.linspace(0, 3, 40)
     >>> radii, sharp = curvature([2 * np.column_stack([np.cos(turn), np.sin(turn)])])
     >>> float(radii.min().round(3)), sharp
-    (1.999, 0)
+    (2.0, 0)
     """
     radii, sharp = [np.empty(0)], 0
     for path in paths:

@@ -14,12 +14,13 @@ import platform
 import re
 import subprocess
 import sys
+import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
-from benchmarks.slicer_cases import MODES, Case, cases, quick
+from benchmarks.slicer_cases import MODES, PARTS, Case, cases, quick, width_of
 from benchmarks.slicer_page import write_page
 from benchmarks.slicer_runs import run_case
 
@@ -65,6 +66,9 @@ def save(results: dict[str, Any], path: Path) -> None:
 def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
     """Make the runs that are missing."""
     results["machine"] = machine()
+    if "widths" not in results:
+        with tempfile.TemporaryDirectory() as folder:
+            results["widths"] = {part: width_of(part, Path(folder)) for part in PARTS}
     begin = time.monotonic()
     todo: list[tuple[Case, list[str]]] = []
     for case in cases():
@@ -89,7 +93,11 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
             save(results, given.results)
             print(f"{done}/{len(todo)} {case.key}: {_line(found)}", flush=True)
     for name in EXTRAS:
-        if (name not in results or given.again) and re.search(given.only, name) and time.monotonic() < begin + 60 * given.minutes:
+        if (
+            (name not in results or given.again)
+            and re.search(given.only, name)
+            and time.monotonic() < begin + 60 * given.minutes
+        ):
             module = __import__(f"benchmarks.slicer_{name}", fromlist=["measure"])
             results[name] = module.measure(quick=given.quick)
             save(results, given.results)
