@@ -56,7 +56,7 @@ python_maximum_signature_line_length = 88
 default_role = "code"  # single backquotes in docstrings are names of arguments as often as of functions
 
 # What public functions take or return and the packages do not export.
-NOT_EXPORTED = ("MakeStages", "Named", "Options", "SmoothStages", "Stages")
+NOT_EXPORTED = ("FeatureMotion", "MakeStages", "Named", "Options", "SmoothStages", "Stages")
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
 OTHERS = ("collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
 OTHERS += ("shapely", "trimesh", "typing")

@@ -17,8 +17,8 @@ from slicers import missing_cura, missing_prusa
 from tests.handmade_prints import Dialect, written
 from tests.prints import cura_print, prusa_print
 
-FEW: Mapping[str, object] = {"top_solid_layers": 2, "bottom_solid_layers": 2}
-CURA_FEW: Mapping[str, object] = {"top_layers": 2, "bottom_layers": 2, "initial_bottom_layers": 2}
+FEW: Mapping[str, object] = {"top_solid_layers": 1, "bottom_solid_layers": 1}
+CURA_FEW: Mapping[str, object] = {"top_layers": 1, "bottom_layers": 1, "initial_bottom_layers": 1}
 ABSOLUTE: Mapping[str, object] = {"use_relative_e_distances": 0, "layer_gcode": ""}
 TWO: Mapping[str, object] = {
     "nozzle_diameter": "0.4,0.4",
@@ -44,7 +44,7 @@ class Print:
     stands: bytes = b""  # what stands in it, if it is what it should be
 
 
-def block(folder: Path, size: tuple[float, float, float] = (12, 12, 2), name: str = "block") -> Path:
+def block(folder: Path, size: tuple[float, float, float] = (12, 12, 1.2), name: str = "block") -> Path:
     path = folder / f"{name}.stl"
     mesh = trimesh.creation.box(size)
     mesh.apply_translation([0, 0, size[2] / 2])
@@ -55,23 +55,23 @@ def block(folder: Path, size: tuple[float, float, float] = (12, 12, 2), name: st
 def ring(folder: Path) -> Path:
     """A thick ring, so that there is a hole that no infill may bridge."""
     path = folder / "ring.stl"
-    trimesh.creation.annulus(r_min=4, r_max=9.5, height=2).export(path)
+    trimesh.creation.annulus(r_min=4, r_max=9.5, height=1.2, sections=24).export(path)
     return path
 
 
 def overhang(folder: Path) -> Path:
     """A block with a ledge that asks for support."""
     path = folder / "overhang.stl"
-    ledge = trimesh.creation.box([20, 10, 1.2])
-    ledge.apply_translation([5, 0, 3])
-    foot = trimesh.creation.box([10, 10, 2.6])
-    foot.apply_translation([0, 0, 1.3])
+    ledge = trimesh.creation.box([16, 8, 0.8])
+    ledge.apply_translation([4, 0, 2])
+    foot = trimesh.creation.box([8, 8, 1.8])
+    foot.apply_translation([0, 0, 0.9])
     trimesh.boolean.union([foot, ledge], engine="manifold").export(path)
     return path
 
 
 def two(folder: Path) -> list[Path]:
-    return [block(folder, name="one"), block(folder, (10, 14, 2), name="other")]
+    return [block(folder, name="one"), block(folder, (10, 14, 1.2), name="other")]
 
 
 def in_ranges(folder: Path) -> Path:
@@ -81,9 +81,7 @@ def in_ranges(folder: Path) -> Path:
     points = "".join(f'<vertex x="{x:g}" y="{y:g}" z="{z:g}"/>' for x, y, z in mesh.vertices)
     triangles = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in mesh.faces)
     head = '<?xml version="1.0" encoding="utf-8"?>\n'
-    ranges = (
-        '<range min_z="1" max_z="2"><option opt_key="extruder">0</option><option opt_key="layer_height">0.1</option>'
-    )
+    ranges = '<range min_z="0.6" max_z="1.2"><option opt_key="extruder">0</option><option opt_key="layer_height">0.1</option>'
     files = {
         "[Content_Types].xml": '<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default '
         'Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default '
@@ -288,7 +286,7 @@ def prints() -> st.SearchStrategy[bytes]:
     @st.composite
     def one(draw: st.DrawFn) -> bytes:
         slicer = draw(st.sampled_from(["prusa", "orca", "bambu", "cura"]))
-        yes = st.booleans()
+        yes, seldom = st.booleans(), st.sampled_from([False, False, False, True])
         objects = draw(st.integers(1, 2))
         return written(
             Dialect(
@@ -302,20 +300,20 @@ def prints() -> st.SearchStrategy[bytes]:
                 labels=draw(st.sampled_from(labels[slicer])),
                 progress=draw(st.sampled_from(["", "P{done} R{left}", "P{done}"])),
                 fan_in_infill=draw(yes),
-                arcs=draw(yes),
+                arcs=draw(seldom),
                 acceleration=draw(st.sampled_from(["", "M204 S{}", "SET_VELOCITY_LIMIT ACCEL={}"])),
                 zero=draw(yes),
                 comments=draw(yes),
                 sequential=draw(yes),
                 objects=objects,
                 tools=draw(st.integers(1, objects)),
-                layers=draw(st.integers(3, 6)),
+                layers=draw(st.integers(4, 6)),
                 thick=draw(st.sampled_from([1, 1, 2])),
                 heights=draw(st.sampled_from([(), (0.2, 0.1)])),
                 odd=tuple(draw(st.lists(st.sampled_from(ODD), max_size=3))),
                 newline=draw(yes),
-                packed=draw(yes),
-                size=draw(st.sampled_from([7.0, 9.0, 14.0])),
+                packed=draw(seldom),
+                size=draw(st.sampled_from([8.0, 12.0, 16.0])),
                 cell=draw(st.sampled_from([1.6, 3.0, 5.0])),
                 infill_first=draw(yes),
             )

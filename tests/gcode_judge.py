@@ -41,6 +41,7 @@ LABEL = re.compile(
     rb"(; ?(stop |start )?printing object|;MESH:|; OBJECT_ID:|EXCLUDE_OBJECT|M486\b|M62[45]\b|T\d|; PURGING FINISHED"
     rb"|; ?(FLUSH|SKIPPABLE|NOZZLE_CHANGE)_(START|END)|; ?(CUSTOM_GCODE|COLOR_CHANGE|PAUSE_PRINT)|M600\b|M62[01]\b)"
 )
+VOLUMES = b"; use_volumetric_e = 1"  # then E is in mm³
 STAMP = b"; refilled by phasefill "
 TIMES = re.compile(
     rb";\s*(estimated (printing|first layer printing) time|(total )?filament (used|cost)|TIME:|TIME_ELAPSED:|"
@@ -535,6 +536,7 @@ def judge(
         machine = was.after.copy()  # one fault is told once
     faults += _regions(old_parts, old_runs, new_runs, deviation)
     faults += _totals(old_parts, old_runs, new_runs, habit, filament)
+    faults += _told(old_parts, new_parts, old_runs, new_runs, 1 / FILAMENT if VOLUMES in old else 1.0)
     faults += _numbers(new_parts)
     faults += _progress(old_parts, new_parts)
     return _shortened(faults)
@@ -570,11 +572,11 @@ def infilled(data: bytes) -> int:
 
 
 def pushed(data: bytes) -> tuple[float, float]:
-    """Return the filament of the sparse infill, and of all else, in mm."""
+    """Return the filament of the beads of sparse infill, and of all outside, in mm."""
     parts, runs = replayed(data)
     both = [0.0, 0.0]
     for part, ran in zip(parts, runs, strict=True):
-        both[not part.sparse] += sum(move.pushed for move in ran.moved())
+        both[not part.sparse] += sum(move.pushed for move in ran.moved() if move.extrudes or not part.sparse)
     return both[0], both[1]
 
 
@@ -759,7 +761,7 @@ def _without_new_origins(old: list[Line], new: list[Line]) -> list[Line]:
 def _places(x: list[Line], y: list[Line], a: Section, b: Section, was: Replay, now: Replay) -> Iterator[str]:
     """A command that came before all beads, or after them, still does; one between is not far from where it was."""
     for p, q, one, two in zip(x, y, _shares(x, a, was), _shares(y, b, now), strict=True):
-        if p.kind in ("progress", "blank", "comment", "origin") or one is None or two is None:
+        if p.kind in ("progress", "blank", "comment", "origin") or p.name == b"M117" or None in (one, two):
             continue
         if (one == 0) != (two == 0) or (one == 1) != (two == 1) or abs(one - two) > 0.35:
             yield f"{p.kind} moved: {_name(q)} stands after {two:.0%} of the infill, not after {one:.0%}"
@@ -933,13 +935,16 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
         room, _ = region(layers.get(part.layer, []), beads, step)
         grown = shapely.buffer(room, OUTSIDE)
         shapely.prepare(grown)
+        over_walls = shapely.buffer(room, beads[0].width or 0.45)  # a travel along a wall does no harm
         ends = {tuple(round(v, 3) for v in m.end) for m in old.moved()}
         for m in fresh:
             line = shapely.linestrings(m.points)
             if shapely.covers(grown, line):
                 continue
-            out = shapely.difference(line, grown)
-            far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room))
+            out = shapely.difference(line, grown if m.pushed else over_walls)
+            far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room), default=0.0)
+            if m.pushed and far < OUTSIDE + NEAR:
+                continue
             if m.extrudes:
                 yield f"move outside: {_name(m.line)} leaves the region of the infill by {far:.3f} mm"
             elif m.pushed < 0:
@@ -977,7 +982,8 @@ def _totals(parts, was: list[Replay], now: list[Replay], habit: Habits, filament
     for part, *both in zip(parts, was, now, strict=True):
         for i, ran in enumerate(both):
             for move in ran.moved():
-                sums[not part.sparse][i] += move.pushed
+                if move.extrudes or not part.sparse:  # what is retracted inside comes back outside, or the other way
+                    sums[not part.sparse][i] += move.pushed
                 seconds.setdefault(move.layer, [0.0, 0.0])[i] += move.seconds()
                 infill = part.sparse and move.extrudes and move.layer > first
                 if habit.cura and infill and move.speed < 0.999 * habit.fastest:
@@ -1018,3 +1024,24 @@ def _progress(old: list[Section], new: list[Section]) -> Iterator[str]:
         rises = [all(a <= b for a, b in zip(values, values[1:], strict=False)) for values in told]
         if rises == [True, False]:
             yield f"progress: M73 {letter} goes back"
+
+
+def _told(old: list[Section], new: list[Section], was: list[Replay], now: list[Replay], unit: float) -> Iterator[str]:
+    """What a comment says of filament, tool by tool, changes as the filament does, if it is told anew."""
+    pattern = re.compile(rb"; filament used \[mm\] ?= ?([\d., ]+)")
+    told = [[m for p in parts for x in p.lines if (m := pattern.match(x.body))] for parts in (old, new)]
+    if len(told[0]) != 1 or len(told[1]) != 1 or told[0][0][1] == told[1][0][1]:
+        return
+    numbers = [[float(v) for v in m[0][1].split(b",") if v.strip()] for m in told]
+    taken: list[Counter[int]] = []
+    for runs in (was, now):
+        taken.append(Counter())
+        for ran in runs:
+            for move in ran.beads():
+                taken[-1][move.tool] += move.pushed
+    tools = sorted(taken[0])
+    for i, (a, b) in enumerate(zip(*numbers, strict=True)):
+        tool = tools[0] if len(numbers[0]) == 1 else i
+        less = (taken[1][tool] - taken[0][tool]) * unit
+        if abs(b - a - less) > 0.03:  # mm: it is told to 0.01
+            yield f"filament told: tool {tool} takes {less:+.2f} mm, by the comment {b - a:+.2f} mm"

@@ -65,7 +65,7 @@ class _Pen:
         self.lines: list[bytes] = []
         self.at = (0.0, 0.0, 0.0)
         self.filament = 0.0
-        self.used = 0.0
+        self.used = dict.fromkeys(range(dialect.tools), 0.0)
         self.tool = 0
         self.gone: set[int] = set()  # tools whose filament is retracted
         self.speed = 0.0
@@ -108,7 +108,7 @@ class _Pen:
 
     def pushed(self, amount: float) -> str:
         amount = round(amount, 5)
-        self.used += amount
+        self.used[self.tool] += amount
         if not self.dialect.absolute:
             return f"E{_short(amount, 5)}"
         self.filament = round(self.filament + amount, 5)
@@ -423,7 +423,7 @@ def _end(pen: _Pen) -> None:
     if dialect.slicer == "cura":
         pen.say(";End of Gcode")
         return
-    pen.say(f"; filament used [mm] = {pen.used:.2f}")
+    pen.say("; filament used [mm] = " + ", ".join(f"{used:.2f}" for used in pen.used.values()))
     pen.say("; filament used [cm3] = 0.12")
     pen.say("; estimated printing time (normal mode) = 3m 1s")
     pen.say("")

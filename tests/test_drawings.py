@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 
 from infill.errors import FormatError, GeometryError, ParameterError
+from infill.filling.covering import cover, solve_cell
 from infill.filling.drawn import drawn
-from infill.filling.tile_fields import colours, distances, tile_grid
+from infill.filling.tile_nodes import colours, distances, tile_grid
 from infill.formats.drawing import Drawing, Picture
 from infill.formats.drawings import READERS, read_drawing
 from infill.formats.svg_paths import bezier_points, path_lines
@@ -188,7 +189,7 @@ def test_dxf_splines_bulges_blocks_and_layers(tmp_path: Path) -> None:
     )
     assert np.abs(np.hypot(*(arc - (100, 0)).T) - 20).max() < FLAT * 120
     assert arc[[0, -1]].ravel() == pytest.approx([100, 20, 80, 0], abs=1e-6)
-    assert set(drawing.left_out) == {"1 hidden entity", "1 text"}
+    assert set(drawing.left_out) == {"1 hidden line", "1 text"}
 
 
 def test_wkt_of_many_kinds(tmp_path: Path) -> None:
@@ -315,6 +316,39 @@ def test_a_dxf_cut_off_anywhere_is_told_in_one_line(tmp_path: Path) -> None:
         with pytest.raises(FormatError, match="broken or not a .dxf file") as caught:
             read_drawing(path)
         assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"),
+    [
+        ("nan", "extend over nan"),
+        ("far", "e+300 mm"),
+        ("itself", "recursion"),
+        ("many", "more than 50000"),
+        ("text", "only 1 text"),
+    ],
+)
+def test_an_odd_dxf_is_told_in_one_line(tmp_path: Path, kind: str, said: str) -> None:
+    document, space = dxf(tmp_path / "tile.dxf")
+    block = document.blocks.new("B")
+    block.add_line((0, 0), (1, 1))
+    match kind:
+        case "nan" | "far":
+            space.add_line((0, 0), (math.nan if kind == "nan" else 1e300, 1))
+        case "itself":
+            block.add_blockref("B", (1, 1))
+            space.add_blockref("B", (0, 0))
+        case "many":
+            space.add_blockref(
+                "B", (0, 0), dxfattribs={"row_count": 3000, "column_count": 3000, "row_spacing": 1, "column_spacing": 1}
+            )
+        case "text":
+            space.add_text("words")
+    document.saveas(tmp_path / "tile.dxf")
+    with pytest.raises(FormatError, match="tile.dxf") as caught:
+        read_drawing(tmp_path / "tile.dxf")
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_pictures_without_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -472,6 +506,37 @@ def test_the_first_guess_of_the_cell_is_near(folder: Path, make: object) -> None
     assert found == pytest.approx(0.15, rel=0.1)
 
 
+def test_lengths_change_smoothly_with_the_cell(folder: Path) -> None:
+    """Between the cells whose fields are computed, 4 % apart, length per area is as 1 / cell, to rounding."""
+    family = drawn(scribble(folder))
+    cells = 1.04 ** np.array([66.6, 67.0, 67.4])
+    paths = [family.strands((0, 0, cell, cell), cell=cell, line_width=WIDTH, radius=0.6) for cell in cells]
+    lengths = [
+        shapely.length(inside(some, shapely.box(0, 0, cell, cell))) for some, cell in zip(paths, cells, strict=True)
+    ]
+    assert lengths / cells == pytest.approx([lengths[0] / cells[0]] * 3, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("body", "head", "tile"),
+    [
+        ('<path d="M5 8h10"/>', 'viewBox="0 0 96 48" width="96mm" height="48mm"', (5, 39.5, 15, 40.5)),  # a small mark
+        ('<path d="M5 8h30"/>', 'viewBox="0 0 96 48" width="96mm" height="48mm"', (0, 0, 96, 48)),
+        ('<circle cx="5" cy="5" r="5"/>', "", (-0.5, -0.5, 10.5, 10.5)),  # an outline gets a gap
+        ('<path d="M0 0h10v10h-10z"/>', "", (0, 0, 10, 10)),  # one along the edge does not
+        ('<path d="M0 2q5 5 10 0M3 0l1 5-1 5"/>', "", (0, 0, 10, 10)),  # lines that go on
+        ('<path d="M0 2q5 -5 10 0M3 0l-9 5 9 5"/>', "", (0, 0, 10, 10)),  # even where others bulge
+    ],
+)
+def test_what_is_repeated(folder: Path, body: str, head: str, tile: tuple[float, ...]) -> None:
+    """Without a page, a px is a px: 25.4 / 96 mm; y goes up from the first line."""
+    found = np.array(drawn(written(folder, svg(body, head), "some.svg")).tile)
+    if not head:
+        found = found * 96 / 25.4
+        found[[1, 3]] = -found[[3, 1]]
+    assert found == pytest.approx(tile, abs=0.01)
+
+
 def test_beads_have_room(folder: Path) -> None:
     """Wherever lines come close, other paths stay 0.8 line widths away; a hundredth may be nearer, at crossings."""
     paths = drawn(scribble(folder)).strands((0, 0, 20, 20), cell=18, line_width=WIDTH, radius=0.6)
@@ -508,6 +573,16 @@ def test_right_angles_get_about_the_radius(folder: Path, radius: float) -> None:
     legs = np.hypot(*np.diff(path, axis=0).T)
     bends = (legs[1:] + legs[:-1]) / 2 / np.maximum(turns(path), 1e-9)
     assert bends.min() == pytest.approx(radius, rel=0.15)
+
+
+def test_the_largest_radius_is_a_tenth_of_the_tile(folder: Path) -> None:
+    family = drawn(written(folder, svg('<rect x="5" y="5" width="10" height="10"/>'), "some.svg"))
+    cell = 1.04**59  # about 10 mm, and one of those whose fields are computed
+    one, other = (
+        family.strands((0, 0, 9, 9), cell=cell, line_width=WIDTH, radius=radius)[0]
+        for radius in (family.largest_radius(cell, WIDTH), math.inf)
+    )
+    assert np.array_equal(one, other)
 
 
 def test_parallel_lines_stay_where_they_are(folder: Path) -> None:
@@ -583,7 +658,32 @@ def test_limits_are_told(folder: Path) -> None:
         family.strands((0, 0, 1, 1), cell=2000, line_width=WIDTH)
     with pytest.raises(GeometryError, match=r"nothing is left of hearts.svg .* make the cell larger"):
         family.strands((0, 0, 1, 1), cell=0.5, line_width=WIDTH)
+    far = drawn(written(folder, svg('<path d="M-50000 0L50000 3"/>'), "far.svg"))
+    with pytest.raises(GeometryError, match="draw on the page: .* copies of a line"):
+        far.strands((0, 0, 1, 1), cell=20, line_width=WIDTH)
     with pytest.raises(ParameterError, match="cell"):
         family.strands((0, 0, 1, 1), cell=math.nan, line_width=WIDTH)
     with pytest.raises(ParameterError, match="width"):
         drawn(hearts(folder), width=-1)
+
+
+# --- a part --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("make", [hearts, leaves, splines], ids=lambda make: make.__name__)
+def test_a_drawing_fills_a_bracket(folder: Path, make: object) -> None:
+    """Without a crossing or a path outside, and with the length asked for: to 1 %, where lengths jump with the cell."""
+    outside = shapely.Polygon([(0, 0), (75, 0), (75, 20), (25, 50), (0, 50)])
+    bores = shapely.union_all(
+        [shapely.Point(12, 40).buffer(5), shapely.Point(60, 10).buffer(4), shapely.box(25, 8, 45, 20)]
+    )
+    region = shapely.difference(outside, bores)
+    family, asked = drawn(make(folder)), {"line_width": WIDTH, "radius": 0.6}
+    wanted = 0.2 * region.area / (0.905 * WIDTH)
+    solved = solve_cell([(region, 0.2, 0)], family, wanted, **asked)
+    paths = cover(region, family, cell=solved.cell, z=0.2, layer=0, **asked)
+    assert sum(shapely.length(as_lines(paths))) == pytest.approx(wanted, rel=0.01)
+    assert crossings(paths) == 0
+    assert (
+        shapely.length(shapely.difference(shapely.multilinestrings(as_lines(paths)), shapely.buffer(region, 1e-3))) == 0
+    )

@@ -16,7 +16,7 @@ from infill.gcode.bounds import Moves, bounded
 from infill.gcode.columns import part
 from infill.gcode.cruising import tops
 from infill.gcode.junctions import joint_limits
-from infill.gcode.limits import INFINITE, MODELS, Limits
+from infill.gcode.limits import INFINITE, JERKS, MODELS, Limits
 from infill.gcode.planner import PIECE, Plan, look_ahead, plan, settle
 
 FREE = (INFINITE,) * 4
@@ -24,7 +24,8 @@ FREE = (INFINITE,) * 4
 PLAIN = Limits(feedrate=FREE, axis_acceleration=FREE, acceleration=1000, travel_acceleration=1000, jerk=(8, 8, 0.4, 5))
 STEADY = replace(PLAIN, model="klipper", minimum_cruise_ratio=0)
 JUNCTION = replace(PLAIN, model="junction")
-EVERY = [PLAIN, STEADY, JUNCTION, replace(PLAIN, model="klipper")]
+VECTOR = replace(PLAIN, model="vector-jerk")
+EVERY = [PLAIN, VECTOR, STEADY, JUNCTION, replace(PLAIN, model="klipper")]
 
 
 def moves_of(delta: ArrayLike, feedrate: ArrayLike) -> Moves:
@@ -82,6 +83,13 @@ def test_jerk_starts_and_stops_at_once() -> None:
     """With jerk 8 it starts at 8 mm/s: (v - 8) / a to speed up, and as much to slow down."""
     expected = 2 * (80 - 8) / 1000 + (100 - (80**2 - 8**2) / 1000) / 80
     assert total([100, 0], 80, PLAIN) == pytest.approx(expected, rel=1e-12)
+
+
+def test_of_old_half_the_jerk_is_for_starting() -> None:
+    expected = 2 * (80 - 4) / 1000 + (100 - (80**2 - 4**2) / 1000) / 80
+    assert total([100, 0], 80, VECTOR) == pytest.approx(expected, rel=1e-12)
+    done = plan(moves_of([[100, 0], [0, 100]], 80), [VECTOR])
+    assert done.exit[0] == pytest.approx(8 / math.sqrt(2), rel=1e-12)  # x and y jump together by 80 sqrt(2)
 
 
 def test_filament_alone_has_its_own_limits() -> None:
@@ -166,14 +174,14 @@ def test_splitting_a_straight_move_changes_nothing(pieces: list[float], speed: f
     assert split == pytest.approx(total(whole * direction, speed, limits), rel=1e-6)
 
 
-@given(paths(), st.sampled_from([PLAIN, STEADY, JUNCTION]))
+@given(paths(), st.sampled_from([PLAIN, VECTOR, STEADY, JUNCTION]))
 @settings(deadline=None, max_examples=60)
 def test_the_way_back_takes_as_long(moves: Moves, limits: Limits) -> None:
     """Classic jerk looks at the later move alone in two places, which do not matter in x and y at one speed.
 
     With its cruise ratio Klipper lets a move before the top of a hump reach that, and holds one after it at its entry.
     """
-    if limits.model == "jerk":
+    if limits.model in JERKS:
         level = np.where(moves.delta[:, :2].any(axis=1)[:, None], moves.delta, [1.0, 0, 0, 0])
         moves = replace(moves, delta=level, feedrate=np.full(len(moves), 60.0))
     back = replace(moves, delta=-moves.delta[::-1], feedrate=moves.feedrate[::-1])

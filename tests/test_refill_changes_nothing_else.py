@@ -5,42 +5,55 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import Phase, given, settings
 
-from infill import FormatError
+from infill import FormatError, InfillError, ParameterError, refill
 from tests.gcode_corpus import CORPUS, prints
 from tests.gcode_judge import changed, infilled, judge, pushed
+from tests.gcode_structure import bonded, supported
 
-
-def refill(path: Path, **options: Any) -> Any:
-    from infill import refill
-
-    return refill(path, **options)
-
-
-# What a pattern's filament may be of the slicer's own: rounding shortens paths, most so a honeycomb's, and a curve in
+# What a pattern's filament may be of the slicer's own: rounding shortens paths, most so a Hilbert curve's, and a curve in
 # the place of chords is a little longer.
-FILAMENT = {"keep": (0.85, 1.003)}
+FILAMENT = {"keep": (0.8, 1.003), "honeycomb": (0.99, 1.01)}
 STRAIGHT = "straight lines have no corner"
 ARCS = "a section with arcs is left as it was"
+SLOWED = "every layer is slowed for cooling"
+PURGED = "all infill is purged filament"
+PACKED = "words without blanks between are left as they are"
+COMBINED = "layers printed as one have no region to tell"
 # What is kept as it was, and why: the test fails if it is not.
 KEPT: dict[tuple[str, str], str] = {
     ("prusa-loose-lines", "keep"): STRAIGHT,
     ("cura-firmware", "keep"): STRAIGHT,
     ("cura-combined", "keep"): STRAIGHT,
     ("orca-arcs", "keep"): ARCS,
+    ("orca-arcs", "honeycomb"): ARCS,
     ("bambu-arcs", "keep"): ARCS,
-    ("prusa-slowed", "keep"): "every layer is slowed for cooling",
+    ("bambu-arcs", "honeycomb"): ARCS,
+    ("prusa-slowed", "keep"): SLOWED,
+    ("prusa-slowed", "honeycomb"): SLOWED,
     ("prusa-equalised", "keep"): "speed changes from move to move",
-    ("prusa-purge", "keep"): "all infill is purged filament",
-    ("packed", "keep"): "words without blanks between are left as they are",
+    ("prusa-purge", "keep"): PURGED,
+    ("packed", "keep"): PACKED,
+    ("prusa-loose-lines", "honeycomb"): "lines that end before the walls tell no region",
+    ("prusa-two-tools", "honeycomb"): "where tools change in the infill, a retraction stays open",
+    ("orca-limits", "honeycomb"): "a G4 in every section, and it is not known when to wait",
 }
+# Where fewer than half of the sections are replaced.
+FEW = {("odd", "honeycomb"): "commands of all kinds stand between the beads"}
 # What is refused in one line, and why.
-REFUSED: dict[str, str] = {
-    "orca-numbered": "with a number before it, a tag is none",
+REFUSED: dict[tuple[str, str], str] = {
+    ("orca-numbered", "keep"): "with a number before it, a tag is none",
+    ("orca-numbered", "honeycomb"): "with a number before it, a tag is none",
+    ("prusa-combined", "honeycomb"): COMBINED,
+    ("thick", "honeycomb"): COMBINED,
+    ("prusa-support", "honeycomb"): "no region is wide enough",
+    ("prusa-purge", "honeycomb"): PURGED,
+    ("packed", "honeycomb"): PACKED,
+    ("prusa-vase", "honeycomb"): "no infill, no pattern",
+    ("prusa-empty", "honeycomb"): "no infill, no pattern",
 }
 
 
@@ -57,8 +70,8 @@ def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapp
         pytest.skip(entry.missing())
     path, output = prints_of_all_kinds[name], tmp_path / "out.gcode"
     old = path.read_bytes()
-    if name in REFUSED:
-        with pytest.raises(FormatError) as error:
+    if (name, pattern) in REFUSED:
+        with pytest.raises((FormatError, ParameterError)) as error:
             refill(path, output=output, pattern=pattern)
         assert "\n" not in str(error.value)
         assert not output.exists()
@@ -70,7 +83,7 @@ def test_nothing_else_changes(name: str, pattern: str, prints_of_all_kinds: Mapp
     if (name, pattern) in KEPT or not entry.infilled:
         assert replaced == 0
     else:
-        assert replaced >= 0.5 * infilled(old)
+        assert replaced >= (1 if (name, pattern) in FEW else 0.5 * infilled(old))
     refill(output, pattern=pattern)  # which finds the stamp, and does nothing
     assert output.read_bytes() == new
 
@@ -113,7 +126,31 @@ def test_kept_paths_lie_as_near_as_is_asked(
     assert judge(old, new, deviation=deviation + 0.02, filament=FILAMENT["keep"]) == []
 
 
-@settings(max_examples=20)
+@pytest.mark.parametrize(
+    "name",
+    [
+        "prusa",
+        "prusa-ring",
+        "prusa-combined",
+        "prusa-two-tools",
+        "prusa-3d-honeycomb",
+        "prusa-hilbert",
+        "prusa-gyroid",
+        "cura",
+    ],
+)
+def test_what_holds_infill_together_stays(name: str, prints_of_all_kinds: Mapping[str, Path], tmp_path: Path) -> None:
+    """Round corners leave at least 0.94 of what lies on the layer below, and of what touches the next strand."""
+    if CORPUS[name].missing():
+        pytest.skip(CORPUS[name].missing())
+    path = prints_of_all_kinds[name]
+    old, new = path.read_bytes(), refilled(path, tmp_path / "out.gcode", "keep")
+    assert supported(new) >= 0.94 * supported(old)
+    assert bonded(new) >= 0.94 * bonded(old) - 0.01  # samples are 0.1 mm apart, and such touches 2 mm long
+
+
+# What fails is a whole print, which to shrink takes minutes.
+@settings(max_examples=12, phases=[Phase.explicit, Phase.generate])
 @given(data=prints())
 @pytest.mark.parametrize("pattern", FILAMENT)
 def test_nothing_else_changes_in_any_dialect(
@@ -122,8 +159,11 @@ def test_nothing_else_changes_in_any_dialect(
     folder = tmp_path_factory.mktemp("any")
     path = folder / "print.gcode"
     path.write_bytes(data)
-    new = refilled(path, folder / "out.gcode", pattern)
-    # Very small regions may take less of a pattern than of lines: the sum over the corpus is judged above.
-    assert judge(data, new, filament=(0.5, 1.3)) == []
+    try:
+        new = refilled(path, folder / "out.gcode", pattern)
+    except InfillError:
+        assert pattern != "keep"
+        return
+    assert judge(data, new, filament=(0.7, 1.01) if pattern == "keep" else (0.5, 1.3)) == []  # of regions of some mm
     if re.search(rb"^M82", new, re.MULTILINE):
         assert new.count(b"G92 E") >= data.count(b"G92 E")

@@ -40,7 +40,8 @@ def motion(
     model: Annotated[
         str | None,
         typer.Option(
-            help="What bounds the speed at corners: jerk (as PrusaSlicer estimates), junction (Marlin), klipper.",
+            help="What bounds the speed at corners: jerk (as PrusaSlicer estimates), vector-jerk (as CuraEngine does), "
+            "junction (Marlin's deviation), klipper.",
             rich_help_panel=MACHINE,
         ),
     ] = None,

@@ -45,7 +45,7 @@ def clip(paths: Sequence[Path], outline: Outline) -> Pieces:
     >>> from infill.filling.outlines import outline_of
     >>> pieces = clip([np.array([[-1.0, 1.0], [5.0, 1.0]])], outline_of(box(0, 0, 3, 2)))
     >>> pieces.paths[0].tolist(), pieces.place.tolist()
-    ([[0.0, 1.0], [3.0, 1.0]], [[7.0, 1.0]])
+    ([[0.0, 1.0], [3.0, 1.0]], [[6.0, 1.0]])
     """
     paths = [path for path in paths if len(path) > 1]
     found: list[Path] = []

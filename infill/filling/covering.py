@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
 ANCHOR, ANCHOR_MAX = 2.5, 12.0  # mm, as slicers have them
 CLOSE = 0.005  # of the length asked for: near enough
 SECANTS = 6
-AROUND = 1.008  # cells around the nearest one are this factor apart, if secants found none
-MOST_AROUND = 10
+MORE = 10  # steps, if secants found none
+AROUND = 1.012  # the factor between cells that are tried around the nearest one
+FINEST = 1.002  # the factor between cells within which a jump is taken for one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +78,7 @@ def cover(
 
     >>> from shapely import box
     >>> from infill.filling.families.catalogue import FAMILIES
-    >>> len(cover(box(0, 0, 20, 20), FAMILIES["rectilinear"], cell=3, line_width=0.45, z=0.2, layer=0))
+    >>> len(cover(box(0, 0, 20, 20), FAMILIES["honeycomb"], cell=6, line_width=0.45, z=0.2, layer=0))
     1
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
@@ -159,7 +161,8 @@ def total_length(paths: Sequence[Path]) -> float:
 def _steps(ratio: Callable[[float], float], first: float, least: float) -> Iterator[tuple[float, float]]:
     """Yield cells, from `first` on, and the shares of the length asked for that they give.
 
-    Secants first; where they jump over 1, cells around the one that came nearest: between jumps lengths drift.
+    Secants first. Where lengths jump over the one asked for, cells around the one that came nearest, and between those
+    on either side of it: between jumps lengths drift.
     """
     low, high = least, math.inf  # cells known to give too much and too little
     cell, slope = first, -1.0
@@ -176,9 +179,21 @@ def _steps(ratio: Callable[[float], float], first: float, least: float) -> Itera
         if not low < cell < high:
             cell = math.sqrt(low * high) if high < math.inf else 2 * low
     nearest = min(found, key=lambda pair: abs(pair[1] - 1))[0]
-    for step in range(2, MOST_AROUND + 2):
-        cell = max(least, nearest * AROUND ** (step // 2 * (-1) ** step))
-        yield cell, ratio(cell)
+    tried = 0
+    for _ in range(MORE):
+        found.sort()
+        sides = [
+            math.sqrt(one * other)
+            for (one, more), (other, less) in itertools.pairwise(found)
+            if (more - 1) * (less - 1) < 0 and other > FINEST * one
+        ]
+        if sides:
+            cell = min(sides, key=lambda cell: abs(math.log(cell / nearest)))
+        else:
+            tried += 1
+            cell = max(least, nearest * AROUND ** ((tried + 1) // 2 * (-1) ** tried))
+        found.append((cell, ratio(cell)))
+        yield found[-1]
 
 
 def _joined(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -12,13 +13,15 @@ from numpy.typing import NDArray
 
 from infill.checks import length, positive, within
 from infill.errors import GeometryError
-from infill.filling.tile_fields import tile_grid, two_colours
+from infill.filling.tile_fields import two_colours
 from infill.filling.tile_lines import TOUCH, borders
+from infill.filling.tile_nodes import tile_grid
 from infill.filling.tile_paths import Strand, repeated, tile_strands
 from infill.filling.tiles import tile_of, traced
 from infill.formats.drawing import Bounds, Drawing, Picture
 from infill.formats.drawings import read_drawing
 
+CELL_STEP = 1.04  # between the cells whose fields are computed
 IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
 LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
@@ -89,9 +92,7 @@ class Drawn:
         GeometryError
             If nothing is left of the drawing at this size, or the tile is too large for the line width.
         """
-        width = length("cell", cell)
-        least = min(within("radius", radius, 0, 1e6, "mm"), self.largest_radius(width, line_width))
-        strands, size = _strands(self, width, length("line_width", line_width), least)
+        strands, size = _scaled_strands(self, length("cell", cell), length("line_width", line_width), radius)
         return repeated(strands, size, bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -102,7 +103,7 @@ class Drawn:
         drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
         cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
         for _ in range(IMPROVED):
-            strands, size = _strands(self, cell, line_width, 0.0)
+            strands, size = _scaled_strands(self, cell, line_width, 0.0)
             found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
             cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
         return cell
@@ -145,20 +146,38 @@ def _scaled(drawing: Drawing, width: float) -> Drawing:
     return replace(drawing, lines=lines, page=(0.0, 0.0, width, (y1 - y0) * factor))
 
 
-@lru_cache(maxsize=8)
-def _strands(family: Drawn, cell: float, line_width: float, radius: float) -> tuple[list[Strand], tuple[float, float]]:
+def _scaled_strands(
+    family: Drawn, cell: float, line_width: float, radius: float
+) -> tuple[list[Strand], tuple[float, float]]:
+    """Return the strands of a tile and its size, mm: those of the nearest of some fixed cells, scaled.
+
+    What finds room between beads changes with the cell, and each time the length of paths jumps. Scaled by a fiftieth
+    at most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly.
+    """
+    fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
+    least = min(within("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
+    strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, least)
+    scale = cell / fixed
+    return [replace(each, points=each.points * scale) for each in strands], (width * scale, height * scale)
+
+
+@lru_cache(maxsize=16)
+def _strands(
+    name: str, drawing: Drawing, cell: float, line_width: float, radius: float
+) -> tuple[list[Strand], tuple[float, float]]:
     """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
-    x0, y0, x1, y1 = family.tile
+    assert drawing.page is not None
+    x0, y0, x1, y1 = drawing.page
     factor = cell / (x1 - x0)
     size = cell, (y1 - y0) * factor
-    lines = [(line - (x0, y0)) * factor for line in family.drawing.lines]
+    lines = [(line - (x0, y0)) * factor for line in drawing.lines]
     blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
     grid = tile_grid(size, line_width=line_width, blur=blur)
     field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
     strands = tile_strands(field, grid)
     if not strands:
         raise GeometryError(
-            f"nothing is left of {family.name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
+            f"nothing is left of {name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
             f"{line_width:g} mm; make the cell larger"
         )
     return strands, size

@@ -28,6 +28,8 @@ class Gaps:
         The ends beside a gap, numbered 2 · path for where a path begins and 2 · path + 1 for where it ends.
     place, length : (G,) float64
         Where it begins along its ring, and how long it is, mm.
+    across : (G,) float64
+        How far apart the ends are, mm: less than `length` around a corner.
     clear : (G,) bool
         Whether a bead fits along the whole of it.
     forwards, backwards : (G,) float64
@@ -39,6 +41,7 @@ class Gaps:
     end: Numbers
     place: Floats
     length: Floats
+    across: Floats
     clear: NDArray[np.bool_]
     forwards: Floats
     backwards: Floats
@@ -50,6 +53,7 @@ def gaps_of(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
     ring, place = pieces.ring.ravel()[number], pieces.place.ravel()[number]
     order = np.lexsort((place, ring))
     number, ring, place = number[order], ring[order], place[order]
+    tips = np.array([path[[0, -1]] for path in pieces.paths]).reshape(-1, 2)
     # The gap after the last end of a ring goes on to the first.
     opening = np.flatnonzero(np.append(True, ring[1:] != ring[:-1])[: len(ring)])
     following = np.arange(1, len(ring) + 1)
@@ -64,6 +68,7 @@ def gaps_of(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
         end=number[following],
         place=place,
         length=length,
+        across=np.hypot(*(tips[number[following]] - tips[number]).T),
         clear=whole,
         forwards=forwards,
         backwards=backwards,

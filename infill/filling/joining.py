@@ -48,7 +48,7 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     link: dict[int, tuple[int, Path]] = {}
     for gap in np.flatnonzero(walked).tolist():
         begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])
-        wall = outline.stretch(int(gaps.ring[gap]), place, place + float(gaps.length[gap]))[1:-1]
+        wall = outline.between(int(gaps.ring[gap]), place, float(gaps.length[gap]))
         link[begin], link[end] = (end, wall), (begin, wall[::-1])
     chains = _chains(len(pieces.paths), link)
     lengths = np.array([np.hypot(*np.diff(path, axis=0).T).sum() for path in pieces.paths])
@@ -106,7 +106,7 @@ def _anchors(
             reach = min(anchor, float(left[gap]), float(clear[gap]))
             if reach >= apart:
                 place = float(gaps.place[onwards])
-                wall = outline.stretch(int(gaps.ring[onwards]), place, place + sign * reach)
+                wall = outline.stretch(int(gaps.ring[onwards]), place, sign * reach)
                 blunt = bool((_heading(wall[:2], 1) * direction).sum() >= 0)
                 ways.append((reach + blunt * anchor, reach, gap, wall[1:]))
         if ways:

@@ -223,6 +223,8 @@ def _replaced(
     tally.seconds_after += float(before[~changed].sum())
     tally.length_after += float(infill.length[~changed].sum())
     for each in fresh:
+        if not each.paths:
+            continue
         first = np.concatenate([[0], np.cumsum([len(path) for path in each.paths])])
         points = np.concatenate(each.paths)
         speed = np.full(len(each.paths), each.body.feed / 60)
@@ -280,6 +282,8 @@ def _chosen(
         reasons["not among the layers asked for"] = (layer < low) | (layer > high)
     reasons["slowed down to cool"] = _slowed(table, marks, layer, table.f[opens], rules)
     ends = np.stack([infill.points[infill.first[:-1]], infill.points[infill.first[1:] - 1]])
+    last = infill.line[infill.first[1:] - 1] == len(table) - 1
+    reasons["cut off by the end of the file"] = last & (not table.data.endswith(b"\n"))
     reasons["finer numbers than a micrometre"] = np.abs(ends / UNIT - np.rint(ends / UNIT)).max(axis=(0, 2)) > 1e-4
     if not rules.resets_filament and rules.request.density != SAME:
         reasons["a counter of filament that is never set"] = ~table.relative_e[opens]

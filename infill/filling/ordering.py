@@ -32,12 +32,12 @@ def order(paths: Sequence[Path], start: tuple[float, float] | None = None) -> li
     # Where a path may be entered: at its ends, or at some corners of a closed one.
     steps = [1 + len(path) // ENTRIES if ring else len(path) - 1 for path, ring in zip(paths, closed, strict=True)]
     entries = [path[: len(path) - ring : step] for path, ring, step in zip(paths, closed, steps, strict=True)]
-    where = np.concatenate(entries)
     first = np.concatenate([[0], np.cumsum([len(each) for each in entries])])
+    nearest_of = _Nearest(np.concatenate(entries))
     here = np.array(paths[0][0] if start is None else start, dtype=np.float64)
     ordered: list[Path] = []
     for _ in paths:
-        nearest = int(((where - here) ** 2).sum(axis=-1).argmin())
+        nearest = nearest_of(here)
         number = int(np.searchsorted(first, nearest, side="right")) - 1
         path = paths[number]
         if closed[number]:
@@ -47,8 +47,35 @@ def order(paths: Sequence[Path], start: tuple[float, float] | None = None) -> li
             path = path[::-1]
         ordered.append(path)
         here = path[-1]
-        where[first[number] : first[number + 1]] = np.inf
+        nearest_of.left[first[number] : first[number + 1]] = False
     return ordered
+
+
+class _Nearest:
+    """The nearest of some points, (N, 2), of those that are `left`; the tree of them is renewed as they become few."""
+
+    def __init__(self, points: Path) -> None:
+        self.left = np.ones(len(points), dtype=bool)
+        self._points = points
+        self._renew()
+
+    def __call__(self, here: Path) -> int:
+        if 2 * self.left.sum() < len(self._number):
+            self._renew()
+        count = 4
+        while True:
+            _, found = self._tree.query(here, k=list(range(1, min(count, len(self._number)) + 1)))
+            numbers = self._number[found]
+            left = numbers[self.left[numbers]]
+            if len(left):
+                return int(left[0])
+            count *= 4
+
+    def _renew(self) -> None:
+        from scipy.spatial import cKDTree
+
+        self._number = np.flatnonzero(self.left)
+        self._tree = cKDTree(self._points[self._number])
 
 
 def travel(paths: Sequence[Path], start: tuple[float, float] | None = None) -> float:

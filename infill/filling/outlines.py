@@ -54,16 +54,22 @@ class Outline:
         places = places % self.around[ring]
         return np.stack([np.interp(places, known, points[:, axis]) for axis in (0, 1)], axis=-1)
 
-    def stretch(self, ring: int, begin: float, end: float) -> Path:
-        """Return the corners of a ring from one place to another, backwards if `end` < `begin`: (N, 2), with ends."""
-        low, high = min(begin, end), max(begin, end)
-        around = self.around[ring]
-        known = self.place[self.first[ring] : self.first[ring + 1]]
-        turns = np.arange(np.floor(low / around), np.floor(high / around) + 1)
-        corners = (turns[:, None] * around + known).ravel()
-        corners = corners[(corners > low) & (corners < high)]
-        points = self.points_at(ring, np.concatenate([[low], corners, [high]]))
-        return points if end > begin else points[::-1]
+    def between(self, ring: int, begin: float, length: float) -> Path:
+        """Return the corners of a ring on the `length` mm, at most once around, after the place `begin`: (N, 2), mm."""
+        first, count = int(self.first[ring]), int(self.first[ring + 1] - self.first[ring])
+        known, around = self.place[first : first + count], float(self.around[ring])
+        begin %= around
+        low = int(known.searchsorted(begin, side="right"))
+        end = begin + length
+        high = int(known.searchsorted(end)) if end <= around else count + int(known.searchsorted(end - around))
+        corners: Path = self.begin[first + np.arange(low, high) % count]
+        return corners
+
+    def stretch(self, ring: int, begin: float, length: float) -> Path:
+        """Return the ring from a place on, backwards if `length` is below 0: (N, 2), with both ends, mm."""
+        first, last = self.points_at(ring, np.array([begin, begin + length]))
+        corners = self.between(ring, begin, length) if length > 0 else self.between(ring, begin + length, -length)[::-1]
+        return np.concatenate([first[None], corners, last[None]])
 
 
 def outline_of(region: Polygon | MultiPolygon) -> Outline:

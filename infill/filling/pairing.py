@@ -30,15 +30,15 @@ def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float) -> C
     most : float
         Longer gaps are not walked, mm.
     overlapping : float
-        Shorter gaps may close a loop, mm.
+        Gaps whose ends are nearer than this may close a loop, mm.
     """
     possible = gaps.clear & (gaps.length <= most) & (gaps.begin != gaps.end)
-    free = possible & (gaps.length < overlapping)
+    free = possible & (gaps.across < overlapping) & (gaps.length < 2 * overlapping)
     walked = np.zeros(len(possible), dtype=bool)
     taken: set[int] = set()
     group = list(range(paths))
     order = np.flatnonzero(possible)
-    order = order[np.argsort(gaps.length[order], kind="stable")]
+    order = order[np.argsort(np.where(free, gaps.across - overlapping, gaps.length)[order], kind="stable")]
     begins, ends = gaps.begin.tolist(), gaps.end.tolist()
     for gap in order.tolist():
         begin, end = begins[gap], ends[gap]

@@ -8,20 +8,19 @@ Step 4. Tell time and filament anew, and put the new file in the place of the ol
 
 from __future__ import annotations
 
-import contextlib
+import io
 import os
-import tempfile
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from infill.errors import FormatError, GeometryError
-from infill.filling.families.catalogue import FAMILIES
+from infill.errors import FormatError
 from infill.filling.keeping import Rounding
 from infill.filling.layers import Rules, Tally, refilled_batch
-from infill.filling.replacing import planned
-from infill.filling.request import KEEP, SAME, Request
+from infill.filling.prints import Given, copy_mode, opened, pieces, scratch, write_print
+from infill.filling.replacing import family_of, planned
+from infill.filling.request import AUTO, KEEP, SAME, Request
 from infill.filling.support import largest_deviation, samples
 from infill.filling.telling import report_of_refill
 from infill.formats.whole_files import check_target, told, whole_file
@@ -34,7 +33,7 @@ from infill.version import __version__
 
 Progress = Callable[[str, float], None]
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
-COPIED = 1 << 20  # bytes at a time
+HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
 
 
@@ -47,20 +46,23 @@ class RefillResult:
     report : dict
         Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
     path : Path or None
-        The file written; None if nothing was to change, or for a dry run.
+        The file written; None if nothing was to change, for a dry run, or for lines.
+    lines : tuple of str, optional
+        The new lines with their line ends, if lines were given.
     """
 
     report: dict[str, Any]
     path: Path | None
+    lines: tuple[str, ...] | None = field(default=None, repr=False)
 
 
 def refill(
-    gcode: str | os.PathLike[str],
+    gcode: str | os.PathLike[str] | Iterable[str],
     *,
     output: str | os.PathLike[str] | None = None,
-    pattern: str = "keep",
+    pattern: str = KEEP,
     density: str | float | None = None,
-    smooth_radius: str | float = "auto",
+    smooth_radius: str | float = AUTO,
     max_deviation: float | None = None,
     layers: tuple[int, int] | None = None,
     part: str | None = None,
@@ -68,20 +70,24 @@ def refill(
     overwrite: bool = True,
     progress: Progress | None = None,
 ) -> RefillResult:
-    """Give the sparse infill of a sliced print round corners, in its G-code.
+    """Fill a sliced print anew, in its G-code: its own infill with round corners, or a pattern of ours in its place.
 
     Everything else in the file stays as it is, byte for byte, but for what it says of its own time and filament.
 
     Parameters
     ----------
-    gcode : path
-        What a slicer wrote: PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio or Cura.
+    gcode : path, or iterable of str
+        What PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio or Cura wrote, as text or as binary G-code; or its
+        lines, with or without line ends.
     output : path, optional
         Where to write; without it, the file itself is replaced.
     pattern : str
-        "keep": the slicer's own paths.
-    density : "same", optional
-        With "keep", beads up to 8 % wider make up for shorter paths.
+        "keep": the slicer's own paths with round corners. Or the name of a pattern, see
+        `infill.filling.families.catalogue`, or the path of a drawing: .svg .dxf .wkt .png.
+    density : "same" or float, optional
+        With "keep", "same" widens beads by up to 8 % to make up for shorter paths; without it, the filament per mm is
+        kept. With a pattern, a number above 0 and up to 1 is the share of the volume; else every section takes the
+        filament that it took.
     smooth_radius : "auto" or float
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional
@@ -106,7 +112,7 @@ def refill(
     ParameterError
         If an option is out of range.
     FormatError
-        If the file is no text of G-code, or has no marked layers.
+        If the file is no G-code, or has no marked layers.
     GeometryError
         If a check of the whole file fails; it is left as it was.
     OutputError
@@ -120,44 +126,103 @@ def refill(
         layers=layers,
         part=part,
     )
+    if not isinstance(gcode, str | os.PathLike):
+        return _refilled_lines(gcode, request, progress)
     source = Path(gcode)
     target = Path(os.path.realpath(source)) if output is None else Path(output)
     if not dry_run:
         check_target(target, overwrite=overwrite or output is None)
-    with _opened(source) as file:
-        found = survey(file)
-        if found.stamped:
-            return RefillResult(report=report_of_refill(request, found, None, already=True), path=None)
-        rules = _rules(request, found, progress)
-        folder = None if dry_run else target.parent
-        with _scratch(folder) as draft:
-            tally = _drafted(file, draft, found, rules, progress)
-            report = report_of_refill(request, found, tally, already=False, rules=rules)
-            if dry_run or (not tally.replaced and output is None):
-                return RefillResult(report=report, path=None)
-            _deliver(draft, target, source, tally, progress)
-    return RefillResult(report=report, path=target)
+    folder = None if dry_run else target.parent
+    with opened(source, folder) as given, scratch(folder) as draft:
+        done = _refilled(given, draft, request, progress)
+        nothing = done.tally is None or (not done.tally.replaced and output is None)
+        if dry_run or nothing:
+            return RefillResult(report=done.report, path=None)
+        if progress is not None:
+            progress("writing", 0.95)
+        with whole_file(target) as file:
+            copy_mode(source, file)
+            write_print(given, file, done.text(draft), done.change, done.said)
+    return RefillResult(report=done.report, path=target)
 
 
-@contextlib.contextmanager
-def _opened(source: Path) -> Iterator[BinaryIO]:
-    try:
-        file = source.open("rb")
-    except OSError as error:
-        said = error.strerror or str(error)
-        raise FormatError(f"cannot read {source}: {said[:1].lower()}{said[1:]}") from error
-    with file:
-        try:
-            yield file
-        except FormatError as error:
-            raise FormatError(f"{source}: {error}") from error
+def _refilled_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
+    """Refill lines of text."""
+    text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
+    given = Given(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
+    draft = io.BytesIO()
+    done = _refilled(given, draft, request, progress)
+    if done.tally is not None and done.tally.replaced:
+        text = b"".join(done.text(draft)).decode("utf-8", "surrogateescape")
+    return RefillResult(report=done.report, path=None, lines=tuple(text.splitlines(keepends=True)))
 
 
-@contextlib.contextmanager
-def _scratch(folder: Path | None) -> Iterator[BinaryIO]:
-    """Yield a file without a name, in the folder where the result will be, so that the same disk holds both."""
-    with told(folder or Path("a temporary file")), tempfile.TemporaryFile(dir=folder) as file:
-        yield file
+@dataclass(frozen=True, kw_only=True)
+class _Done:
+    """A draft, and what is still to be changed in it.
+
+    Parameters
+    ----------
+    report : dict
+    tally : Tally, optional
+        None if nothing was done.
+    edits : tuple of (place, length, text)
+        What to exchange in the draft, in order.
+    change : Change
+    said : float
+        Seconds that the print was said to take.
+    """
+
+    report: dict[str, Any]
+    tally: Tally | None = None
+    edits: tuple[tuple[int, int, bytes], ...] = ()
+    change: Change = field(default_factory=Change)
+    said: float = 0.0
+
+    def text(self, draft: BinaryIO) -> Iterator[bytes]:
+        """Yield the draft with its edits, in pieces."""
+        done = 0
+        for where, length, text in self.edits:
+            yield from pieces(draft, done, where)
+            yield text
+            done = where + length
+        yield from pieces(draft, done, draft.seek(0, os.SEEK_END))
+
+
+def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
+    """Write the new text to a draft."""
+    found = survey(given.text)
+    found = replace(found, settings={**found.settings, **given.settings})
+    if found.stamped:
+        return _Done(report=report_of_refill(request, found, None, already=True))
+    rules = _rules(request, found, progress)
+    tally = _drafted(given.text, draft, found, rules, progress)
+    report = report_of_refill(request, found, tally, already=False, rules=rules)
+    said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
+    said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
+    change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
+    edits: list[tuple[int, int, bytes]] = []
+    if tally.replaced:
+        edits = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
+        edits.append(_stamp(draft, tally))
+    return _Done(report=report, tally=tally, edits=tuple(sorted(edits)), change=change, said=said)
+
+
+def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
+    """Return the edit that puts the stamp in: after the header block, or after a first line that is a comment."""
+    draft.seek(0)
+    head = draft.read(HEAD)
+    place = 0
+    for last in (b"; HEADER_BLOCK_END", b";END_OF_HEADER"):
+        found = head.find(last)
+        if found >= 0 and (end := head.find(b"\n", found)) >= 0:
+            place = end + 1
+    if not place and head.startswith(b";") and b"\n" in head:
+        place = head.index(b"\n") + 1
+    line = head[:place] or head[: head.find(b"\n") + 1]
+    ends = b"\r\n" if line.endswith(b"\r\n") else b"\n"
+    text = b"%s %s: %d of %d sections%s" % (STAMP, __version__.encode(), tally.replaced, tally.sections, ends)
+    return place, 0, text
 
 
 def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
@@ -178,7 +243,7 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
     rules = Rules(rounding=rounding, acceleration=acceleration, request=request)
     rules = rules.with_survey(found, some)
     if request.pattern != KEEP:
-        family = FAMILIES[request.pattern]
+        family = family_of(request.pattern)
         density = request.density if isinstance(request.density, float) else None
         plan = planned(family, some, rounding, density=density, acceleration=acceleration)
         return rules.with_plan(plan)
@@ -214,59 +279,3 @@ def _drafted(file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, progr
             "or Cura, with its comments"
         )
     return tally
-
-
-def _deliver(draft: BinaryIO, target: Path, source: Path, tally: Tally, progress: Progress | None) -> None:
-    """Copy the draft to its place, with a stamp and with time and filament told anew."""
-    if progress is not None:
-        progress("writing", 0.95)
-    said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
-    change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
-    changed = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
-    draft.seek(0)
-    head = draft.read(1 << 16)
-    place = _stamp_place(head)
-    ends = b"\r\n" if b"\r\n" in head[:4096] else b"\n"
-    stamp = STAMP + b" %s: %d of %d sections%s" % (
-        __version__.encode(),
-        tally.replaced,
-        tally.sections,
-        ends,
-    )
-    edits = sorted([*changed, (place, 0, stamp)]) if tally.replaced else []
-    with whole_file(target) as file:
-        _copy_mode(source, file)
-        done = 0
-        for where, length, text in edits:
-            _copied(draft, file, done, where)
-            file.write(text)
-            done = where + length
-        _copied(draft, file, done, draft.seek(0, os.SEEK_END))
-
-
-def _copied(draft: BinaryIO, file: BinaryIO, first: int, last: int) -> None:
-    draft.seek(first)
-    while first < last:
-        text = draft.read(min(COPIED, last - first))
-        if not text:
-            raise GeometryError("a temporary file ended early; free some space on the disk and try again")
-        file.write(text)
-        first += len(text)
-
-
-def _copy_mode(source: Path, file: BinaryIO) -> None:
-    """Give a new file the permissions of the old one, where the system has them."""
-    if hasattr(os, "fchmod"):
-        with contextlib.suppress(OSError):
-            os.fchmod(file.fileno(), source.stat().st_mode & 0o7777)
-
-
-def _stamp_place(head: bytes) -> int:
-    """Return where the stamp goes: after the header block, or after the first line if that is a comment."""
-    for last in (b"; HEADER_BLOCK_END", b";END_OF_HEADER"):
-        place = head.find(last)
-        if place >= 0 and (end := head.find(b"\n", place)) >= 0:
-            return end + 1
-    if head.startswith(b";") and b"\n" in head:
-        return head.index(b"\n") + 1
-    return 0

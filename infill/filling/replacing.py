@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError
+from infill.filling.contact import STEP as CONTACT_STEP
 from infill.filling.contact import sampled
 from infill.filling.covering import cover, solve_cell
-from infill.filling.families.protocol import Family
+from infill.filling.families.catalogue import FAMILIES
+from infill.filling.families.protocol import TOUCH, Family
 from infill.filling.keeping import Rounding, first_moves, line_width, points_of, smoothed
 from infill.filling.regions import STEP, Region, region_of
 from infill.filling.support import Sample
 from infill.filling.surroundings import beads
-from infill.gcode.bodies import Body, Ways, bodies
+from infill.gcode.bodies import ALIKE, Body, Ways, bodies
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.table import Table
 
@@ -32,6 +34,10 @@ LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet
 SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
 INSIDE = 0.02  # mm that a path may leave its region
+OFF = 0.05  # of the length that an area should have, before it gets a cell of its own
+TRIES = 4
+LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
+NEWEST = 0.2  # how much the last layer counts in the density of a column
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,13 +61,45 @@ class Plan:
     same_filament: bool
 
 
+@dataclass(frozen=True, kw_only=True)
+class Column:
+    """Areas that stand on one another.
+
+    Parameters
+    ----------
+    area : Polygon
+        The topmost.
+    cell : float, mm
+    density : float
+        mm of the slicer's infill per mm², over the last layers: it varies from layer to layer.
+    """
+
+    area: Polygon
+    cell: float
+    density: float
+
+
 @dataclass(kw_only=True)
 class Memory:
-    """What one layer leaves for the next: its region, the paths of areas that repeat, and how the print travels."""
+    """What one layer leaves for the next.
+
+    Parameters
+    ----------
+    region : Region, optional
+    ways : Ways
+    paths : dict of (area, layer) to paths
+        Of the areas of the region; for a pattern that repeats in every layer, the layer is 0.
+    columns : list of Column
+        One for each area.
+    owed : float
+        mm of filament that beads could not be widened enough to take.
+    """
 
     region: Region | None = None
     ways: Ways = field(default_factory=Ways)
     paths: dict[tuple[int, int], Paths] = field(default_factory=dict)
+    columns: list[Column] = field(default_factory=list)
+    owed: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +119,15 @@ class Fresh:
     paths: Paths
     rate: float
     areas: tuple[Polygon, ...]
+
+
+def family_of(pattern: str) -> Family:
+    """Return a family by its name, or that of a drawing by its path."""
+    if pattern in FAMILIES:
+        return FAMILIES[pattern]
+    from infill.filling.drawn import drawn
+
+    return drawn(pattern)
 
 
 def layer_samples(infill: Strokes, some: Places) -> Floats:
@@ -154,86 +201,138 @@ def fresh_sections(
         if region is not memory.region:
             memory.paths.clear()
         memory.region = region
-        owned, lost = _owned(region, infill, some, section)
-        for body in (body for body in found if body.layer == number):
-            if body.section in lost:
-                reasons["no sure region"] = reasons.get("no sure region", 0) + 1
+        groups, lost = _grouped(region, infill, some, section)
+        here = {body.section: body for body in found if body.layer == number}
+        held: dict[int, float] = {}
+        for group in groups:
+            for area, length in group.lengths.items():
+                held[area] = held.get(area, 0.0) + length
+        columns = [_column(polygon, held.get(area, 0.0), plan, memory) for area, polygon in enumerate(region.polygons)]
+        memory.columns = columns
+        for group in groups:
+            members = [here[each] for each in group.areas if each in here]
+            reason = _unsure(group, members, lost)
+            if reason:
+                reasons[reason] = reasons.get(reason, 0) + len(members)
                 continue
-            areas = owned.get(body.section, ())
-            paths = _paths(body, areas, walls, plan, memory, acceleration, region)
-            length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
-            if not length:
-                reasons["no path fits"] = reasons.get("no path fits", 0) + 1
+            layer_plan = _Layer(plan=plan, memory=memory, walls=walls, region=region, acceleration=acceleration)
+            drawn = {body.section: _paths(body, group.areas[body.section], layer_plan) for body in members}
+            pushed = sum(body.rate * _length(drawn[body.section]) for body in members)
+            if not pushed:
+                reasons["no path fits"] = reasons.get("no path fits", 0) + len(members)
                 continue
-            rate = body.rate
+            factor = 1.0
             if plan.same_filament:
-                rate *= float(np.clip(body.filament / (body.rate * length), LEAST_WIDTH, MOST_WIDTH))
-            chosen = tuple(region.polygons[place] for place in areas)
-            fresh.append(Fresh(body=body, paths=paths, rate=rate, areas=chosen))
-    return fresh, reasons
+                wanted = sum(body.filament for body in members) + memory.owed
+                factor = float(np.clip(wanted / pushed, LEAST_WIDTH, MOST_WIDTH))
+                memory.owed = wanted - factor * pushed
+            areas = tuple(region.polygons[area] for each in group.areas.values() for area in each)
+            fresh += [
+                Fresh(body=body, paths=drawn[body.section], rate=body.rate * factor, areas=areas) for body in members
+            ]
+    return sorted(fresh, key=lambda each: each.body.first), reasons
 
 
-def _owned(
-    region: Region, infill: Strokes, some: Places, section: Places
-) -> tuple[dict[int, tuple[int, ...]], set[int]]:
-    """Return the areas of each section of a layer, and the sections whose areas are not sure."""
+@dataclass(frozen=True, kw_only=True)
+class _Group:
+    """Sections of a layer that share areas; most are alone.
+
+    Parameters
+    ----------
+    areas : dict of int to tuple of int
+        By section, the areas that it is to fill: those of which it printed more than the others.
+    lengths : dict of int to float
+        mm of the slicer's infill in each area.
+    """
+
+    areas: dict[int, tuple[int, ...]]
+    lengths: dict[int, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Layer:
+    """What the paths of a layer are drawn from."""
+
+    plan: Plan
+    memory: Memory
+    walls: Floats
+    region: Region
+    acceleration: float
+
+
+def _column(area: Polygon, length: float, plan: Plan, memory: Memory) -> Column:
+    """Return the column that an area continues, or begins."""
+    density = length / area.area
+    best, most = None, 0.0
+    for column in memory.columns:
+        if column.area is area:
+            best, most = column, area.area
+            break
+        if column.area.envelope.intersects(area):
+            shared = column.area.intersection(area).area
+            if shared > max(most, area.area / 2):
+                best, most = column, shared
+    if best is None:
+        return Column(area=area, cell=plan.cell, density=density)
+    return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density)
+
+
+def _length(paths: Paths) -> float:
+    return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in paths))
+
+
+def _unsure(group: _Group, members: list[Body], lost: set[int]) -> str:
+    """Say why a group of sections cannot be filled anew; nothing if it can."""
+    if lost & set(group.areas):
+        return "no sure region"
+    if len(members) < len(group.areas):
+        return "shares its region with a section that is kept"
+    rates = [body.rate for body in members]
+    return "lines of different widths" if rates and max(rates) > (1 + ALIKE) * min(rates) else ""
+
+
+def _grouped(region: Region, infill: Strokes, some: Places, section: Places) -> tuple[list[_Group], set[int]]:
+    """Return the sections of a layer in groups that share areas, and the sections whose areas are not sure."""
     import shapely
 
-    counts: dict[int, NDArray[np.int64]] = {}
-    lost: set[int] = set()
     grown = shapely.buffer(np.array(region.polygons, dtype=object), 0.1)
-    tree = shapely.STRtree(grown) if len(grown) else None
-    for number in np.unique(section[some]).tolist():
+    tree = shapely.STRtree(grown)
+    numbers = np.unique(section[some]).tolist()
+    held = np.zeros((len(numbers), len(grown)), dtype=np.int64)
+    lost: set[int] = set()
+    for place, number in enumerate(numbers):
         points = layer_samples(infill, some[section[some] == number])
-        if tree is None:
-            lost.add(number)
-            continue
         which, area = tree.query(shapely.points(points), predicate="within")
-        counts[number] = np.bincount(area, minlength=len(grown))
+        held[place] = np.bincount(area, minlength=len(grown))
         if len(np.unique(which)) < (1 - LOST) * len(points):
             lost.add(number)
-    owned: dict[int, tuple[int, ...]] = {}
+    # A section that printed next to nothing of an area has no share in it.
+    shares = held > SHARED * held.sum(axis=0)
+    label = np.arange(len(numbers))
     for area in range(len(grown)):
-        held = {number: int(count[area]) for number, count in counts.items() if count[area]}
-        if not held:
-            continue
-        owner = max(held, key=lambda number: held[number])
-        if sum(held.values()) - held[owner] > SHARED * sum(held.values()):
-            lost.update(held)  # printed in two visits
-        owned[owner] = (*owned.get(owner, ()), area)
-    return owned, lost
+        together = np.flatnonzero(shares[:, area])
+        if len(together):
+            label[np.isin(label, label[together])] = label[together[0]]
+    groups = []
+    for each in np.unique(label):
+        areas: dict[int, tuple[int, ...]] = {}
+        for place in np.flatnonzero(label == each).tolist():
+            own = [area for area in range(len(grown)) if held[:, area].any() and held[:, area].argmax() == place]
+            areas[numbers[place]] = tuple(own)
+        amount = held[label == each].sum(axis=0) * CONTACT_STEP
+        lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
+        groups.append(_Group(areas=areas, lengths=lengths))
+    return groups, lost
 
 
-def _paths(
-    body: Body,
-    areas: tuple[int, ...],
-    walls: Floats,
-    plan: Plan,
-    memory: Memory,
-    acceleration: float,
-    region: Region,
-) -> Paths:
+def _paths(body: Body, areas: tuple[int, ...], layer: _Layer) -> Paths:
     """Return rounded paths in some areas, in the order of printing, from where the section begins."""
-    import shapely
-
+    memory = layer.memory
     paths: Paths = []
     for area in areas:
-        key = (area, 0 if plan.family.prismatic else body.layer)
+        key = (area, 0 if layer.plan.family.prismatic else body.layer)
         if key not in memory.paths:
-            polygon = region.polygons[area]
-            strands = cover(
-                polygon,
-                plan.family,
-                cell=plan.cell,
-                line_width=plan.line_width,
-                z=body.z,
-                layer=body.layer,
-                radius=min(plan.rounding.radius, 1e3),
-            )
-            done = _rounded(strands, walls, plan.rounding, plan.line_width, acceleration, body.feed / 60)
-            near = shapely.buffer(polygon, INSIDE)
-            shapely.prepare(near)
-            memory.paths[key] = [path for path in done if shapely.contains_xy(near, path[:, 0], path[:, 1]).all()]
+            memory.paths[key] = _fitted(body, area, layer)
         paths.extend(memory.paths[key])
     if not paths:
         return paths
@@ -244,6 +343,58 @@ def _paths(
         return float(np.hypot(*(there[0][0] - body.start)) + np.hypot(*(there[-1][-1] - body.end)))
 
     return min(paths, back, key=way)
+
+
+def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
+    """Return paths in an area, at a cell that gives them the length they should have, if that of its column does not.
+
+    The length jumps with the cell in small areas: the nearest of a few is taken.
+    """
+    memory, column = layer.memory, layer.memory.columns[area]
+    wanted = column.density * column.area.area
+    paths = _covered(body, column.area, column.cell, layer)
+    best, cell = paths, column.cell
+    if layer.plan.same_filament and wanted > LEAST_LENGTH:
+        error = _length(paths) / wanted - 1
+        if abs(error) > OFF:
+            for _ in range(TRIES):
+                cell *= float(np.clip(1 + error, 0.6, 1.6))
+                cell = max(cell, TOUCH * layer.plan.line_width)
+                paths = _covered(body, column.area, cell, layer)
+                then = _length(paths) / wanted - 1
+                if abs(then) < abs(_length(best) / wanted - 1):
+                    best = paths
+                    memory.columns[area] = replace(column, cell=cell)
+                if abs(then) < OFF / 2:
+                    break
+                error = then
+    return best
+
+
+def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
+    """Return rounded paths in an area; one that would leave it keeps its corners."""
+    import shapely
+
+    plan = layer.plan
+    strands = cover(
+        area,
+        plan.family,
+        cell=cell,
+        line_width=plan.line_width,
+        z=body.z,
+        layer=body.layer,
+        radius=min(plan.rounding.radius, 1e3),
+    )
+    speed = body.feed / 60
+    done = _rounded(strands, layer.walls, plan.rounding, plan.line_width, layer.acceleration, speed)
+    near = shapely.buffer(area, INSIDE)
+    shapely.prepare(near)
+    inside = [bool(shapely.contains_xy(near, path[:, 0], path[:, 1]).all()) for path in done]
+    if all(inside):
+        return done
+    hard = replace(plan.rounding, deviation=0.0)
+    kept = _rounded(strands, layer.walls, hard, plan.line_width, layer.acceleration, speed)
+    return [one if fits else other for one, other, fits in zip(done, kept, inside, strict=True)]
 
 
 def _rounded(
@@ -283,6 +434,8 @@ def outside(fresh: Fresh) -> bool:
     """Return whether a path leaves its region."""
     import shapely
 
+    if not fresh.paths:
+        return False
     near = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + 0.001)
     shapely.prepare(near)
     points = np.concatenate(fresh.paths)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 from dataclasses import dataclass
+from pathlib import Path
 
 from infill.checks import positive, within
 from infill.errors import ParameterError
@@ -14,6 +15,7 @@ KEEP = "keep"
 AUTO = "auto"
 SAME = "same"
 LARGEST_RADIUS = 100.0  # mm
+DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +68,8 @@ class Request:
             within("max deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError(f"layers are {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
-        if self.pattern != KEEP and self.pattern not in FAMILIES:
+        drawing = Path(self.pattern).suffix.lower() in DRAWINGS
+        if self.pattern != KEEP and self.pattern not in FAMILIES and not drawing:
             near = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
             advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
             raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")

@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.tile_pairing import Graph, doubled_parts
 from infill.formats.drawing import MOST_POINTS, Line
 
 Floats = NDArray[np.float64]
@@ -36,7 +37,8 @@ ALONG = math.radians(10)  # near x, but no line of symmetry
 SNAP = 1e-7  # of a tile: to this, lines are cut at each other
 SAME = 1e-5  # of a tile: nodes closer than that are one
 CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: where it is cut out; no drawing has lines along there
-MOST_PAIRED = 1000
+AHEAD = 0.03  # of a tile: where directions at a crossing are taken, at any scale the same
+MOST_COPIES = 200  # of one line in a tile
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,18 +63,6 @@ class Borders:
     inward: Floats
 
 
-@dataclass(frozen=True, kw_only=True)
-class _Graph:
-    """The lines of a tile on the torus: parts between nodes."""
-
-    parts: list[Line]
-    node: NDArray[np.intp]  # (parts, 2)
-    places: Floats
-
-    def degree(self, some: NDArray[np.bool_]) -> NDArray[np.intp]:
-        return np.bincount(self.node[some].ravel(), minlength=len(self.places))
-
-
 def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) -> Borders:
     """Return the borders between two colours, and the lines to be doubled, in a tile from (0, 0) to `size`.
 
@@ -86,8 +76,8 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) 
         mm.
     """
     graph = _torus(_copies(_ends_together(lines, size, CLOSE * line_width), size), size)
-    double = _paired(graph)
-    crossings, inward = _crossings(graph, ~double, line_width)
+    double = doubled_parts(graph)
+    crossings, inward = _crossings(graph, ~double, AHEAD * min(size))
     single = _edges([part for part, twice in zip(graph.parts, double, strict=True) if not twice])
     doubled = _edges([part for part, twice in zip(graph.parts, double, strict=True) if twice])
     return Borders(single=single, double=doubled, crossings=crossings, inward=inward)
@@ -136,18 +126,19 @@ def _copies(lines: list[Line], size: tuple[float, float]) -> list[Line]:
     for line in lines:
         first = np.ceil(-line.max(axis=0) / box).astype(int)
         last = np.floor((2 * box - line.min(axis=0)) / box).astype(int)
-        points += len(line) * int(np.prod(np.maximum(last - first + 1, 0)))
-        if points > 4 * MOST_POINTS:
+        count = int(np.prod(np.maximum(last - first + 1, 0)))
+        points += len(line) * count
+        if points > MOST_POINTS or count > MOST_COPIES:
             raise GeometryError(
-                f"the drawing and its copies hold more than {4 * MOST_POINTS} points in a tile of {size[0]:.4g} × "
-                f"{size[1]:.4g} mm; give a simpler drawing, or one that lies on its page"
+                f"draw on the page: {count} copies of a line, or {points} points, meet in a "
+                f"tile of {size[0]:.4g} × {size[1]:.4g} mm; the limits are {MOST_COPIES} and {MOST_POINTS}"
             )
         for i in range(first[0], last[0] + 1):
             copies += [line + box * (i, j) for j in range(first[1], last[1] + 1)]
     return copies
 
 
-def _torus(copies: list[Line], size: tuple[float, float]) -> _Graph:
+def _torus(copies: list[Line], size: tuple[float, float]) -> Graph:
     """Return the lines of one tile, cut at each other and at its edges."""
     import shapely
 
@@ -160,71 +151,10 @@ def _torus(copies: list[Line], size: tuple[float, float]) -> _Graph:
     parts = [shapely.get_coordinates(part) for part in parts[shapely.get_type_id(parts) == 1]]
     ends = np.concatenate([part[[0, -1]] for part in parts])
     label, places = _clusters(ends, size, SAME * max(size))
-    return _Graph(parts=parts, node=label.reshape(-1, 2), places=places)
+    return Graph(parts=parts, node=label.reshape(-1, 2), places=places)
 
 
-def _paired(graph: _Graph) -> NDArray[np.bool_]:
-    """Return which parts are to be doubled: shortest ways between nodes of odd degree, taken in pairs.
-
-    Pairs are those nearest to each other, improved as long as exchanging the partners of two pairs makes the ways
-    shorter. Where there are too many, all that hangs together with an odd node is doubled.
-    """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components, dijkstra
-
-    doubled = np.zeros(len(graph.parts), dtype=bool)
-    odd = np.flatnonzero(graph.degree(~doubled) % 2)
-    if not odd.size:
-        return doubled
-    lengths = np.array([np.hypot(*np.diff(part, axis=0).T).sum() for part in graph.parts])
-    order = np.argsort(-lengths, kind="stable")  # of parts between the same nodes, the shortest is written last
-    part_of = {}
-    for number in order:
-        a, b = sorted(graph.node[number].tolist())
-        part_of[a, b] = int(number)
-    numbers = np.array(list(part_of.values()))
-    a, b = graph.node[numbers].T
-    count = len(graph.places)
-    ways = coo_array((lengths[numbers], (a, b)), shape=(count, count)).tocsr()
-    if len(odd) > MOST_PAIRED:
-        _, label = connected_components(ways, directed=False)
-        found: NDArray[np.bool_] = np.isin(label[graph.node[:, 0]], label[odd])
-        return found
-    distances, before = dijkstra(ways, directed=False, indices=odd, return_predecessors=True)
-    for i, j in _pairs(distances[:, odd]):
-        here = int(odd[j])
-        while here != odd[i]:
-            last = int(before[i, here])
-            doubled[part_of[min(last, here), max(last, here)]] ^= True
-            here = last
-    return doubled
-
-
-def _pairs(distances: Floats) -> list[tuple[int, int]]:
-    """Return numbers in pairs whose distances are small in all."""
-    upper = np.triu_indices(len(distances), 1)
-    partner = np.full(len(distances), -1)
-    for number in np.argsort(distances[upper], kind="stable"):
-        i, j = upper[0][number], upper[1][number]
-        if partner[i] < 0 and partner[j] < 0:
-            partner[i], partner[j] = j, i
-    better = True
-    while better:
-        better = False
-        for i in range(len(partner)):
-            j = partner[i]
-            swapped = distances[i] + distances[j][partner]  # i with k, j with the partner of k
-            gain = distances[i, j] + distances[np.arange(len(partner)), partner] - swapped
-            gain[[i, j]] = 0
-            k = int(np.argmax(gain))
-            if gain[k] > 1e-9 * distances[i, j]:
-                m = partner[k]
-                partner[[i, k, j, m]] = k, i, m, j
-                better = True
-    return [(i, int(j)) for i, j in enumerate(partner) if i < j]
-
-
-def _crossings(graph: _Graph, some: NDArray[np.bool_], line_width: float) -> tuple[Floats, Floats]:
+def _crossings(graph: Graph, some: NDArray[np.bool_], ahead: float) -> tuple[Floats, Floats]:
     """Return where four of the parts or more meet, and a direction into a sector that is to be connected there."""
     import shapely
 
@@ -233,8 +163,8 @@ def _crossings(graph: _Graph, some: NDArray[np.bool_], line_width: float) -> tup
         for end, node in zip((1, -1), graph.node[number].tolist(), strict=True):
             if node in at:
                 line = graph.parts[number][::end]
-                ahead = shapely.line_interpolate_point(shapely.linestrings(line), line_width / 2)
-                leg = shapely.get_coordinates(ahead)[0] - line[0]
+                near = shapely.line_interpolate_point(shapely.linestrings(line), ahead)
+                leg = shapely.get_coordinates(near)[0] - line[0]
                 at[node].append(math.atan2(leg[1], leg[0]))
     inward = [_sector(np.sort(angles)) for angles in at.values()]
     return graph.places[list(at)].reshape(-1, 2), np.array(inward).reshape(-1, 2)

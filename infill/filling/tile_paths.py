@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.tile_fields import TileGrid
+from infill.filling.tile_nodes import TileGrid
 
 Floats = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]

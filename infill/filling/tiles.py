@@ -17,8 +17,8 @@ SEAM = 0.1  # of the edge of a box: where so much of it is drawn, it is a seam
 GAP = 0.1  # of the larger side, between outlines that are repeated without a page
 LARGEST_PICTURE = 1000  # pixels along a side: beyond, several make one
 PIXEL_STEPS = 5  # of the equation, on the pixels themselves: rids a picture of speckles
+SLACK = 1e-3  # of the larger side: so far lines that go on may be off
 PIXEL = 0.1  # mm
-NONE = np.empty((0, 2))
 
 
 def tile_of(drawing: Drawing) -> Bounds:
@@ -28,33 +28,38 @@ def tile_of(drawing: Drawing) -> Bounds:
         left, bottom, right, top = drawing.page
         if x1 - x0 >= SPARSE * (right - left) or y1 - y0 >= SPARSE * (top - bottom):
             return drawing.page
-    gap = 0.0 if _seamed(drawing) else GAP * max(x1 - x0, y1 - y0)
-    thin = GAP * max(x1 - x0, y1 - y0)  # a straight line has no height of its own
+    size = max(x1 - x0, y1 - y0)
+    gap = 0.0 if _seamed(drawing) else GAP * size
     sides = []
-    for axis, (low, high) in enumerate(((x0, x1), (y0, y1))):
-        wide = max(high - low + gap, thin)
-        sides.append(_period(drawing, axis) or ((low + high - wide) / 2, (low + high + wide) / 2))
+    for period, low, high in zip(_periods(drawing, SLACK * size), (x0, y0), (x1, y1), strict=True):
+        wide = max(high - low + gap, GAP * size)  # a straight line has no height of its own
+        sides.append(period or ((low + high - wide) / 2, (low + high + wide) / 2))
     (left, right), (bottom, top) = sides
     return left, bottom, right, top
 
 
-def _period(drawing: Drawing, axis: int) -> tuple[float, float] | None:
-    """Return from where to where lines go along an axis, if each that begins at one side goes on from the other."""
-    ends = np.concatenate([line[[0, -1]] for line in drawing.lines if not np.array_equal(line[0], line[-1])] or [NONE])
-    if not len(ends):
-        return None
-    low, high = ends[:, axis].min(), ends[:, axis].max()
-    slack = 1e-3 * max(drawing.bounds[2] - drawing.bounds[0], drawing.bounds[3] - drawing.bounds[1])
-    first, last = (np.sort(ends[np.abs(ends[:, axis] - side) < slack, 1 - axis]) for side in (low, high))
-    if high - low < slack or len(first) != len(last) or (np.abs(first - last) > slack).any():
-        return None
-    return float(low), float(high)
+def _periods(drawing: Drawing, slack: float) -> tuple[tuple[float, float] | None, ...]:
+    """Return from where to where lines go along each axis, if all that begin at one side go on from the other."""
+    ends = [line[[0, -1]] for line in drawing.lines if not np.array_equal(line[0], line[-1])]
+    open_ends = np.concatenate(ends) if ends else np.empty((0, 2))
+    found: list[tuple[float, float] | None] = [None, None]
+    for axis in (0, 1, 0):  # ends that go on along one axis are left out along the other
+        if found[axis] or not len(open_ends):
+            continue
+        along = open_ends[:, axis]
+        low, high = float(along.min()), float(along.max())
+        at_low, at_high = (np.abs(along - side) < slack for side in (low, high))
+        first, last = (np.sort(open_ends[side, 1 - axis]) for side in (at_low, at_high))
+        if high - low > slack and len(first) == len(last) and (np.abs(first - last) < slack).all():
+            found[axis] = low, high
+            open_ends = open_ends[~(at_low | at_high)]
+    return tuple(found)
 
 
 def _seamed(drawing: Drawing) -> bool:
     """Return whether lines end at the box around the drawing or run along it, so that they go on in the next tile."""
     x0, y0, x1, y1 = drawing.bounds
-    slack = 1e-3 * max(x1 - x0, y1 - y0)
+    slack = SLACK * max(x1 - x0, y1 - y0)
     along = 0.0
     for line in drawing.lines:
         on = np.stack([abs(line[:, 0] - x) < slack for x in (x0, x1)] + [abs(line[:, 1] - y) < slack for y in (y0, y1)])

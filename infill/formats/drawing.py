@@ -13,7 +13,7 @@ Line = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
 
 LARGEST = 1e5  # mm: beyond a hundred metres, a drawing is a mistake in its units
-MOST_POINTS = 1_000_000
+MOST_POINTS = 4_000_000  # with those of curves, before they are simplified
 FLATNESS = 1e-4  # of the size of a drawing: how far its chords may lie from its curves
 
 
@@ -69,9 +69,9 @@ def checked_drawing(
     if not long:
         only = f", only {' and '.join(words)}" if words else ""
         raise FormatError(f"{path} holds no lines{only}; draw outlines or strokes, and turn texts into paths")
-    counts = sum(map(len, long))
-    if counts > MOST_POINTS:
-        raise FormatError(f"{path} holds {counts} points; the limit is {MOST_POINTS}; give a simpler drawing")
+    count = sum(map(len, long))
+    if count > MOST_POINTS:
+        raise FormatError(f"{path} holds {count} points; the limit is {MOST_POINTS}; give a simpler drawing")
     points = np.concatenate(long)
     largest = np.abs(points).max()
     if not largest <= LARGEST:

@@ -20,7 +20,7 @@ from infill.formats.drawing import FLATNESS, Drawing, Line, checked_drawing
 
 AGAIN = "save it again as DXF (R2000 or later, text)"
 LARGEST_FILE = 100_000_000  # bytes
-MOST_ENTITIES = 100_000
+MOST_ENTITIES = 50_000
 DRAWN = ("LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX")
 TEXTS = ("TEXT", "MTEXT", "ATTRIB", "ATTDEF")
 
@@ -47,7 +47,7 @@ def read_dxf(path: Path) -> Drawing:
             unit = _millimetres(document.header.get("$INSUNITS", 0))
     except (ezdxf.DXFError, OSError, StopIteration) as error:
         raise FormatError(f"{path} is broken or not a .dxf file ({one_line(error)}); {AGAIN}") from error
-    return checked_drawing(path, [line * unit for line in lines], left_out=dict(left_out))
+    return checked_drawing(path, [line * unit for line in lines], left_out=+left_out)
 
 
 def _millimetres(unit: int) -> float:
@@ -61,19 +61,22 @@ def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401
 
     hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
     paths = []
+    if any(each.dxftype() == "INSERT" and each.mcount > MOST_ENTITIES for each in document.entitydb.values()):
+        raise ValueError(f"it repeats a block more than {MOST_ENTITIES} times")
     entities: Iterable[Any] = disassemble.recursive_decompose(document.modelspace())
     for number, entity in enumerate(entities):
         if number >= MOST_ENTITIES:
             raise ValueError(f"it holds more than {MOST_ENTITIES} entities")
         kind = entity.dxftype()
         if entity.dxf.get("layer", "0") in hidden or entity.dxf.get("invisible", 0):
-            left_out["hidden entity"] += 1
+            left_out["hidden line"] += 1
         elif kind in DRAWN:
             paths.append(path.make_path(entity))
+            left_out["empty line"] += not len(paths[-1])
         elif kind == "HATCH":
             paths += path.from_hatch(entity)
         else:
-            left_out["text" if kind in TEXTS else kind] += 1
+            left_out["text" if kind in TEXTS else kind.lower()] += 1
     corners = [np.array([(v.x, v.y) for v in each.control_vertices()]) for each in paths if len(each)]
     if not corners:
         return []

@@ -18,24 +18,19 @@ from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import told_broken
 from infill.formats.drawing import Bounds, Drawing, Line, checked_drawing
-from infill.formats.svg_paths import NUMBER, TURN, arc_points, path_lines
+from infill.formats.svg_numbers import IDENTITY, PX, Matrix, chained, fitted, length_in_px, matrix_of, numbers_in
+from infill.formats.svg_paths import ellipse_lines, path_lines, rectangle_lines
 
-Matrix = NDArray[np.float64]  # (2, 3)
-
-PX = 25.4 / 96  # mm
-UNITS = {"": 1.0, "px": 1.0, "pt": 4 / 3, "pc": 16.0, "mm": 1 / PX, "cm": 10 / PX, "q": 0.25 / PX, "in": 96.0}  # px
 LARGEST_FILE = 50_000_000  # bytes
 LONGEST_ENTITY = 256  # characters: names of namespaces, which some programs abbreviate
 MOST_ELEMENTS = 100_000  # copies counted, which may copy copies
 DEEPEST = 100
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
 LEFT_OUT = {"text": "text", "image": "picture", "foreignObject": "foreign object"}
-IDENTITY = np.array([[1.0, 0, 0], [0, 1, 0]])
 
 
 def read_svg(path: Path) -> Drawing:
@@ -96,59 +91,6 @@ def _tag(element: ElementTree.Element) -> str:
     return element.tag.rpartition("}")[2]
 
 
-# --- numbers ---------------------------------------------------------------------------------------------
-
-
-def _length(text: str | None, whole: float, otherwise: float = 0.0) -> float:
-    """Return a length in user units (px); `whole` is what 100 % means."""
-    if text is None or text.strip() in ("", "auto"):
-        return otherwise
-    found = re.fullmatch(rf"\s*({NUMBER})\s*([A-Za-z]*|%)\s*", text)
-    if found and found[2] == "%":
-        return float(found[1]) / 100 * whole
-    if not found or found[2].lower() not in UNITS:
-        raise ValueError(f"it gives the length {text[:30]!r}")
-    return float(found[1]) * UNITS[found[2].lower()]
-
-
-def _numbers(text: str) -> list[float]:
-    if re.sub(r"[\s,]", "", re.sub(NUMBER, "", text)):
-        raise ValueError(f"it gives {text.strip()[:30]!r} for numbers")
-    return [float(each) for each in re.findall(NUMBER, text)]
-
-
-def _matrix(text: str | None) -> Matrix:
-    """Return the matrix of an attribute `transform`."""
-    matrix = IDENTITY
-    for name, inside in re.findall(r"(\w+)\s*\(([^)]*)\)", text or ""):
-        numbers = _numbers(inside)
-        match name, numbers:
-            case "matrix", [a, b, c, d, e, f]:
-                each = [[a, c, e], [b, d, f]]
-            case "translate", [x, *y] if len(y) < 2:
-                each = [[1, 0, x], [0, 1, *(y or [0])]]
-            case "scale", [x, *y] if len(y) < 2:
-                each = [[x, 0, 0], [0, *(y or [x]), 0]]
-            case "rotate", [angle, *centre] if len(centre) in (0, 2):
-                cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-                x, y0 = centre or (0.0, 0.0)
-                each = [[cos, -sin, x - cos * x + sin * y0], [sin, cos, y0 - sin * x - cos * y0]]
-            case "skewX", [angle]:
-                each = [[1, math.tan(math.radians(angle)), 0], [0, 1, 0]]
-            case "skewY", [angle]:
-                each = [[1, 0, 0], [math.tan(math.radians(angle)), 1, 0]]
-            case _:
-                raise ValueError(f"it holds the transform {name}({inside[:30]})")
-        matrix = _then(matrix, np.array(each, dtype=np.float64))
-    return matrix
-
-
-def _then(outer: Matrix, inner: Matrix) -> Matrix:
-    both: Matrix = outer[:, :2] @ inner
-    both[:, 2] += outer[:, 2]
-    return both
-
-
 # --- shapes ----------------------------------------------------------------------------------------------
 
 
@@ -166,20 +108,20 @@ class _Reader:
 
     def _page(self) -> Bounds | None:
         box = self.root.get("viewBox")
-        numbers = _numbers(box) if box else []
+        numbers = numbers_in(box) if box else []
         wide, high = numbers[2:] if len(numbers) == 4 else (0.0, 0.0)
-        width = _length(self.root.get("width"), wide, wide)
-        height = _length(self.root.get("height"), high, high)
+        width = length_in_px(self.root.get("width"), wide, wide)
+        height = length_in_px(self.root.get("height"), high, high)
         return (0.0, 0.0, width, height) if width > 0 and height > 0 else None
 
     def lines(self) -> Iterator[Line]:
         """Yield the lines in px of the page, y downwards."""
         matrix = IDENTITY
         if self.page:
-            matrix = _fitted(self.root, self.page[2], self.page[3])
+            matrix = fitted(self.root, self.page[2], self.page[3])
         box = self.root.get("viewBox")
         if box:
-            self.view = (_numbers(box)[2], _numbers(box)[3])
+            self.view = (numbers_in(box)[2], numbers_in(box)[3])
         for each in self.root:
             yield from self._inside(each, matrix, 0)
 
@@ -198,13 +140,13 @@ class _Reader:
             raise ValueError(f"it draws more than {MOST_ELEMENTS} elements")
         if depth > DEEPEST:
             raise ValueError("a copy by `use` contains itself")
-        matrix = _then(outer, _matrix(get("transform")))
+        matrix = chained(outer, matrix_of(get("transform")))
         width, height = self.view
         if tag in ("svg", "use", "symbol"):
-            place = np.array([[1, 0, _length(get("x"), width)], [0, 1, _length(get("y"), height)]])
-            matrix = _then(matrix, place)
+            place = np.array([[1, 0, length_in_px(get("x"), width)], [0, 1, length_in_px(get("y"), height)]])
+            matrix = chained(matrix, place)
         if tag == "svg":
-            matrix = _then(matrix, self._nested(element, element))
+            matrix = chained(matrix, self._nested(element, element))
         if tag == "use":
             yield from self._copied(element, matrix, depth)
         elif tag in ("g", "svg", "a", "switch"):
@@ -216,17 +158,18 @@ class _Reader:
 
     def _nested(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:
         width, height = (
-            _length(sized.get(name), whole, whole) for name, whole in zip(("width", "height"), self.view, strict=True)
+            length_in_px(sized.get(name), whole, whole)
+            for name, whole in zip(("width", "height"), self.view, strict=True)
         )
-        return _fitted(element, width, height)
+        return fitted(element, width, height)
 
     def _copied(self, element: ElementTree.Element, matrix: Matrix, depth: int) -> Iterator[Line]:
         name = element.get("href") or element.get("http://www.w3.org/1999/xlink}href") or ""
         target = self.by_name.get(name.removeprefix("#"))
         if target is None:
-            self.left_out["copy of something outside"] += 1
+            self.left_out["broken link"] += 1
         elif _tag(target) == "symbol":
-            matrix = _then(matrix, self._nested(target, element))
+            matrix = chained(matrix, self._nested(target, element))
             for each in target:
                 yield from self._inside(each, matrix, depth + 1)
         else:
@@ -238,7 +181,7 @@ class _Reader:
 
         def get(name: str) -> float:
             whole = {"x": width, "c": width, "w": width, "y": height, "h": height}.get(name[0], mean)
-            return _length(element.get(name), height if name in ("cy", "ry") else whole)
+            return length_in_px(element.get(name), height if name in ("cy", "ry") else whole)
 
         match tag:
             case "path":
@@ -246,20 +189,20 @@ class _Reader:
             case "line":
                 return [np.array([[get("x1"), get("y1")], [get("x2"), get("y2")]])]
             case "polyline" | "polygon":
-                numbers = _numbers(element.get("points") or "")
+                numbers = numbers_in(element.get("points") or "")
                 points = np.array(numbers[: len(numbers) // 2 * 2]).reshape(-1, 2)
                 return [np.vstack([points, points[:1]]) if tag == "polygon" else points]
             case "circle":
-                return _ellipse(get("cx"), get("cy"), get("r"), get("r"))
+                return ellipse_lines(get("cx"), get("cy"), get("r"), get("r"))
             case "ellipse":
                 rx, ry = (element.get(name) for name in ("rx", "ry"))
-                return _ellipse(get("cx"), get("cy"), get("rx" if rx else "ry"), get("ry" if ry else "rx"))
+                return ellipse_lines(get("cx"), get("cy"), get("rx" if rx else "ry"), get("ry" if ry else "rx"))
             case "rect":
                 if self._is_ground(element, (get("x"), get("y"), get("width"), get("height"))):
                     self.left_out["background"] += 1
                     return []
                 across, up = get("rx"), get("ry")
-                return _rectangle(get("x"), get("y"), get("width"), get("height"), across or up, up or across)
+                return rectangle_lines(get("x"), get("y"), get("width"), get("height"), across or up, up or across)
         return []
 
     def _is_ground(self, element: ElementTree.Element, box: Bounds) -> bool:
@@ -269,47 +212,3 @@ class _Reader:
         return (
             not stroked and self.page is not None and box[2] >= 0.999 * self.view[0] and box[3] >= 0.999 * self.view[1]
         )
-
-
-def _fitted(element: ElementTree.Element, width: float, height: float) -> Matrix:
-    """Return the matrix that puts the view box of an element into width × height."""
-    box = element.get("viewBox")
-    if not box:
-        return IDENTITY
-    numbers = _numbers(box)
-    if len(numbers) != 4 or min(numbers[2:]) <= 0:
-        raise ValueError(f"it gives the view box {box[:40]!r}")
-    x, y, wide, high = numbers
-    across, up = width / wide, height / high
-    how = element.get("preserveAspectRatio", "xMidYMid meet")
-    if "none" not in how:
-        across = up = max(across, up) if "slice" in how else min(across, up)
-    left, top = width - wide * across, height - high * up
-    left *= 0 if "xMin" in how else 1 if "xMax" in how else 0.5
-    top *= 0 if "YMin" in how else 1 if "YMax" in how else 0.5
-    return np.array([[across, 0, left - x * across], [0, up, top - y * up]])
-
-
-def _ellipse(x: float, y: float, rx: float, ry: float) -> list[Line]:
-    if not (rx > 0 and ry > 0):
-        return []
-    angles = np.linspace(0, 2 * math.pi, 1 + math.ceil(2 * math.pi / TURN))
-    points = np.stack([x + rx * np.cos(angles), y + ry * np.sin(angles)], axis=1)
-    points[-1] = points[0]
-    return [points]
-
-
-def _rectangle(x: float, y: float, width: float, height: float, rx: float, ry: float) -> list[Line]:
-    if not (width > 0 and height > 0):
-        return []
-    rx, ry = min(rx, width / 2), min(ry, height / 2)
-    if rx <= 0 or ry <= 0:
-        return [np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height], [x, y]])]
-    corners = []
-    for sx, sy in ((1, 0), (1, 1), (0, 1), (0, 0)):  # clockwise on the page, from the upper right
-        corner = np.array([x + sx * width, y + sy * height])
-        inward = np.array([rx if sx == 0 else -rx, 0.0]), np.array([0.0, ry if sy == 0 else -ry])
-        first, last = (corner + inward[0], corner + inward[1]) if sx != sy else (corner + inward[1], corner + inward[0])
-        corners += [first[None], arc_points(first, last, (rx, ry), 0.0, large=False, sweep=True)]
-    points = np.concatenate(corners)
-    return [np.vstack([points, points[:1]])]

@@ -166,3 +166,30 @@ def arc_points(start: Line, end: Line, radii: tuple[float, float], turned: float
     points: Line = (circle * (rx, ry)) @ axes + (start + end) / 2
     points[-1] = end
     return points
+
+
+def ellipse_lines(x: float, y: float, rx: float, ry: float) -> list[Line]:
+    """Return the outline of an ellipse, or none if a radius is not above 0."""
+    if not (rx > 0 and ry > 0):
+        return []
+    angles = np.linspace(0, 2 * math.pi, 1 + math.ceil(2 * math.pi / TURN))
+    points = np.stack([x + rx * np.cos(angles), y + ry * np.sin(angles)], axis=1)
+    points[-1] = points[0]
+    return [points]
+
+
+def rectangle_lines(x: float, y: float, width: float, height: float, rx: float, ry: float) -> list[Line]:
+    """Return the outline of a rectangle, or none if a side is not above 0; clockwise, with rounded corners."""
+    if not (width > 0 and height > 0):
+        return []
+    rx, ry = min(rx, width / 2), min(ry, height / 2)
+    if rx <= 0 or ry <= 0:
+        return [np.array([[x, y], [x + width, y], [x + width, y + height], [x, y + height], [x, y]])]
+    corners = []
+    for sx, sy in ((1, 0), (1, 1), (0, 1), (0, 0)):  # clockwise on the page, from the upper right
+        corner = np.array([x + sx * width, y + sy * height])
+        inward = np.array([rx if sx == 0 else -rx, 0.0]), np.array([0.0, ry if sy == 0 else -ry])
+        first, last = (corner + inward[0], corner + inward[1]) if sx != sy else (corner + inward[1], corner + inward[0])
+        corners += [first[None], arc_points(first, last, (rx, ry), 0.0, large=False, sweep=True)]
+    points = np.concatenate(corners)
+    return [np.vstack([points, points[:1]])]

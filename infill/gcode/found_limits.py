@@ -7,17 +7,19 @@ change them on the way. Cura tells nothing but its name; its own estimates take 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from infill.gcode.limits import Axes, Limits, Model, commanded
+from infill.gcode.limits import JERKS, Axes, Limits, Model, commanded
 
 DIAMETER: Final = 1.75  # mm of filament, where the file does not say
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
 CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate takes
+    model="vector-jerk",
     feedrate=(1e6, 1e6, 1e6, 1e6),
     axis_acceleration=(9000.0, 9000.0, 100.0, 10000.0),
     jerk=(20.0, 20.0, 0.4, 5.0),
@@ -28,6 +30,7 @@ CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate ta
 # What each model works with; nothing is said of the rest.
 USED: Final[dict[str, tuple[str, ...]]] = {
     "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
+    "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "junction": ("feedrate", "axis_acceleration", "acceleration", "junction_deviation"),
     "klipper": ("feedrate", "axis_acceleration", "acceleration", "square_corner_velocity", "minimum_cruise_ratio"),
 }
@@ -128,6 +131,8 @@ def found_limits(head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = Non
     if settings.get("machine_limits_usage") != "ignore":
         found = _from_settings(settings, start)
     model: Model = fixed.get("model") or found.pop("model", start.model)
+    if "jerk" in fixed and "model" not in fixed and model not in JERKS:
+        model = "jerk"
     limits = replace(start, **{**found, "model": model, **fixed})
     sources = {
         name: "given" if name in fixed else "settings" if name in found else "assumed" for name in USED[limits.model]
@@ -185,17 +190,20 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
             found[field] = value
             if field.endswith("acceleration") and start.model != "klipper":
                 found[f"highest_{field}"] = value
-    if "junction_deviation" in found and start.model == "jerk":
+    if settings.get("gcode_flavor") == "marlin" and "acceleration" in found:  # before 2.0 it has none of travel
+        found["travel_acceleration"] = found["highest_travel_acceleration"] = found["acceleration"]
+    if "junction_deviation" in found and start.model in JERKS:
         found["model"] = "junction"
     return found
 
 
 def _first(text: str | None) -> float | None:
-    """Return the first number of a list, or None."""
+    """Return the first number of a list, or None where there is none that could be a limit."""
     try:
-        return float((text or "").split(",")[0])
+        number = float((text or "").split(",")[0])
     except ValueError:
         return None
+    return number if 0 <= number < math.inf else None
 
 
 def _estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:

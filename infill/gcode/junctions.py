@@ -1,4 +1,4 @@
-"""How fast a planner lets the machine pass from one move to the next: three models, all joints at once.
+"""How fast a planner lets the machine pass from one move to the next: four models, all joints at once.
 
 A joint between moves of unit directions u and w turns by phi, with sin(phi / 2) = |w - u| / 2 and cos(phi / 2) =
 |w + u| / 2. These are exact for the smallest turns, where 1 - cos(phi) has lost every digit. Everything is a square of
@@ -8,6 +8,7 @@ a speed, mm²/s².
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,19 +24,18 @@ SMALL_TURN = np.pi / 4  # where it turns less than this
 def joint_limits(moves: Moves, bounds: Bounded, limits: Sequence[Limits]) -> Floats:
     """Return the square of the highest speed before, between and after moves, (N + 1,), mm²/s².
 
-    The machine stands still at both ends. The speeds of the moves themselves are limits of the joints as well.
+    At both ends the machine goes from and to rest. The speeds of the moves themselves are limits of the joints as well.
     """
 
     def limit(name: str) -> Floats:
         return values(limits, name, moves.setting)
 
-    model = {"jerk": _jerk, "junction": _junction_deviation, "klipper": _square_corner}[limits[0].model]
-    cruise = bounds.speed**2
-    rest = _rest(bounds, limit) ** 2 if limits[0].model == "jerk" else np.zeros(len(cruise))
+    inside, at_rest = _MODELS[limits[0].model]
+    cruise, rest = bounds.speed**2, at_rest(bounds, limit) ** 2
     joints = np.empty(len(cruise) + 1)
     joints[0], joints[-1] = rest[0], rest[-1]
     if len(cruise) > 1:
-        inner = np.minimum(model(bounds, limit), np.minimum(cruise[:-1], cruise[1:]))
+        inner = np.minimum(inside(bounds, limit), np.minimum(cruise[:-1], cruise[1:]))
         joints[1:-1] = np.where(moves.stop[1:], np.minimum(rest[:-1], rest[1:]), inner)
     return joints
 
@@ -123,3 +123,33 @@ def _rest(bounds: Bounded, limit: Limit) -> NDArray[np.float64]:
     jerk = limit("jerk")
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
     return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
+
+
+def _vector_jerk(bounds: Bounded, limit: Limit) -> Floats:
+    """Classic jerk of old: x and y jump together, as a vector, and every move counts with its own speed."""
+    jump = np.abs(np.diff(bounds.direction * bounds.speed[:, None], axis=0))
+    jump[:, 0] = np.hypot(jump[:, 0], jump[:, 1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = np.fmin((_at(limit("jerk"), AFTER) / jump)[:, [0, 2, 3]].min(axis=1), 1.0)
+    return np.asarray(np.minimum(bounds.speed[:-1], bounds.speed[1:] * factor) ** 2)
+
+
+def _vector_rest(bounds: Bounded, limit: Limit) -> Floats:
+    """Return half the jerk of x and y, or less where half that of z or e is met."""
+    half = limit("jerk") / 2
+    meets = np.abs(bounds.direction) * bounds.speed[:, None] > half
+    meets[:, :2] = [True, False]
+    return np.asarray(np.minimum(bounds.speed, np.where(meets, half, np.inf).min(axis=1)))
+
+
+def _standstill(bounds: Bounded, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
+    return np.zeros(len(bounds.speed))
+
+
+# How fast joints may be passed, and how fast a move may start from rest and end there.
+_MODELS: Final[dict[str, tuple[Callable[[Bounded, Limit], Floats], Callable[[Bounded, Limit], Floats]]]] = {
+    "jerk": (_jerk, _rest),
+    "vector-jerk": (_vector_jerk, _vector_rest),
+    "junction": (_junction_deviation, _standstill),
+    "klipper": (_square_corner, _standstill),
+}

@@ -12,7 +12,8 @@ from typing import Final, Literal, get_args
 
 from infill.errors import ParameterError
 
-Model = Literal["jerk", "junction", "klipper"]
+Model = Literal["jerk", "vector-jerk", "junction", "klipper"]
+JERKS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
@@ -24,7 +25,8 @@ _MAY_BE_ZERO: Final = {
     "square_corner_velocity",
     "minimum_cruise_ratio",
 }
-_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*([-+.\d]+)", re.IGNORECASE)
+_ZERO_WORDS: Final = {"SQUARE_CORNER_VELOCITY", "MINIMUM_CRUISE_RATIO"}
+_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+))", re.IGNORECASE)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,11 +35,12 @@ class Limits:
 
     Parameters
     ----------
-    model : {"jerk", "junction", "klipper"}
-        What bounds the speed at a corner: the jump of each axis' velocity, as PrusaSlicer and CuraEngine estimate and
-        Marlin does with CLASSIC_JERK; Marlin's junction deviation; Klipper's square corner velocity.
+    model : {"jerk", "vector-jerk", "junction", "klipper"}
+        What bounds the speed at a corner: the jump of each axis' velocity, as PrusaSlicer estimates and Marlin does
+        with CLASSIC_JERK; that of x and y together, as CuraEngine estimates and Marlin did until 2016; Marlin's
+        junction deviation; Klipper's square corner velocity.
     feedrate, axis_acceleration, jerk : tuple of 4 float
-        Of x, y, z, e. The jerk is used by "jerk" only.
+        Of x, y, z, e. The jerk is used by "jerk" and "vector-jerk", by the latter that of x for x and y.
     acceleration, travel_acceleration, retract_acceleration : float
         Along the path: of moves that extrude, that do not, and that only turn the extruder.
     highest_acceleration, highest_travel_acceleration, highest_retract_acceleration : float
@@ -158,19 +161,21 @@ def _cornered(limits: Limits, words: dict[str, float]) -> Limits:
     changed = replace(
         limits,
         jerk=_axes(limits.jerk, words, 1.0),
-        minimum_feedrate=words.get("S", limits.minimum_feedrate),
-        minimum_travel_feedrate=words.get("T", limits.minimum_travel_feedrate),
+        minimum_feedrate=max(words.get("S", limits.minimum_feedrate), 0.0),
+        minimum_travel_feedrate=max(words.get("T", limits.minimum_travel_feedrate), 0.0),
     )
     return replace(changed, junction_deviation=words["J"]) if words.get("J", 0) > 0 else changed
 
 
 def _limited(limits: Limits, line: bytes) -> Limits:
-    """Follow Klipper's SET_VELOCITY_LIMIT."""
-    words = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
+    """Follow Klipper's SET_VELOCITY_LIMIT; it takes no limits below 0, and none of 0 but two."""
+    found = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
+    words = {name: value for name, value in found.items() if value > 0 or (value == 0 and name in _ZERO_WORDS)}
     acceleration = words.get("ACCEL", limits.acceleration)
     ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)
-    if words.get("ACCEL_TO_DECEL", 0) > 0:  # until 2024; it is the ratio's complement in mm/s²
+    if "ACCEL_TO_DECEL" in words:  # until 2024; it is the ratio's complement in mm/s²
         ratio = max(0.0, 1 - words["ACCEL_TO_DECEL"] / acceleration)
+    ratio = ratio if ratio < 1 else limits.minimum_cruise_ratio
     speed = words.get("VELOCITY", limits.feedrate[0])
     return replace(
         limits,

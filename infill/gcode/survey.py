@@ -20,7 +20,6 @@ _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(rb"(?:generated (?:by|with) |Generated with |Sliced by )([A-Za-z][\w. +-]{1,60})", re.IGNORECASE)
 # What other files begin with.
 OTHERS = {
-    b"GCDE": "binary G-code",
     b"PK\x03\x04": "a zip or 3MF file",
     b"\x89PNG": "a picture",
     b"\xff\xd8\xff": "a picture",

@@ -25,7 +25,7 @@ from infill.gcode.table import ARC, COMMENT, MOVE, State, Table, read
 
 BATCH: Final = 1 << 22  # bytes
 ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings
-STOPS: Final = frozenset({"G4", "G28", "G29", "M0", "M1", "M109", "M190", "M400", "M600", "M601"})
+STOPS: Final = frozenset({"G4", "G10", "G11", "G28", "G29", "M0", "M1", "M109", "M190", "M400", "M600", "M601"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -158,7 +158,7 @@ class Timeline:
         """Return the lines that move something; stops and pauses go to the move that follows them."""
         place = np.column_stack([table.x, table.y, table.z])
         before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
-        travel = np.where(np.isnan(place - before), 0.0, place - before)  # where it was unknown, it did not move
+        travel = np.nan_to_num(place) - np.nan_to_num(before)  # from home, where the file has not said a place yet
         going = (table.kind == MOVE) & (travel.any(axis=1) | (table.extruded != 0))
         line, first, delta = np.flatnonzero(going), before[going], travel[going]
         pushed = table.extruded[going]

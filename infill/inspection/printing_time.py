@@ -127,7 +127,7 @@ def motion(
     ----------
     path : path
         Plain G-code.
-    model : {"jerk", "junction", "klipper"}, optional
+    model : {"jerk", "vector-jerk", "junction", "klipper"}, optional
         What bounds the speed at corners. By default what the file was sliced for, or what the limits given here mean.
     acceleration : float, optional
         mm/s², of printing and travel.
@@ -188,10 +188,10 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     means = {"square_corner_velocity": "klipper", "minimum_cruise_ratio": "klipper", "junction_deviation": "junction"}
     means["jerk"] = "jerk"
     meant = {model for name, model in means.items() if name in fixed}
-    if "model" not in fixed and len(meant) == 1:
-        fixed["model"] = meant.pop()
-    elif "model" not in fixed and meant:
+    if "model" not in fixed and len(meant) > 1:
         raise ParameterError(f"the limits given belong to {len(meant)} models, {', '.join(sorted(meant))}; name one")
+    if "model" not in fixed and meant - {"jerk"}:  # there are two models with jerk: the file decides
+        fixed["model"] = meant.pop()
     if "acceleration" in fixed:
         fixed["travel_acceleration"] = fixed["acceleration"]
     if "jerk" in fixed:

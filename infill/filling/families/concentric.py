@@ -41,15 +41,11 @@ class Concentric:
         """Return the insets of the region; see `RegionFamily`."""
         import shapely
 
-        half = TOUCH * line_width / 2
         paths: list[Path] = []
-        # Insets of insets: each starts from fewer corners, and half a bead more than needed is taken off and given
-        # back, so that no part is narrower than a bead.
         inner = region.buffer(-cell / 2, quad_segs=ARC)
         while not inner.is_empty:
-            kept = shapely.simplify(inner.buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC), SIMPLER)
-            rings = shapely.get_rings(shapely.get_parts(kept))
-            paths.extend(shapely.get_coordinates(ring) for ring in rings)
+            kept = shapely.simplify(_without_necks(inner, TOUCH * line_width / 2), SIMPLER)
+            paths.extend(shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(kept)))
             inner = inner.buffer(-cell, quad_segs=ARC)
         return paths
 
@@ -60,3 +56,12 @@ class Concentric:
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
         """Return the distance between lines, mm: larger arcs would leave the corners empty."""
         return cell
+
+
+def _without_necks(inner: Polygon | MultiPolygon, half: float) -> Polygon | MultiPolygon:
+    """Return what holds discs of radius `half`, and whose ends at a neck are as far apart as that is wide."""
+    kept = inner.buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC)
+    between = kept.buffer(half, quad_segs=ARC).buffer(-half, quad_segs=ARC).difference(kept)
+    if between.area < (half / 8) ** 2:  # of fillets between chords of arcs, not of a neck
+        return kept
+    return kept.difference(between.buffer(half)).buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC)

@@ -58,7 +58,7 @@ def numbers(x: NDArray[np.int64], y: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the place of squares along the curve, int64; source: Hilbert, Math. Ann. 38 (1891).
 
     >>> numbers(np.array([0, 0, 1, 1]), np.array([0, 1, 1, 0])).tolist()
-    [0, 1, 2, 3]
+    [0, 3, 2, 1]
     """
     x, y, number = x.copy(), y.copy(), np.zeros(x.shape, dtype=np.int64)
     for bit in range(ORDER - 1, -1, -1):

@@ -15,8 +15,8 @@ TURN = math.radians(60)
 class Honeycomb:
     """Hexagons whose walls across the rows are single and whose walls along them are double.
 
-    `cell` is the distance between the walls along the rows. Flats are longer than the flanks by what rounding
-    takes from them: at any radius half of the length of the lines touches a neighbour.
+    `cell` is the distance between the walls along the rows. Flats are `flats` times as long as flanks, and what
+    rounding takes from them: at any radius, about flats / (1 + flats) of the lines touches a neighbour.
 
     >>> rows = Honeycomb().rows(6.0, 0.45, 0.0)
     >>> round(rows.pitch, 3), round(rows.waves[0].top, 3)
@@ -26,6 +26,7 @@ class Honeycomb:
     name: str = "honeycomb"
     summary: str = "hexagons drawn as touching waves; stiff in every direction for little material"
     prismatic: bool = True
+    flats: float = 1.0
 
     def strands(
         self,
@@ -43,7 +44,7 @@ class Honeycomb:
     def rows(self, cell: float, line_width: float, radius: float) -> Rows:
         """Return the rows of waves."""
         side, height = cell / math.sqrt(3), cell / 2
-        flat = side + 2 * min(radius, self.largest_radius(cell, line_width)) * math.tan(TURN / 2)
+        flat = self.flats * side + 2 * min(radius, self.largest_radius(cell, line_width)) * math.tan(TURN / 2)
         wave = Wave(period=2 * flat + side, bottom=flat, top=flat, height=height)
         return Rows(waves=[wave], pitch=height + TOUCH * line_width, slip=wave.period / 2)
 

@@ -65,8 +65,8 @@ class Gyroid:
         return 2.45 * TOUCH * line_width / density
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return 0: the curves are as smooth as the surface."""
-        return 0.0
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,8 +110,8 @@ class SchwarzP:
         return 1.88 * TOUCH * line_width / density
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return 0: the curves are as smooth as the surface."""
-        return 0.0
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,8 +154,8 @@ class SchwarzD:
         return 3.04 * TOUCH * line_width / density
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return 0: the curves are as smooth as the surface."""
-        return 0.0
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
 
 
 def _apart(angle: float, gap: float) -> tuple[float, float]:

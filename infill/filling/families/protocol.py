@@ -33,9 +33,20 @@ class Family(Protocol):
         True if every layer is equal, so that each bead lies on the one below, however it is rounded.
     """
 
-    name: str
-    summary: str
-    prismatic: bool
+    @property
+    def name(self) -> str:
+        """The name to type on the command line."""
+        ...
+
+    @property
+    def summary(self) -> str:
+        """What the family is for, in one phrase."""
+        ...
+
+    @property
+    def prismatic(self) -> bool:
+        """True if every layer is equal."""
+        ...
 
     def strands(
         self, bounds: Bounds, *, cell: float, line_width: float, z: float, layer: int, radius: float

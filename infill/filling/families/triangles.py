@@ -21,7 +21,7 @@ from infill.filling.families.waves import Rows, Wave, cell_of, flat, strands
 
 TURN = math.radians(60)
 SHARE = 0.25  # of a cell that a radius may have, so that cells keep their shape
-LEAST = 1.5  # line widths: a lower wave is drawn as a straight line
+LEAST = 0.25  # line widths: a lower wave is drawn as a straight line
 AT_LEAST = 24  # sections in which the mean of a family over its heights is taken
 
 
@@ -63,14 +63,20 @@ class Threefold:
         # A cube's faces are orthogonal planes: as z rises by 1, the lines along x sink by √½ and the crossings of
         # the other two directions rise by √2.
         rise = z * math.sqrt(2) * pitch / cell if self.rises else 0.0
-        share = (self.share - 1.5 * rise / pitch) % 1
-        lowest = min(0.5, LEAST * line_width / cell)
-        share = 0.0 if min(share, 1 - share) < lowest / 2 else min(max(share, lowest), 1 - lowest)
-        period = 2 * cell / math.sqrt(3) + (4 if self.share or self.rises else 2) * crest
+        place = (self.share - 1.5 * rise / pitch) % 1
+        lowest = LEAST * line_width / cell
+        share = place if lowest <= place <= 1 - lowest else float(round(place))
+        # Lines along x stay where they belong, and flanks give way: sideways they move by half of that.
+        base = rise + place * pitch - share * (cell + gap)
         heights = share * cell, (1 - share) * cell
-        free = [period - crest - 2 * height / math.sqrt(3) for height in heights]
-        low = Wave(period=period, bottom=crest, top=free[0], height=heights[0], base=rise + gap / 2)
-        high = Wave(period=period, bottom=free[1], top=crest, height=heights[1], base=rise + 1.5 * gap + heights[0])
+        # Two crests a period, or four where flats overlap beside the crossings; as one wave becomes a straight line,
+        # its neighbour needs no overlap, and flanks of the last layer and of the next one meet.
+        crests = 4 if self.share or self.rises else 2
+        tip = crest * (crests / 2 - min(share, 1 - share) * (crests - 2))
+        period = 2 * cell / math.sqrt(3) + crests * crest
+        free = [period - tip - 2 * height / math.sqrt(3) for height in heights]
+        low = Wave(period=period, bottom=tip, top=free[0], height=heights[0], base=base)
+        high = Wave(period=period, bottom=free[1], top=tip, height=heights[1], base=base + heights[0] + gap)
         return Rows(waves=[low, high], pitch=pitch, slip=period / 2)
 
     def cell_for(self, density: float, line_width: float) -> float:

@@ -1,0 +1,151 @@
+"""The grid of a tile, whose period it is; distances to lines, and the colours between them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.ragged import spread
+
+Floats = NDArray[np.float64]
+
+CELLS_PER_LINE = 8  # grid cells in a line width, so that touching paths stay seven cells apart
+COARSEST = 5
+MOST_CELLS = 6_000_000
+GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # no drawing has its lines there
+MARGIN = 4.0  # blurs beyond which smoothing does not reach
+AT_ONCE = 2_000_000
+
+
+@dataclass(frozen=True, kw_only=True)
+class TileGrid:
+    """Nodes of a grid whose period is the tile.
+
+    Parameters
+    ----------
+    size : (width, height)
+        Of the tile, mm.
+    shape : (nx, ny)
+        Cells of the tile.
+    pad : int
+        Cells around it that are copies of its other side.
+    """
+
+    size: tuple[float, float]
+    shape: tuple[int, int]
+    pad: int
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """Distance between nodes, mm."""
+        return self.size[0] / self.shape[0], self.size[1] / self.shape[1]
+
+    @property
+    def first(self) -> Floats:
+        """The first node, that of the padding, mm."""
+        return (np.array(GRID_OFFSET) - self.pad) * self.spacing
+
+    @property
+    def nodes(self) -> tuple[int, int]:
+        """Number of nodes along each axis, with the padding; the tile's last node is the first of the next one."""
+        return self.shape[0] + 2 * self.pad + 1, self.shape[1] + 2 * self.pad + 1
+
+
+def tile_grid(size: tuple[float, float], *, line_width: float, blur: float) -> TileGrid:
+    """Return a grid fine enough for the line width, or raise GeometryError where it would hold too many cells."""
+    cells = size[0] * size[1] * (CELLS_PER_LINE / line_width) ** 2
+    fine = CELLS_PER_LINE * min(1.0, math.sqrt(MOST_CELLS / cells))
+    if fine < COARSEST:
+        limit = math.sqrt(MOST_CELLS) * line_width / COARSEST
+        raise GeometryError(
+            f"a tile of {size[0]:.4g} × {size[1]:.4g} mm is too large for lines of {line_width:g} mm; the limit is "
+            f"{limit:.0f} × {limit:.0f} mm or the same area; make the cell smaller"
+        )
+    spacing = line_width / fine
+    shape = max(16, round(size[0] / spacing)), max(16, round(size[1] / spacing))
+    return TileGrid(size=size, shape=shape, pad=math.ceil(MARGIN * blur / spacing) + CELLS_PER_LINE)
+
+
+def distances(edges: Floats, grid: TileGrid, band: float) -> Floats:
+    """Return the distance to the nearest edge at every node, at most `band`, mm."""
+    distance = np.full(grid.nodes, band)
+    edges = short_edges(edges, 4 * max(grid.spacing))
+    low = np.floor((edges.min(axis=1) - band - grid.first) / grid.spacing).astype(int) + 1
+    high = np.floor((edges.max(axis=1) + band - grid.first) / grid.spacing).astype(int)
+    low, high = np.maximum(low, 0), np.minimum(high, np.array(grid.nodes) - 1)
+    wide = np.maximum(high - low + 1, 0)
+    along = edges[:, 1] - edges[:, 0]
+    squared = np.maximum((along**2).sum(axis=1), 1e-30)
+    flat = distance.ravel()
+    for edge, place in spread(wide[:, 0] * wide[:, 1], AT_ONCE):
+        i = low[edge, 0] + place // wide[edge, 1]
+        j = low[edge, 1] + place % wide[edge, 1]
+        away = np.stack([i, j], axis=1) * grid.spacing + grid.first - edges[edge, 0]
+        part = np.clip((away * along[edge]).sum(axis=1) / squared[edge], 0, 1)[:, None]
+        np.minimum.at(flat, i * grid.nodes[1] + j, np.hypot(*(away - part * along[edge]).T))
+    return distance
+
+
+def around(shapes: Floats, grid: TileGrid, band: float) -> Floats:
+    """Return shapes (N, ..., 2) with their copies in the next tiles, as far as the padding and `band` reach."""
+    if not len(shapes):
+        return shapes
+    points = shapes.reshape(len(shapes), -1, 2)
+    size = np.array(grid.size)
+    low, high = points.min(axis=1), points.max(axis=1)
+    first = np.floor((grid.first - band - high.max(axis=0)) / size).astype(int)
+    end = grid.first + np.array(grid.nodes) * grid.spacing
+    last = np.ceil((end + band - low.min(axis=0)) / size).astype(int)
+    copies = []
+    for i in range(first[0], last[0] + 1):
+        for j in range(first[1], last[1] + 1):
+            shift = size * (i, j)
+            # What lies to the left or below is kept: the colours of a row are counted from there.
+            near = ((low + shift < end + band) & (high + shift > grid.first - band)).all(axis=1)
+            copies.append(shapes[near] + shift)
+    return np.concatenate(copies)
+
+
+def short_edges(edges: Floats, longest: float) -> Floats:
+    """Return the edges cut into pieces no longer than `longest`."""
+    counts = np.maximum(1, np.ceil(np.hypot(*(edges[:, 1] - edges[:, 0]).T) / longest)).astype(int)
+    pieces = []
+    for edge, place in spread(counts, AT_ONCE):
+        start, along = edges[edge, 0], edges[edge, 1] - edges[edge, 0]
+        share = np.stack([place, place + 1], axis=1) / counts[edge, None]
+        pieces.append(start[:, None] + share[..., None] * along[:, None])
+    return np.concatenate(pieces) if pieces else edges
+
+
+def colours(edges: Floats, grid: TileGrid) -> NDArray[np.bool_]:
+    """Return the colour of every node: the parity of the borders crossed from the first node, along y, then x."""
+    scaled = (edges - grid.first) / grid.spacing
+    flips = np.zeros(grid.nodes, dtype=np.int64)
+    row, x = _crossed(scaled, 1, grid.nodes[1])
+    column = np.floor(x).astype(int) + 1
+    there = (column > 0) & (column < grid.nodes[0])
+    np.add.at(flips, (column[there], row[there]), 1)
+    _, y = _crossed(scaled, 0, 1)
+    start = np.floor(y).astype(int) + 1
+    start = start[(start > 0) & (start < grid.nodes[1])]
+    sides = np.cumsum(np.bincount(start, minlength=grid.nodes[1]))
+    parity: NDArray[np.bool_] = (np.cumsum(flips, axis=0) + sides) % 2 == 1
+    return parity
+
+
+def _crossed(edges: Floats, axis: int, count: int) -> tuple[NDArray[np.int64], Floats]:
+    """Return which of the lines 0, 1, 2 … across an axis an edge crosses, and where; an end on one lies above it."""
+    first = np.ceil(np.nextafter(edges[..., axis], np.inf)).astype(int)  # the first line above each end
+    low, high = np.clip(np.sort(first, axis=1), 0, count).T
+    rows, places = [np.empty(0, dtype=np.int64)], [np.empty(0)]
+    for edge, place in spread(high - low, AT_ONCE):
+        row = low[edge] + place
+        a, b = edges[edge, 0], edges[edge, 1]
+        part = (row - a[:, axis]) / (b[:, axis] - a[:, axis])
+        rows.append(row)
+        places.append(a[:, 1 - axis] + part * (b[:, 1 - axis] - a[:, 1 - axis]))
+    return np.concatenate(rows), np.concatenate(places)
