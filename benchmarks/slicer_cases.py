@@ -36,7 +36,7 @@ OURS = {  # the pattern of ours that takes the place of the slicer's
     "grid": "grid",
     "triangles": "triangles",
     "cubic": "cubic",
-    "zigzag": "zigzag",
+    "zigzag": "rectilinear",  # Cura's name for lines joined along the wall
 }
 # CuraEngine evaluates no formula of its definitions, so the distance of lines is set here: so many directions.
 DIRECTIONS = {"cubic": 3}

@@ -18,7 +18,7 @@ from tests.gcode_judge import replayed
 from tests.gcode_structure import held_up, touched
 
 ROLE = "sparse infill"
-WINDOWS = 4  # of three layers
+WINDOWS = 10  # of three layers
 LAYER = re.compile(rb"^;(?:LAYER_CHANGE|LAYER:\d+)\b", re.MULTILINE)
 SPARSE = re.compile(rb"^;TYPE:(?:Internal infill|FILL)\b", re.MULTILINE)
 

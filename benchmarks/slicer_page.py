@@ -8,6 +8,7 @@ from typing import Any
 
 from benchmarks.slicer_cases import CURA, DENSITIES, OURS, PARTS, PRINTERS, PRUSA, Case, case_of
 from benchmarks.slicer_extras import density_section, speed_section
+from benchmarks.slicer_judge import WINDOWS
 from benchmarks.slicer_promises import (
     SAME,
     WIDE,
@@ -47,7 +48,7 @@ corners, square corner velocity 5 mm/s, no minimum cruise ratio. A minus means l
 *Supported* is the share of the infill's length whose centre line lies on a bead of the layer below, of any feature,
 that is within half a line width of its centre line. *Bonded* is the share that another stretch of infill of the same
 layer touches: within 1.05 line widths from centre line to centre line, the path's own next 4 line widths left out. Both
-are measured on twelve layers spread over the print, by an implementation that shares no code with the package
+are measured on {layers} layers spread over the print, by an implementation that shares no code with the package
 (`tests/gcode_structure.py`), so they differ a little from what `refill` reports.
 
 *Printers.* {printers}. The slicers lay lines 0.45 mm wide, 0.2 mm high, with two walls; PrusaSlicer retracts 0.8 mm
@@ -56,19 +57,19 @@ are upper bounds.
 """
 
 
-def write_page(path: Path, results: dict[str, Any], total: int) -> None:
-    """Write the page of all results there are, of `total` cases."""
-    path.write_text(page(results, total), encoding="utf-8", newline="\n")
+def write_page(path: Path, results: dict[str, Any], total: int, code: str) -> None:
+    """Write the page of all results there are, of `total` cases; `code` tells runs of today's code from older ones."""
+    path.write_text(page(results, total, code), encoding="utf-8", newline="\n")
 
 
-def page(results: dict[str, Any], total: int) -> str:
+def page(results: dict[str, Any], total: int, code: str) -> str:
     """Return the page."""
     runs: Runs = results["runs"]
     parts = [
         INTRODUCTION,
-        _stands_on(results, total),
+        _stands_on(results, total, code),
         promises_section(results),
-        READING.format(printers=_printers()),
+        READING.format(printers=_printers(), layers=3 * WINDOWS),
         *(_pattern_section(runs, "prusa", pattern) for pattern in PRUSA),
         *(_pattern_section(runs, "cura", pattern) for pattern in CURA),
         _little_section(runs),
@@ -79,15 +80,19 @@ def page(results: dict[str, Any], total: int) -> str:
     return "\n".join(part.rstrip() + "\n" for part in parts if part)
 
 
-def _stands_on(results: dict[str, Any], total: int) -> str:
+def _stands_on(results: dict[str, Any], total: int, code: str) -> str:
     runs, made = results["runs"], results.get("machine", {})
     cases = [case_of(key) for key in runs]
     count = {density: sum(case.density == density for case in cases) for density in DENSITIES}
     told = ", ".join(f"{number} at {density} %" for density, number in count.items())
-    failed = sum("error" in run for modes in runs.values() for run in modes.values() if run.get("error") != _NONE)
+    made_runs = [run for modes in runs.values() for run in modes.values() if run.get("error") != _NONE]
+    failed = sum("error" in run for run in made_runs)
+    refills = [run for modes in runs.values() for mode, run in modes.items() if mode != "slicer"]
+    old = sum(run.get("code") != code for run in refills)
+    stale = f"; {old} of {len(refills)} refills were made by older code of ours" if old else ""
     return (
         f"It stands on {len(runs)} of {total} slicings ({told}), of {len({case.part for case in cases})} of "
-        f"{len(PARTS)} parts, each refilled in up to three modes; {failed} runs failed. "
+        f"{len(PARTS)} parts, each refilled in up to three modes; {failed} runs failed{stale}. "
         f"Made with PrusaSlicer {made.get('prusa', '?')}, CuraEngine {made.get('cura', '?')}, "
         f"Python {made.get('python', '?')}, {made.get('system', '?')}, {made.get('date', '?')}.\n"
     )
@@ -272,8 +277,8 @@ def _planners_section(runs: Runs) -> str:
     head += [f"{mode}, {planner}" for mode in ("keep", "ours") for planner in ("Klipper", "cruise ratio 0.5", "jerk 8")]
     return (
         "## The same under other planners\n\n"
-        "Middle over parts and densities of the change of infill time, equal filament: by Klipper's rules as above, the "
-        "same with its default minimum cruise ratio of 0.5, and with a jerk of 8 mm/s by axis as PrusaSlicer "
+        "Middle over parts and densities of the change of infill time, equal filament: by Klipper's rules as above, "
+        "the same with its default minimum cruise ratio of 0.5, and with a jerk of 8 mm/s by axis as PrusaSlicer "
         "estimates. The last knows no limit to the speed on a curve cut into chords, so it flatters curves.\n\n"
         + table(head, rows)
     )

@@ -7,6 +7,7 @@ docs/slicer-report.md, is written from them.
 from __future__ import annotations
 
 import argparse
+import hashlib
 import json
 import multiprocessing
 import os
@@ -36,6 +37,7 @@ def main() -> None:
     words.add_argument("--quick", action="store_true", help="the box and one bracket, at 15 %%")
     words.add_argument("--only", default="", help="cases whose name matches: prusa/honeycomb/box/15/fast")
     words.add_argument("--again", action="store_true", help="run what is there too")
+    words.add_argument("--stale", action="store_true", help="run what older code of ours made, too")
     words.add_argument("--jobs", type=int, default=2)
     words.add_argument("--page", action="store_true", help="only write the page, of what is there")
     words.add_argument("--minutes", type=float, default=1e9, help="begin no case after so long")
@@ -45,7 +47,7 @@ def main() -> None:
     if not given.page:
         os.nice(5)
         fill(results, given)
-    write_page(PAGE, results, total=len(list(cases())))
+    write_page(PAGE, results, total=len(list(cases())), code=code_of())
     print(f"wrote {PAGE}")
 
 
@@ -69,12 +71,14 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
     if "widths" not in results:
         with tempfile.TemporaryDirectory() as folder:
             results["widths"] = {part: width_of(part, Path(folder)) for part in PARTS}
-    begin = time.monotonic()
+    begin, code = time.monotonic(), code_of()
     todo: list[tuple[Case, list[str]]] = []
     for case in cases():
         if (given.quick and not quick(case)) or not re.search(given.only, case.key):
             continue
         there = {} if given.again else results["runs"].get(case.key, {})
+        if given.stale:
+            there = {mode: run for mode, run in there.items() if mode == "slicer" or run.get("code") == code}
         missing = [mode for mode in MODES if mode not in there]
         if missing:
             todo.append((case, missing))
@@ -89,7 +93,7 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
             if not found:
                 continue
             done += 1
-            results["runs"].setdefault(case.key, {}).update(found)
+            results["runs"].setdefault(case.key, {}).update({m: {**run, "code": code} for m, run in found.items()})
             save(results, given.results)
             print(f"{done}/{len(todo)} {case.key}: {_line(found)}", flush=True)
     for name in EXTRAS:
@@ -101,6 +105,15 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
             module = __import__(f"benchmarks.slicer_{name}", fromlist=["measure"])
             results[name] = module.measure(quick=given.quick)
             save(results, given.results)
+
+
+def code_of() -> str:
+    """Return what tells the code that refills from older code of it."""
+    found = hashlib.sha256()
+    for room in ("filling", "gcode"):
+        for path in sorted((ROOT / "infill" / room).rglob("*.py")):
+            found.update(path.read_bytes())
+    return found.hexdigest()[:12]
 
 
 def _timed(case: Case, modes: list[str], until: float) -> dict[str, Any]:

@@ -30,5 +30,5 @@ def percent(value: float) -> str:
     return "0 %" if text in ("+0.0 %", "−0.0 %") else text
 
 
-def verdict(reached: bool) -> str:  # noqa: FBT001
+def verdict(reached: bool) -> str:
     return "yes" if reached else "**NOT reached**"
