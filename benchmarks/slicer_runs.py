@@ -13,7 +13,7 @@ from infill import refill
 from infill.errors import InfillError
 
 NEAR = 0.01  # of the filament: equal
-TRIES = 4
+TRIES = 5
 
 
 def run_case(case: Case, modes: list[str]) -> dict[str, dict[str, Any]]:
@@ -78,28 +78,34 @@ def _equal(case: Case, first: dict[str, Any], own: Judged, folder: Path) -> dict
     if abs(ratio - 1) <= NEAR:
         return {**first, "density": case.density, "tries": 1}
     known = [(case.density, ratio)]  # densities, and filament over the slicer's own
-    density = first["density_for_the_same"] or _next(known)
-    found = first
+    density, best = first["density_for_the_same"] or _next(known), {**first, "density": case.density}
     for tries in range(2, TRIES + 1):
         found = refilled(sliced(case, density, folder), folder, case, "keep")
-        found |= {"density": density, "tries": tries}
         ratio = found["filament"] / own.filament
+        if abs(ratio - 1) < abs(best["filament"] / own.filament - 1):
+            best = {**found, "density": density}
+        best["tries"] = tries
         if abs(ratio - 1) <= NEAR:
             break
         known.append((density, ratio))
         density = _next(known)
-    return found
+    return best
 
 
 def _next(known: list[tuple[float, float]]) -> float:
-    """Return the density at which the filament should be the slicer's own, by the last two known.
+    """Return the density at which the filament should be the slicer's own.
 
-    >>> _next([(10.0, 0.9), (11.0, 0.98)])
-    11.25
+    Between the nearest density that gives too little and the nearest that gives too much, else in proportion.
+
+    >>> _next([(10.0, 0.9), (11.0, 1.1)])
+    10.5
+    >>> _next([(10.0, 0.8)])
+    12.5
     """
-    density, ratio = known[-1]
-    if len(known) > 1 and known[-2][1] != ratio and known[-2][0] != density:
-        slope = (ratio - known[-2][1]) / (density - known[-2][0])
-        if slope > 0:
-            return min(max(density + (1 - ratio) / slope, density * 0.8), density * 1.25)
-    return density / ratio
+    low = max((each for each in known if each[1] <= 1), default=None, key=lambda each: each[1])
+    high = min((each for each in known if each[1] > 1), default=None, key=lambda each: each[1])
+    if low is None or high is None or low[0] >= high[0]:
+        density, ratio = known[-1]
+        return density / ratio
+    share = (1 - low[1]) / (high[1] - low[1])
+    return low[0] + min(max(share, 0.2), 0.8) * (high[0] - low[0])  # some patterns jump: halve in effect
