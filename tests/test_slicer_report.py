@@ -66,9 +66,9 @@ def test_a_file_is_measured_as_it_was_made(tmp_path: Path) -> None:
 
 def test_strands_too_near_and_sharp_turns_are_seen() -> None:
     line = np.array([[0.0, 0.0], [20.0, 0.0]])
-    apart = distances([line, line + [0, SPACING]])
+    apart = distances([line, line + np.array([0, SPACING])])
     assert apart == pytest.approx(SPACING, abs=0.01)  # samples are 0.1 mm apart
-    assert distances([line, line + [0, 0.2]]).min() < 0.95 * SPACING
+    assert distances([line, line + np.array([0, 0.2])]).min() < 0.95 * SPACING
     assert curvature([np.array([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]])])[1] == 1
 
 
