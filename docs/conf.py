@@ -145,10 +145,10 @@ class CommandLine(SphinxDirective):
         return self.parse_text_to_nodes(re.sub(r"^##", "#", text, flags=re.M), allow_section_headings=True)
 
 
-def beyond_the_site(*event: Any) -> None:
+def beyond_the_site(_: Sphinx, name: str, content: list[str]) -> None:
     """Let links out of docs/ lead to the repository: the pages are read there as well, where they are relative."""
-    content = event[-1]
-    content[0] = re.sub(r"\]\(\.\./([^)\s]+)\)", rf"]({REPOSITORY}/blob/main/\1)", content[0])
+    up = re.escape("../" * (name.count("/") + 1))
+    content[0] = re.sub(rf"\]\({up}([^)\s]+)\)", rf"]({REPOSITORY}/blob/main/\1)", content[0])
 
 
 WRITTEN_OUT = {

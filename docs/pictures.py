@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import sys
+import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
-from infill import make, smooth_volume
+from infill import make, refill, smooth_volume
+from infill.inspection.layer_speeds import layer_speeds
 from infill.pictures.preview import save_preview
 from infill.pictures.render import render
+from infill.pictures.speeds import write_speeds
 
+ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path(__file__).parent / "pictures"
+sys.path.insert(0, str(ROOT))
+
+from tests import prints, slicers  # noqa: E402 - the folder beside this one
 
 
 def main() -> None:
-    """Write the four stages of a design, the mesh of each, both stamps, and a solid before and after."""
+    """Write the four stages of a design, the mesh of each, both stamps, a solid and two prints before and after."""
     FOLDER.mkdir(exist_ok=True)
     save_preview(make("honeycomb"), FOLDER / "honeycomb.png")
     for name in ("honeycomb", "zigzag", "concentric-heart"):
@@ -28,6 +37,25 @@ def main() -> None:
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
     save_preview(smooth_volume(gyroid(), spacing=0.5), FOLDER / "smooth.png")
+    if not slicers.missing_prusa():
+        save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
+    if not slicers.missing_cura():
+        save_refill(
+            prints.cura_print, {"infill_pattern": "cross", "zig_zaggify_infill": "true"}, FOLDER / "refill-cura.png"
+        )
+
+
+def save_refill(slice_it: Callable[..., Path], settings: dict[str, object], path: Path) -> None:
+    """Slice a box of 30 mm, and write a layer of it as it was sliced and as it is refilled, speed in colour."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        print_ = slice_it(prints.box(folder, (30, 30, 4)), folder / "print.gcode", settings)
+        smooth = refill(print_, output=folder / "smooth.gcode").path
+        both = {"as it was sliced": layer_speeds(print_, 10), "refilled": layer_speeds(smooth, 10)}
+        with path.open("wb") as file:
+            write_speeds(both, file)
+    with Image.open(path) as picture:
+        picture.quantize(64).save(path, optimize=True)
 
 
 def gyroid() -> np.ndarray:

@@ -10,7 +10,7 @@ import pytest
 from infill.cli.app import build
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
 
 
 def links(text: str) -> list[str]:
@@ -55,3 +55,21 @@ def test_every_picture_is_shown() -> None:
     shown = {(page.parent / link).resolve() for page in PAGES for link in links(page.read_text(encoding="utf-8"))}
     for picture in ROOT.glob("docs/**/*.png"):
         assert picture in shown, f"no page shows {picture.name}"
+
+
+def test_every_pattern_of_refill_is_on_its_page() -> None:
+    from infill.filling.families.catalogue import FAMILIES
+
+    text = (ROOT / "docs" / "refill.md").read_text(encoding="utf-8")
+    for name in FAMILIES:
+        assert f"`{name}`" in text
+
+
+@pytest.mark.parametrize("slicer", ["prusaslicer", "superslicer", "orcaslicer", "bambu-studio", "cura"])
+def test_every_slicer_has_a_page_for_three_systems(slicer: str) -> None:
+    """And it says what was tried, and what was not."""
+    text = (ROOT / "docs" / "slicers" / f"{slicer}.md").read_text(encoding="utf-8")
+    for system in ("| Linux |", "| macOS |", "| Windows |"):
+        assert system in text
+    assert "\n## What was tried\n" in text
+    assert f"slicers/{slicer}.md" in (ROOT / "docs" / "refill.md").read_text(encoding="utf-8")

@@ -19,6 +19,8 @@ from PIL import Image
 from examples.paper import models, page
 from examples.paper.entry import LEFT_OUT, Entry, load
 from infill import check
+from tests.handmade_prints import Dialect, written
+from tests.prints import PRINT, box
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = ROOT / "examples"
@@ -177,3 +179,96 @@ def test_missing_models_are_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setenv("INFILL_DATA", str(tmp_path))
     with pytest.raises(models.MissingModels, match="there is no"):
         models.voxels("pig", 20)
+
+
+# --- with a slicer ---------------------------------------------------------------------------------------
+
+SLICERS = FOLDER / "slicers"
+needs_prusa = pytest.mark.skipif(
+    shutil.which("prusa-slicer") is None, reason="prusa-slicer is not installed: make slicers"
+)
+needs_bash = pytest.mark.skipif(
+    shutil.which("bash") is None or sys.platform == "win32", reason="there is no bash of a POSIX system here"
+)
+SECTIONS = 16  # of 20 layers, four are solid
+
+
+def run_script(script: str, *words: str | Path, folder: Path) -> subprocess.CompletedProcess[str]:
+    """Run a script beside a program `infill` that is ours."""
+    programs = folder / "programs"
+    programs.mkdir(exist_ok=True)
+    program = programs / "infill"
+    program.write_text(f"#!/bin/sh\nexec '{sys.executable}' -m infill.cli \"$@\"\n", encoding="utf-8")
+    program.chmod(0o755)
+    runs = "bash" if script.endswith(".sh") else sys.executable
+    environment = {**os.environ, "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
+    environment["PYTHONPATH"] = os.pathsep.join([str(ROOT), environment.get("PYTHONPATH", "")])
+    command = [runs, SLICERS / script, *words]
+    return subprocess.run(command, capture_output=True, encoding="utf-8", env=environment, timeout=120, check=False)
+
+
+def part_and_settings(folder: Path) -> tuple[Path, Path]:
+    """A part with a blank in its name, and settings as PrusaSlicer exports them."""
+    part = box(folder, (20, 20, 4)).rename(folder / "my part.stl")
+    settings = {**PRINT, "top_solid_layers": 2, "bottom_solid_layers": 2}
+    ini = folder / "my settings.ini"
+    ini.write_text("".join(f"{name} = {value}\n" for name, value in settings.items()), encoding="utf-8")
+    return part, ini
+
+
+def loaded(name: str) -> Callable[..., float]:
+    spec = importlib.util.spec_from_file_location(f"example_{name}", SLICERS / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.main
+
+
+def test_every_script_for_slicers_is_tried() -> None:
+    """But for the one for PowerShell, which says so."""
+    tried = {"slice_and_refill.sh", "slice_and_refill.py", "refill_folder.sh", "refill_folder.py"}
+    assert {path.name for path in SLICERS.iterdir() if path.is_file()} == {*tried, "slice_and_refill.ps1"}
+    assert "not run on Windows" in (SLICERS / "slice_and_refill.ps1").read_text(encoding="utf-8")
+
+
+@needs_prusa
+def test_a_part_is_sliced_and_refilled_by_python(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    part, ini = part_and_settings(tmp_path)
+    saved = loaded("slice_and_refill")(part, "--load", str(ini))
+    assert f"{SECTIONS} of {SECTIONS} sections of infill replaced" in capsys.readouterr().out
+    assert 0.1 < saved < 0.5  # of a honeycomb's time
+    assert b"; refilled by" in (tmp_path / "my part.smooth.gcode").read_bytes()
+    assert b"; refilled by" not in (tmp_path / "my part.gcode").read_bytes()
+
+
+@needs_prusa
+@needs_bash
+def test_a_part_is_sliced_and_refilled_by_bash(tmp_path: Path) -> None:
+    part, ini = part_and_settings(tmp_path)
+    done = run_script("slice_and_refill.sh", part, "--load", ini, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert f"{SECTIONS} of {SECTIONS} sections" in done.stderr
+    change = re.search(r"sparse infill +\S+ +\S+ +(-[\d.]+)%", done.stdout)
+    assert 10 < -float(change[1]) < 50
+    assert b"; refilled by" in (tmp_path / "my part.smooth.gcode").read_bytes()
+    assert run_script("slice_and_refill.sh", folder=tmp_path).returncode == 2
+    assert run_script("slice_and_refill.sh", tmp_path / "none.stl", folder=tmp_path).returncode != 0
+
+
+@pytest.mark.parametrize("script", ["refill_folder.py", pytest.param("refill_folder.sh", marks=needs_bash)])
+def test_a_folder_is_refilled(script: str, tmp_path: Path) -> None:
+    """Three sections in each of two prints; what is no print stays as it was."""
+    folder = tmp_path / "my prints"
+    folder.mkdir()
+    for name, slicer in (("a b.gcode", "prusa"), ("c.gcode", "orca")):
+        (folder / name).write_bytes(written(Dialect(slicer=slicer, layers=5)))
+    (folder / "broken.gcode").write_bytes(b"hello")
+    (folder / "notes.txt").write_bytes(b"hello")
+    done = run_script(script, folder, folder=tmp_path)
+    said = done.stdout + done.stderr
+    assert said.count("3 of 3 sections") == 2
+    assert "the file has no line of G-code in it" in said
+    assert done.returncode == (1 if script.endswith(".sh") else 0)
+    for name in ("a b.gcode", "c.gcode"):
+        assert b"; refilled by" in (folder / name).read_bytes()
+    assert (folder / "broken.gcode").read_bytes() == b"hello"
+    assert "refilled before" in (again := run_script(script, folder, folder=tmp_path)).stdout + again.stderr

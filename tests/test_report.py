@@ -12,13 +12,15 @@ import numpy as np
 import pytest
 import trimesh
 
-from infill import Result, Smoothing, make, smooth_mesh, smooth_points, smooth_volume
+from infill import Result, Smoothing, make, refill, smooth_mesh, smooth_points, smooth_volume
 from infill.report import FORM
+from tests.handmade_prints import Dialect, written
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "report.md"
-FREE = "request.parameters"  # a pattern's own, by name
+FREE = {"request.parameters", "sections.kept"}  # a pattern's own, by name; reasons
+REFILL = "\n## Refill: a sliced print\n"  # its keys stand below, and are its own
 ONLY_AT_THE_COMMAND_LINE = {"files"}
 
 BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64
@@ -67,7 +69,7 @@ def flat(value: Any, name: str = "") -> Iterator[tuple[str, Any]]:
     """Yield every key of a report, nested ones with dots, with its value."""
     if name:
         yield name, value
-    if isinstance(value, dict) and name != FREE:
+    if isinstance(value, dict) and name not in FREE:
         for key, each in value.items():
             yield from flat(each, f"{name}.{key}" if name else key)
     if isinstance(value, list) and value and isinstance(value[0], dict):
@@ -94,7 +96,11 @@ def is_of(kind: str, value: Any) -> bool:
     return False
 
 
-def differences(page: dict[str, tuple[str, str]], reports: dict[str, dict[str, Any]]) -> list[str]:
+def differences(
+    page: dict[str, tuple[str, str]],
+    reports: dict[str, dict[str, Any]],
+    products: tuple[str, ...] = ("make", "smooth"),
+) -> list[str]:
     """Return in what the page and the reports differ, one phrase each."""
     found, seen = [], set()
     for name, report in reports.items():
@@ -117,7 +123,7 @@ def differences(page: dict[str, tuple[str, str]], reports: dict[str, dict[str, A
             ):
                 found.append(f"{key} is missing from {name}")
     for key, (_, where) in page.items():
-        for product in ("make", "smooth"):
+        for product in products:
             wanted = where.split(" ")[0] in ("all", product) and key not in ONLY_AT_THE_COMMAND_LINE
             if wanted and (product, key) not in seen:
                 found.append(f"{key} is in no report of {product}")
@@ -125,9 +131,30 @@ def differences(page: dict[str, tuple[str, str]], reports: dict[str, dict[str, A
 
 
 def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Result[Any]]) -> None:
-    page = described(PAGE.read_text(encoding="utf-8"))
+    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[0])
     assert len(page) > 100
     assert differences(page, {name: result.report for name, result in results.items()}) == []
+
+
+def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
+    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[2])
+    assert len(page) > 30
+    sliced, smooth, bare = (tmp_path / f"{name}.gcode" for name in ("sliced", "smooth", "bare"))
+    sliced.write_bytes(written(Dialect(layers=5)))
+    bare.write_bytes(written(Dialect(slicer="cura", layers=5)).replace(b";TYPE:FILL", b";TYPE:SKIN"))
+    every = {"layers": (2, 3), "max_deviation": 0.1, "smooth_radius": 1.0, "part": "box", "density": "same"}
+    results = {
+        "kept": refill(sliced, output=smooth),
+        "already": refill(smooth),
+        "every option": refill(sliced, dry_run=True, **every),
+        "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2),
+        "no infill": refill(bare, dry_run=True),
+    }
+    reports = {name: result.report for name, result in results.items()}
+    assert differences(page, reports, ("refill",)) == []
+    assert reports["already"]["print"]["already_refilled"]
+    for report in reports.values():
+        assert json.loads(json.dumps(report, allow_nan=False)) == report
 
 
 def test_the_comparison_can_fail() -> None:

@@ -60,15 +60,19 @@ def test_every_command_is_described(site: Path) -> None:
 
 def test_every_page_is_there_and_in_the_contents(site: Path) -> None:
     index = (site / "index.html").read_text(encoding="utf-8")
-    for page in DOCS.glob("*.md"):
-        assert (site / f"{page.stem}.html").is_file()
-        assert page.stem == "index" or f'href="{page.stem}.html"' in index
+    for page in DOCS.glob("**/*.md"):
+        address = page.relative_to(DOCS).with_suffix(".html").as_posix()
+        assert (site / address).is_file()
+        assert page.stem == "index" or f'href="{address}"' in index
 
 
 def test_links_out_of_the_pages_lead_to_the_repository(site: Path) -> None:
     page = (site / "paper.html").read_text(encoding="utf-8")
     assert 'href="https://github.com/phasefill/phasefill/blob/main/examples/paper"' in page
     assert re.findall(r'href="\.\./[^"]*"', page) == []
+    below = (site / "slicers" / "cura.html").read_text(encoding="utf-8")
+    assert 'href="https://github.com/phasefill/phasefill/blob/main/examples/cura/InfillRefill.py"' in below
+    assert 'href="program.html' in below
 
 
 def test_formulas_and_pictures_are_shown(site: Path) -> None:

@@ -56,7 +56,7 @@ def _run() -> None:
 
     warnings.showwarning = warn
     try:
-        build()()
+        build("".join(sys.argv[1:2]))()
     except SystemExit as end:
         if end.code:
             raise

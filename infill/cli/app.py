@@ -5,7 +5,8 @@ Pattern parameters are given as ``--set name=value``, so a new pattern needs no 
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Callable
+from typing import Annotated, Any
 
 import typer
 
@@ -17,9 +18,19 @@ from infill.cli.smoothing import smooth
 from infill.cli.timing import motion
 from infill.version import __version__
 
+# By name: the function, and an example. All but `list` show their help when nothing is given.
+COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
+    "make": (make, "infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf"),
+    "smooth": (smooth, "infill smooth scan.nrrd --threshold 226 -o bone.stl"),
+    "refill": (refill, "infill refill print.gcode -o smooth.gcode"),
+    "list": (list_patterns, "infill list honeycomb --preview honeycomb.png"),
+    "check": (check, "infill check part.stl --json"),
+    "motion": (motion, "infill motion part.gcode smooth.gcode --plot speeds.png"),
+}
 
-def build() -> typer.Typer:
-    """Return the app."""
+
+def build(asked: str = "") -> typer.Typer:
+    """Return the app; if the name of a command is asked for, with that one alone, which begins sooner."""
     app = typer.Typer(
         name="infill",
         no_args_is_help=True,
@@ -36,18 +47,9 @@ def build() -> typer.Typer:
         ] = False,
     ) -> None: ...
 
-    app.command("make", no_args_is_help=True, epilog="Example: infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf")(
-        make
-    )
-    app.command("smooth", no_args_is_help=True, epilog="Example: infill smooth scan.nrrd --threshold 226 -o bone.stl")(
-        smooth
-    )
-    app.command("refill", no_args_is_help=True, epilog="Example: infill refill print.gcode -o smooth.gcode")(refill)
-    app.command("list", epilog="Example: infill list honeycomb --preview honeycomb.png")(list_patterns)
-    app.command("check", no_args_is_help=True, epilog="Example: infill check part.stl --json")(check)
-    app.command(
-        "motion", no_args_is_help=True, epilog="Example: infill motion part.gcode smooth.gcode --plot speeds.png"
-    )(motion)
+    for name in [asked] if asked in COMMANDS else COMMANDS:
+        function, example = COMMANDS[name]
+        app.command(name, no_args_is_help=name != "list", epilog=f"Example: {example}")(function)
     return app
 
 

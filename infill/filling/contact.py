@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-STEP = 0.15  # mm between the points that are looked at
+STEP = 0.1  # mm between the points that are looked at
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
-OWN = 3.0  # line widths along a path within which it is its own neighbour
-MOST_NEIGHBOURS = 16  # within 1.05 line widths of 0.45 mm: 7 on the path itself, and as many on each of the others
+OWN = 4.0  # line widths along a path within which it is its own neighbour
+MOST_NEIGHBOURS = 28  # within 1.05 line widths of 0.45 mm: 11 on the path itself, and fewer on each of the others
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,12 +61,27 @@ class Samples:
     path : (N,) int
     along : (N,) float64, mm
         Distance from the beginning of the path.
+    half : (N, 2) float64, mm
+        From a point to the end of its piece of the path.
     """
 
     points: Floats
     weight: Floats
     path: Places
     along: Floats
+    half: Floats
+
+
+def merged(one: Samples, other: Samples) -> Samples:
+    """Return the samples of both; paths of the second are numbered anew."""
+    number = int(one.path.max()) + 1 if len(one.path) else 0
+    return Samples(
+        points=np.concatenate([one.points, other.points]),
+        weight=np.concatenate([one.weight, other.weight]),
+        path=np.concatenate([one.path, other.path + number]),
+        along=np.concatenate([one.along, other.along]),
+        half=np.concatenate([one.half, other.half]),
+    )
 
 
 def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
@@ -93,35 +108,49 @@ def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
         weight=(length / pieces)[of],
         path=where,
         along=along - starts[where],
+        half=(delta / np.maximum(pieces, 1)[:, None])[of] / 2,
     )
 
 
-def contact(infill: Samples, below: Floats, line_width: float) -> Contact:
+def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
     """Measure one layer.
 
     Parameters
     ----------
     infill : Samples
         The infill of the layer.
-    below : (N, 2) float64, mm
-        Points on everything of the layer below.
+    below : Samples
+        Everything in the layer below.
     line_width : float, mm
     """
     from scipy.spatial import cKDTree
 
-    whole = float(infill.weight.sum())
     if not len(infill.points):
         return Contact()
     supported = np.zeros(len(infill.points), dtype=bool)
-    if len(below):
-        # Points stand up to half a step to either side of the nearest place on their line.
-        reach = np.hypot(line_width / 2, STEP / 2)
-        near, _ = cKDTree(below).query(infill.points, distance_upper_bound=reach)
-        supported = np.isfinite(near)
+    if len(below.points):
+        reach = line_width / 2
+        _, other = cKDTree(below.points).query(infill.points, k=2, distance_upper_bound=reach + STEP / 2)
+        supported = (_distances(infill.points, below, other) <= reach).any(axis=1)
     bonded = _beside(infill, TOUCHING * line_width)
     return Contact(
-        length=whole, supported=float(infill.weight[supported].sum()), bonded=float(infill.weight[bonded].sum())
+        length=float(infill.weight.sum()),
+        supported=float(infill.weight[supported].sum()),
+        bonded=float(infill.weight[bonded].sum()),
     )
+
+
+def _distances(points: Floats, others: Samples, which: Places) -> Floats:
+    """Return the distance, mm, from each point to the pieces of others, (N, k); infinite where there is none."""
+    there = which < len(others.points)
+    which = np.where(there, which, 0)
+    delta = points[:, None] - others.points[which]
+    half = others.half[which]
+    square = np.maximum((half**2).sum(axis=-1), 1e-18)
+    along = np.clip((delta * half).sum(axis=-1) / square, -1.0, 1.0)
+    rest = delta - along[..., None] * half
+    distance: Floats = np.where(there, np.hypot(rest[..., 0], rest[..., 1]), np.inf)
+    return distance
 
 
 def _beside(infill: Samples, reach: float) -> NDArray[np.bool_]:
@@ -129,11 +158,12 @@ def _beside(infill: Samples, reach: float) -> NDArray[np.bool_]:
     from scipy.spatial import cKDTree
 
     count = min(MOST_NEIGHBOURS, len(infill.points))
-    near, other = cKDTree(infill.points).query(infill.points, k=count, distance_upper_bound=reach)
-    near, other = near.reshape(len(infill.points), -1), other.reshape(len(infill.points), -1)
-    found = np.isfinite(near)
-    other = np.where(found, other, 0)
-    away = infill.path[other] != infill.path[:, None]
+    tree = cKDTree(infill.points)
+    _, other = tree.query(infill.points, k=count, distance_upper_bound=reach + STEP / 2)
+    other = other.reshape(len(infill.points), -1)
+    near = _distances(infill.points, infill, other) <= reach
+    other = np.minimum(other, len(infill.points) - 1)
+    away: NDArray[np.bool_] = infill.path[other] != infill.path[:, None]
     away |= np.abs(infill.along[other] - infill.along[:, None]) > OWN * reach / TOUCHING
-    touches: NDArray[np.bool_] = (found & away).any(axis=1)
+    touches: NDArray[np.bool_] = np.logical_and(near, away).any(axis=1)
     return touches

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.contact import Contact, Samples, contact, sampled
 from infill.filling.corners import Machine, Rounded, rounded
 from infill.filling.curves import MOST_BULGE, recut
 from infill.filling.surroundings import BESIDE, TOWARDS, Beads, beads, beside, bounded_deviation
@@ -205,38 +204,3 @@ def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
     owner = np.repeat(alike, np.diff(infill.first)[alike])
     changed[owner[moved]] = True
     return changed
-
-
-@dataclass(frozen=True, kw_only=True)
-class Layer:
-    """What a layer prints, as points.
-
-    Parameters
-    ----------
-    infill : Samples
-    walls : (N, 2) float64, mm
-        On everything else.
-    """
-
-    infill: Samples
-    walls: Floats
-
-    @property
-    def all_points(self) -> Floats:
-        """Points on everything, (N, 2), mm."""
-        return np.concatenate([self.infill.points, self.walls])
-
-
-def layer_of(marks: Marks, infill: Strokes, walls: Floats, points: Floats, first: Places, number: int) -> Layer:
-    """Return one layer with the infill drawn along `points`, `first`: the old paths or new ones.
-
-    `walls` is what `beads` gives of it.
-    """
-    some = np.flatnonzero(marks.layer[first_moves(infill)] == number)
-    ends = np.concatenate([[0], np.cumsum((first[1:] - first[:-1])[some])])
-    return Layer(infill=sampled(points[points_of(first, some)], ends), walls=walls)
-
-
-def contact_of(layer: Layer, below: Layer, width: float) -> Contact:
-    """Measure what holds up the infill of a layer."""
-    return contact(layer.infill, below.all_points, width)

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.contact import Contact
-from infill.filling.keeping import Rounding, first_moves, lengths, redrawn, rounded_strokes
+from infill.filling.keeping import Rounding, first_moves, lengths, line_width, redrawn, rounded_strokes
+from infill.filling.measuring import MEASURED, Below, Drawing, drawing, measured
 from infill.filling.replacing import Memory, Plan, fresh_sections, outside, retractions
 from infill.filling.request import SAME, Request
 from infill.filling.support import Sample
+from infill.filling.surroundings import beads
 from infill.filling.timing import neutral_limits, path_seconds
 from infill.gcode.bodies import composed, exchanged, unlawful, ways_of
 from infill.gcode.limits import Limits
@@ -46,8 +48,8 @@ class Rules:
         A layer that would take less is left as it is.
     resets_filament : bool
         The print sets its counter of filament by G92, so that we may.
-    before, after : Contact
-        Of the layers that were looked at.
+    stride : int
+        Every so-many-th layer is measured.
     plan : Plan, optional
         Paths of our own; without it, the slicer's are kept.
     memory : Memory
@@ -63,8 +65,7 @@ class Rules:
     usual_speed: float = 0.0
     least_layer: float = 0.0
     resets_filament: bool = True
-    before: Contact = field(default_factory=Contact)
-    after: Contact = field(default_factory=Contact)
+    stride: int = 1
     plan: Plan | None = None
     memory: Memory = field(default_factory=Memory)
     limits: Limits = field(default_factory=neutral_limits)
@@ -79,15 +80,16 @@ class Rules:
             usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
             least_layer=least or 0.0,
             resets_filament=found.resets_filament,
+            stride=max(1, round(found.layers / MEASURED)),
         )
 
     def with_plan(self, plan: Plan) -> Rules:
         """Return the rules with paths of our own."""
         return replace(self, plan=plan)
 
-    def with_deviation(self, deviation: float, before: Contact, after: Contact) -> Rules:
+    def with_deviation(self, deviation: float) -> Rules:
         """Return the rules with a deviation that was measured."""
-        return replace(self, rounding=replace(self.rounding, deviation=deviation), before=before, after=after)
+        return replace(self, rounding=replace(self.rounding, deviation=deviation))
 
 
 @dataclass(kw_only=True)
@@ -109,6 +111,9 @@ class Tally:
     corners: int = 0
     smallest_radius: float = np.inf
     lines: list[tuple[int, bytes, float]] = field(default_factory=list)
+    before: Contact = field(default_factory=Contact)
+    after: Contact = field(default_factory=Contact)
+    below: Below | None = None
 
     @property
     def saved(self) -> float:
@@ -133,9 +138,9 @@ class Tally:
 
 def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tuple[bytes, Tally]:
     """Return the new text of a batch of whole layers, and the tally with what was done added to it."""
-    tool = table.before.tool
+    tools = _tools(table)
     tally.layers += int(marks.layer[-1] - (marks.layer[0] - (marks.tagged[0]))) if len(marks.layer) else 0
-    tally.filament[tool] = tally.filament.get(tool, 0.0) + float(table.extruded.sum())
+    _add(tally.filament, tools, table.extruded)
     infill = strokes(table, marks)
     rules.memory.ways = ways_of(table, rules.memory.ways)
     sparse = marks.is_role(SPARSE)
@@ -146,7 +151,7 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
             _count(tally, "no plain moves", len(sections))
         return table.data, tally
     if rules.plan is not None:
-        return _replaced(table, marks, infill, rules, tally, tool)
+        return _replaced(table, marks, infill, rules, tally, tools)
     opens = first_moves(infill)
     section = marks.section[opens]
     new = rounded_strokes(table, marks, infill, rules.rounding, acceleration=rules.acceleration)
@@ -173,15 +178,45 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
     tally.length += float(infill.length.sum())
     tally.length_after += float(np.where(changed, length, infill.length).sum())
     saved = float(infill.filament[changed].sum() - anew.filament.sum())
+    _add(tally.change, tools[opens[anew.which]], anew.filament - infill.filament[anew.which])
     tally.infill_filament += float(infill.filament.sum())
     tally.infill_filament_after += float(infill.filament.sum()) - saved
-    tally.change[tool] = tally.change.get(tool, 0.0) - saved
     _count_corners(infill, changed, new.radius, tally)
+    drawn = Drawing(points=new.points, first=new.first, layer=marks.layer[opens])
+    _measure(table, marks, infill, _mixed(infill, drawn, changed), rules, tally)
     return done.text, tally
 
 
+def _mixed(infill: Strokes, new: Drawing, changed: NDArray[np.bool_]) -> Drawing:
+    """Return the new paths of the strokes that changed, and the old ones of the others."""
+    paths = [
+        new.points[new.first[k] : new.first[k + 1]]
+        if changed[k]
+        else infill.points[infill.first[k] : infill.first[k + 1]]
+        for k in range(len(infill))
+    ]
+    return drawing(paths, new.layer.tolist())
+
+
+def _measure(table: Table, marks: Marks, infill: Strokes, new: Drawing, rules: Rules, tally: Tally) -> None:
+    """Add what some layers of a batch are held up by."""
+    opens = first_moves(infill)
+    old = Drawing(points=infill.points, first=infill.first, layer=marks.layer[opens])
+    before, after, tally.below = measured(
+        old,
+        new,
+        beads(table, marks, infill),
+        np.unique(marks.layer),
+        line_width=float(np.median(line_width(marks, opens))),
+        stride=rules.stride,
+        last=tally.below,
+    )
+    tally.before += before
+    tally.after += after
+
+
 def _replaced(
-    table: Table, marks: Marks, infill: Strokes, rules: Rules, tally: Tally, tool: int
+    table: Table, marks: Marks, infill: Strokes, rules: Rules, tally: Tally, tools: Places
 ) -> tuple[bytes, Tally]:
     """Return the text of a batch with paths of our own."""
     plan, ways = rules.plan, rules.memory.ways
@@ -209,7 +244,7 @@ def _replaced(
         filament.append(pushed)
     done = exchanged(table, [each.body for each in fresh], texts)
     other = read(done.text, table.before)
-    wrong = differing(table, other, done) or unlawful(other, done, [each.body.z for each in fresh])
+    wrong = differing(table, other, done) or unlawful(other, done, [each.body for each in fresh], texts)
     if wrong:
         _count(tally, f"a check failed: {wrong}", len(fresh))
         return _nothing(table, infill, before, tally)
@@ -232,8 +267,15 @@ def _replaced(
         tally.seconds_after += float(_seconds(points, first, speed, acceleration, rules).sum())
         tally.length_after += float(lengths(points, first).sum())
     tally.infill_filament_after += float(infill.filament[~changed].sum()) + sum(filament)
-    saved = float(infill.filament[changed].sum()) - sum(filament)
-    tally.change[tool] = tally.change.get(tool, 0.0) - saved
+    kept = np.flatnonzero(~changed)
+    paths = [infill.points[infill.first[k] : infill.first[k + 1]] for k in kept]
+    layer = marks.layer[opens[kept]].tolist()
+    for each in fresh:
+        paths += each.paths
+        layer += [each.body.layer] * len(each.paths)
+    _measure(table, marks, infill, drawing(paths, layer), rules, tally)
+    first = np.array([each.body.first for each in fresh])
+    _add(tally.change, tools[first], np.array(filament) - np.array([each.body.filament for each in fresh]))
     return done.text, tally
 
 
@@ -244,6 +286,21 @@ def _accelerations(marks: Marks, line: Places, rules: Rules) -> Floats:
 
 def _seconds(points: Floats, first: Places, speed: Floats, acceleration: Floats, rules: Rules) -> Floats:
     return path_seconds(points, first, np.maximum(speed, 1.0), acceleration, rules.limits)
+
+
+def _tools(table: Table) -> Places:
+    """Return the tool in use on every line."""
+    tools = np.full(len(table), table.before.tool)
+    for command in table.commands:
+        if command.code[:1] == "T" and command.code[1:].isdigit():
+            tools[command.line :] = int(command.code[1:])
+    return tools
+
+
+def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:
+    """Add values to the sums of their tools."""
+    for tool in np.unique(tools).tolist():
+        sums[tool] = sums.get(tool, 0.0) + float(values[tools == tool].sum())
 
 
 def _nothing(table: Table, infill: Strokes, before: Floats, tally: Tally) -> tuple[bytes, Tally]:

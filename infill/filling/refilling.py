@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import io
 import os
+import shutil
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -135,9 +136,12 @@ def refill(
     folder = None if dry_run else target.parent
     with opened(source, folder) as given, scratch(folder) as draft:
         done = _refilled(given, draft, request, progress)
-        nothing = done.tally is None or (not done.tally.replaced and output is None)
-        if dry_run or nothing:
+        nothing = done.tally is None or not done.tally.replaced
+        if dry_run or (nothing and output is None):
             return RefillResult(report=done.report, path=None)
+        if nothing:  # a copy
+            shutil.copyfile(source, target)
+            return RefillResult(report=done.report, path=target)
         if progress is not None:
             progress("writing", 0.95)
         with whole_file(target) as file:
@@ -201,6 +205,7 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
+    change = change.as_told([line for _, line, _ in tally.lines], tally.change)
     edits: list[tuple[int, int, bytes]] = []
     if tally.replaced:
         edits = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
@@ -246,10 +251,10 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
         family = family_of(request.pattern)
         density = request.density if isinstance(request.density, float) else None
         plan = planned(family, some, rounding, density=density, acceleration=acceleration)
-        return rules.with_plan(plan)
+        return rules.with_plan(plan) if plan is not None else rules.with_deviation(0.0)
     if request.smooth_radius == "auto" and some:
-        deviation, before, after = largest_deviation(some, rounding, acceleration)
-        rules = rules.with_deviation(deviation, before, after)
+        deviation = largest_deviation(some, rounding, acceleration)
+        rules = rules.with_deviation(deviation)
     return rules
 
 

@@ -28,6 +28,9 @@ SHARE_BESIDE = 0.1  # of the points beside walls that may lie nearer than d0: wh
 LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
 SAME_WITHIN = 0.02  # mm
 LEAST_AREA = 0.5  # mm²
+STRAIGHTENED = 0.5  # mm: narrower dents in an outline, such as between the ends of lines, are left out
+ARM = 0.3  # mm²: an arm as large as this stays, however narrow
+MOST_NODES = 20_000_000  # of a grid: a square of 900 mm; a region beyond that is not looked for
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,6 +70,8 @@ def region_of(walls: Floats, infill: Floats, before: Region | None = None) -> Re
     if before is not None and _fits(before, tree, infill, distance):
         return before
     low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
+    if np.prod((high - low) / NODES) > MOST_NODES:
+        return Region(polygons=(), distance=distance)
     x, y = (np.arange(low[axis], high[axis] + NODES, NODES) for axis in (0, 1))
     nodes = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
     near, _ = tree.query(nodes.reshape(-1, 2), distance_upper_bound=REACH)
@@ -92,7 +97,10 @@ def _fits(region: Region, tree: object, infill: Floats, distance: float) -> bool
         return False
     outline = shapely.get_coordinates(np.array(region.polygons, dtype=object))
     near, _ = tree.query(outline, distance_upper_bound=REACH)  # type: ignore[attr-defined]
-    if np.abs(near - region.distance).max() > NODES / 4 + SAME_WITHIN:
+    # At corners, an outline keeps further away.
+    if near.min() < region.distance - SAME_WITHIN / 2 or near.max() > region.distance + STRAIGHTENED:
+        return False
+    if abs(float(np.median(near)) - region.distance) > SAME_WITHIN / 2:
         return False
     whole = shapely.union_all([polygon.buffer(0.1) for polygon in region.polygons])
     shapely.prepare(whole)
@@ -113,7 +121,21 @@ def _outlines(field: Floats, x0: float, y0: float, distance: float, infill: Floa
     free = shapely.build_area(shapely.GeometryCollection([shapely.LineString(ring.coords) for ring in rings]))
     parts = shapely.get_parts(free)
     parts = parts[shapely.area(parts) > LEAST_AREA]
-    tree = shapely.STRtree(shapely.points(infill))
-    held = np.bincount(tree.query(parts, predicate="contains")[0], minlength=len(parts))
-    kept = parts[held > 0]
-    return tuple(shapely.simplify(kept, SAME_WITHIN / 4))
+    shapely.prepare(parts)
+    held = [bool(shapely.contains_xy(part, infill[:, 0], infill[:, 1]).any()) for part in parts]
+    kept = parts[held]
+    return tuple(area for part in kept for area in _straightened(part))
+
+
+def _straightened(area: Polygon) -> list[Polygon]:
+    """Return an area without the dents along skins, where lines end one beside the other; narrow arms stay."""
+    import shapely
+
+    smooth = shapely.buffer(shapely.buffer(area, -STRAIGHTENED, quad_segs=4), STRAIGHTENED, quad_segs=4)
+    rest = shapely.get_parts(shapely.difference(area, smooth))
+    arms = rest[shapely.area(rest) > ARM]
+    whole = shapely.union_all([smooth, *shapely.buffer(arms, 1e-3)]) if len(arms) else smooth
+    whole = shapely.intersection(shapely.simplify(whole, SAME_WITHIN / 2), shapely.buffer(area, SAME_WITHIN / 4))
+    parts = shapely.get_parts(whole)
+    kept = parts[(shapely.get_type_id(parts) == 3) & (shapely.area(parts) > LEAST_AREA)]
+    return list(kept) or [shapely.simplify(area, SAME_WITHIN / 4)]

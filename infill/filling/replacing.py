@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import ParameterError
 from infill.filling.contact import STEP as CONTACT_STEP
 from infill.filling.contact import sampled
 from infill.filling.covering import cover, solve_cell
 from infill.filling.families.catalogue import FAMILIES
+from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import TOUCH, Family
 from infill.filling.keeping import Rounding, first_moves, line_width, points_of, smoothed
 from infill.filling.regions import STEP, Region, region_of
@@ -21,6 +21,7 @@ from infill.filling.support import Sample
 from infill.filling.surroundings import beads
 from infill.gcode.bodies import ALIKE, Body, Ways, bodies
 from infill.gcode.sections import Marks, Strokes
+from infill.gcode.splicing import UNIT
 from infill.gcode.table import Table
 
 if TYPE_CHECKING:
@@ -34,7 +35,9 @@ LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet
 SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
 INSIDE = 0.02  # mm that a path may leave its region
+LARGEST_RADIUS = 1000.0  # mm: as large as it gets
 OFF = 0.05  # of the length that an area should have, before it gets a cell of its own
+FAR_OFF = 0.3  # of it, before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
 NEWEST = 0.2  # how much the last layer counts in the density of a column
@@ -72,11 +75,14 @@ class Column:
     cell : float, mm
     density : float
         mm of the slicer's infill per mm², over the last layers: it varies from layer to layer.
+    fresh : bool
+        Nothing stands below the area, so that its cell is still free.
     """
 
     area: Polygon
     cell: float
     density: float
+    fresh: bool
 
 
 @dataclass(kw_only=True)
@@ -138,8 +144,8 @@ def layer_samples(infill: Strokes, some: Places) -> Floats:
 
 def planned(
     family: Family, some: Sequence[Sample], rounding: Rounding, *, density: float | None, acceleration: float
-) -> Plan:
-    """Choose the cell, so that the layers that were looked at take the filament that they should.
+) -> Plan | None:
+    """Choose the cell, so that the layers that were looked at take the filament that they should; None without infill.
 
     Parameters
     ----------
@@ -159,23 +165,28 @@ def planned(
         layer = sample.marks.layer[opens]
         others = beads(sample.table, sample.marks, sample.infill)
         width = float(np.median(line_width(sample.marks, opens)))
-        number = sample.pairs[-1][1]
+        number = sample.filled[-1]
         chosen = np.flatnonzero(layer == number)
         region = region_of(others.of(number, STEP), layer_samples(sample.infill, chosen))
         if not region.polygons:
             continue
         area = shapely.MultiPolygon(list(region.polygons))
         regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
-        spacing = _spacing(width, float(np.nanmedian(sample.marks.height[opens])))
+        heights = sample.marks.height[opens]
+        spacing = _spacing(width, float(np.median(heights)))
         length += float(sample.infill.length[chosen].sum()) if density is None else density * area.area / spacing
     if not regions:
-        raise ParameterError("no region of infill was found to fit a pattern into; give --pattern keep")
+        return None
+    if isinstance(family, ConcentricHeart):  # one centre for the whole print
+        boxes = np.array([area.bounds for area, _, _ in regions])
+        low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+        family = replace(family, middle=tuple(((low + high) / 2).tolist()))
 
     def measure(paths: Sequence[Floats]) -> float:
         done = _rounded(list(paths), None, rounding, width, acceleration, 80.0)
         return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in done))
 
-    radius = min(rounding.radius, 1e3)
+    radius = min(rounding.radius, LARGEST_RADIUS)
     solved = solve_cell(regions, family, length, line_width=width, radius=radius, measure=measure)
     return Plan(family=family, cell=solved.cell, line_width=width, rounding=rounding, same_filament=density is None)
 
@@ -273,8 +284,8 @@ def _column(area: Polygon, length: float, plan: Plan, memory: Memory) -> Column:
             if shared > max(most, area.area / 2):
                 best, most = column, shared
     if best is None:
-        return Column(area=area, cell=plan.cell, density=density)
-    return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density)
+        return Column(area=area, cell=plan.cell, density=density, fresh=True)
+    return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density, fresh=False)
 
 
 def _length(paths: Paths) -> float:
@@ -296,15 +307,15 @@ def _grouped(region: Region, infill: Strokes, some: Places, section: Places) -> 
     import shapely
 
     grown = shapely.buffer(np.array(region.polygons, dtype=object), 0.1)
-    tree = shapely.STRtree(grown)
+    shapely.prepare(grown)
     numbers = np.unique(section[some]).tolist()
     held = np.zeros((len(numbers), len(grown)), dtype=np.int64)
     lost: set[int] = set()
     for place, number in enumerate(numbers):
         points = layer_samples(infill, some[section[some] == number])
-        which, area = tree.query(shapely.points(points), predicate="within")
-        held[place] = np.bincount(area, minlength=len(grown))
-        if len(np.unique(which)) < (1 - LOST) * len(points):
+        inside = np.array([shapely.contains_xy(area, points[:, 0], points[:, 1]) for area in grown])
+        held[place] = inside.sum(axis=1) if len(grown) else 0
+        if not len(grown) or inside.any(axis=0).mean() < 1 - LOST:
             lost.add(number)
     # A section that printed next to nothing of an area has no share in it.
     shares = held > SHARED * held.sum(axis=0)
@@ -356,7 +367,7 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     best, cell = paths, column.cell
     if layer.plan.same_filament and wanted > LEAST_LENGTH:
         error = _length(paths) / wanted - 1
-        if abs(error) > OFF:
+        if abs(error) > (OFF if column.fresh else FAR_OFF):
             for _ in range(TRIES):
                 cell *= float(np.clip(1 + error, 0.6, 1.6))
                 cell = max(cell, TOUCH * layer.plan.line_width)
@@ -383,18 +394,20 @@ def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
         line_width=plan.line_width,
         z=body.z,
         layer=body.layer,
-        radius=min(plan.rounding.radius, 1e3),
+        radius=min(plan.rounding.radius, LARGEST_RADIUS),
     )
     speed = body.feed / 60
-    done = _rounded(strands, layer.walls, plan.rounding, plan.line_width, layer.acceleration, speed)
+    rounding = replace(
+        plan.rounding, radius=min(plan.rounding.radius, plan.family.largest_radius(cell, plan.line_width))
+    )
+    done = _rounded(strands, layer.walls, rounding, plan.line_width, layer.acceleration, speed)
     near = shapely.buffer(area, INSIDE)
     shapely.prepare(near)
     inside = [bool(shapely.contains_xy(near, path[:, 0], path[:, 1]).all()) for path in done]
     if all(inside):
         return done
-    hard = replace(plan.rounding, deviation=0.0)
-    kept = _rounded(strands, layer.walls, hard, plan.line_width, layer.acceleration, speed)
-    return [one if fits else other for one, other, fits in zip(done, kept, inside, strict=True)]
+    plain = [np.rint(path / UNIT) * UNIT for path in strands if len(path) > 1]
+    return [one if fits else other for one, other, fits in zip(done, plain, inside, strict=True)]
 
 
 def _rounded(

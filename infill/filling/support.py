@@ -11,21 +11,19 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from infill.filling.contact import STEP, Contact
-from infill.filling.keeping import Rounding, contact_of, first_moves, layer_of, line_width, rounded_strokes
-from infill.filling.surroundings import beads
+from infill.filling.contact import Contact, contact, merged
+from infill.filling.keeping import Rounding, first_moves, line_width, rounded_strokes
+from infill.filling.measuring import Drawing
+from infill.filling.surroundings import Beads, beads
 from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
 from infill.gcode.survey import Survey
 from infill.gcode.table import Table, read
 
-Floats = NDArray[np.float64]
-
 LEAST_SHARE = 0.94
-AIM = 0.945  # what layers here and there must keep, so that all of them keep the least
+AIM = 0.95  # what layers here and there must keep, so that all of them keep the least
 # mm; tried from the largest down. Beyond them, legs are what limits an arc.
-DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, 0.1, 0.085, 0.07, 0.06, 0.05, 0.04, 0.03, 0.02, 0.01)
+DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, 0.1, 0.085, 0.075, *(0.07 - 0.005 * k for k in range(11)), 0.01)
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 
@@ -38,18 +36,16 @@ class Sample:
     infill: Strokes
 
     @cached_property
-    def walls(self) -> dict[int, Floats]:
-        """Points on everything but the infill, by layer."""
-        layers = {number for pair in self.pairs for number in pair}
-        others = beads(self.table, self.marks, self.infill)
-        return {number: others.of(number, STEP) for number in layers}
+    def others(self) -> Beads:
+        """Everything but the infill."""
+        return beads(self.table, self.marks, self.infill)
 
     @cached_property
-    def pairs(self) -> list[tuple[int, int]]:
-        """Layers with infill whose lower neighbour has infill too."""
-        layer = self.marks.layer[first_moves(self.infill)]
-        there = np.unique(layer).tolist()
-        return [(number - 1, number) for number in there if number - 1 in there]
+    def filled(self) -> list[int]:
+        """Layers with infill, the lowest left out unless it is the only one: nothing is known of what is below it."""
+        there = np.unique(self.marks.layer[first_moves(self.infill)]).tolist()
+        lowest = int(self.marks.layer.min())
+        return [number for number in there if number > lowest + 1] or there[-1:]
 
 
 def samples(found: Survey) -> list[Sample]:
@@ -59,7 +55,7 @@ def samples(found: Survey) -> list[Sample]:
         table = read(text, found.begin)
         marks = marked(table, Tags())
         some.append(Sample(table=table, marks=marks, infill=strokes(table, marks)))
-    return [sample for sample in some if sample.pairs]
+    return [sample for sample in some if sample.filled]
 
 
 def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
@@ -75,8 +71,8 @@ def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
     )
 
 
-def largest_deviation(some: list[Sample], rounding: Rounding, acceleration: float) -> tuple[float, Contact, Contact]:
-    """Return the largest deviation, mm, that keeps support and contact, and both as measured, before and after.
+def largest_deviation(some: list[Sample], rounding: Rounding, acceleration: float) -> float:
+    """Return the largest deviation, mm, that keeps support and contact.
 
     Parameters
     ----------
@@ -89,34 +85,29 @@ def largest_deviation(some: list[Sample], rounding: Rounding, acceleration: floa
     hard = _measured(some, None, acceleration)
     candidates = [rounding.deviation, *(deviation for deviation in DEVIATIONS if deviation < rounding.deviation)]
 
-    def measured(place: int) -> tuple[bool, Contact]:
+    def enough(place: int) -> bool:
         done = _measured(some, replace(rounding, deviation=candidates[place]), acceleration)
-        return min(kept_shares(hard, done)) >= AIM, done
+        return min(kept_shares(hard, done)) >= AIM
 
-    enough, found = measured(0)
-    if enough:
-        return candidates[0], hard, found
-    best, contact = 0.0, hard
+    if enough(0):
+        return candidates[0]
     low, high, tried = 1, len(candidates), set()
     while low < high:
         middle = (low + high) // 2
         tried.add(middle)
-        enough, found = measured(middle)
-        if enough:
-            best, contact, high = candidates[middle], found, middle
+        if enough(middle):
+            high = middle
         else:
             low = middle + 1
     # Support does not always fall evenly: a step or two further may still do.
     for place in (high - 2, high - 1):
-        if place > 0 and place not in tried:
-            enough, found = measured(place)
-            if enough:
-                return candidates[place], hard, found
-    return best, hard, contact
+        if place > 0 and place not in tried and enough(place):
+            return candidates[place]
+    return candidates[high] if high < len(candidates) else 0.0
 
 
 def _measured(some: list[Sample], rounding: Rounding | None, acceleration: float) -> Contact:
-    """Return the contact of the upper layers of all pairs, rounded or as they are."""
+    """Return the contact of the layers that were read, rounded or as they are."""
     total = Contact()
     for sample in some:
         points, first = sample.infill.points, sample.infill.first
@@ -124,11 +115,8 @@ def _measured(some: list[Sample], rounding: Rounding | None, acceleration: float
             new = rounded_strokes(sample.table, sample.marks, sample.infill, rounding, acceleration=acceleration)
             points, first = new.points, new.first
         width = float(np.median(line_width(sample.marks, first_moves(sample.infill))))
-        layers = {
-            number: layer_of(sample.marks, sample.infill, sample.walls[number], points, first, number)
-            for pair in sample.pairs
-            for number in pair
-        }
-        for below, above in sample.pairs:
-            total += contact_of(layers[above], layers[below], width)
+        infill = Drawing(points=points, first=first, layer=sample.marks.layer[first_moves(sample.infill)])
+        for number in sample.filled:
+            below = merged(infill.of(number - 1), sample.others.samples_of(number - 1))
+            total += contact(infill.of(number), below, width)
     return total

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.contact import sampled
+from infill.filling.contact import STEP as FINE
+from infill.filling.contact import Samples, sampled
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.table import Table
 
@@ -36,9 +37,13 @@ class Beads:
 
     def of(self, number: int, step: float = STEP) -> Floats:
         """Return points on the beads of a layer, at most `step` apart: (N, 2) float64, mm."""
+        return self.samples_of(number, step).points
+
+    def samples_of(self, number: int, step: float = FINE) -> Samples:
+        """Return samples of the beads of a layer, at most `step` apart, mm."""
         low, high = np.searchsorted(self.layer, [number, number + 1])
         some = self.ends[low:high]
-        return sampled(some.reshape(-1, 2), np.arange(len(some) + 1) * 2, step).points
+        return sampled(some.reshape(-1, 2), np.arange(len(some) + 1) * 2, step)
 
 
 def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:

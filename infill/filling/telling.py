@@ -51,17 +51,17 @@ def report_of_refill(
         "density_for_the_same_percent": round(density / ratio, 2) if density and ratio > 0 else None,
     }
     report["time"] = {"infill_before_s": tally.seconds, "infill_after_s": tally.seconds_after}
-    report["contact"] = contact_section(rules)
+    report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
     return report
 
 
-def contact_section(rules: Rules) -> dict[str, Any]:
+def contact_section(tally: Tally) -> dict[str, Any]:
     """Return what holds the infill up, before and after, as measured on some layers."""
-    before, after = rules.before.shares, rules.after.shares
-    kept = kept_shares(rules.before, rules.after)
+    before, after = tally.before.shares, tally.after.shares
+    kept = kept_shares(tally.before, tally.after)
     return {
-        "measured_mm": rules.before.length,
+        "measured_mm": tally.before.length,
         "supported_before": before[0],
         "supported_after": after[0],
         "bonded_before": before[1],

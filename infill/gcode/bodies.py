@@ -221,15 +221,20 @@ def composed(
         pieces.append(down)
         feed = ways.travel if not retract else np.nan
 
+    held = _held(table, body)
+    whole = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+    drawn = 0.0
     for path, retract in zip(paths, retracts[:-1], strict=True):
+        while held and held[0][0] * whole <= drawn:
+            pieces.append(held.pop(0)[1])
         go(path[0], retract)
         along = np.cumsum(np.hypot(*np.diff(path, axis=0).T))
+        drawn += float(along[-1])
         steps = np.rint((pushed + along * rate) / FILAMENT_UNIT)
-        words = (
-            np.diff(steps, prepend=np.rint(pushed / FILAMENT_UNIT)) * FILAMENT_UNIT
-            if relative
-            else (np.rint(begun / FILAMENT_UNIT) + steps) * FILAMENT_UNIT
-        )
+        if relative:
+            words = np.diff(steps, prepend=np.rint(pushed / FILAMENT_UNIT)) * FILAMENT_UNIT
+        else:
+            words = (np.rint(begun / FILAMENT_UNIT) + steps) * FILAMENT_UNIT
         pushed += float(along[-1]) * rate
         counter = begun + pushed
         feeds = np.full(len(along), np.nan)
@@ -239,7 +244,7 @@ def composed(
         pieces.append(write_words(columns, b"G1", ends).text)
         here = path[-1]
     go(body.end, retracts[-1])
-    pieces.extend(_held(table, body))
+    pieces.extend(text for _, text in held)
     expected = float(table.e[body.last])
     if not relative and abs(counter - expected) >= FILAMENT_UNIT / 2:
         pieces.append(b"G92 E%s%s" % (_word(expected, 5), ends))
@@ -263,15 +268,15 @@ def exchanged(table: Table, some: Sequence[Body], texts: Sequence[bytes]) -> Spl
     return Spliced(text=b"".join(pieces), shift=np.cumsum(change), same=same)
 
 
-def unlawful(other: Table, done: Spliced, heights: Sequence[float]) -> str:
+def unlawful(other: Table, done: Spliced, some: Sequence[Body], texts: Sequence[bytes]) -> str:
     """Say what is wrong with the lines that are new, if anything is.
 
     Parameters
     ----------
     other : Table
         The new text, read.
-    heights : sequence of float, mm
-        Of the layers; new moves that extrude lie in one of them.
+    some, texts
+        As for `exchanged`.
     """
     fresh = np.ones(len(other), dtype=bool)
     old = np.flatnonzero(done.same)
@@ -281,13 +286,20 @@ def unlawful(other: Table, done: Spliced, heights: Sequence[float]) -> str:
         return "a new line that cannot be read"
     if (other.extruded[drawn] < 0).any():
         return "a new move that draws filament back"
-    if not np.isin(np.round(other.z[drawn], 6), np.round(heights, 6)).all():
+    if not np.isin(np.round(other.z[drawn], 6), np.round([body.z for body in some], 6)).all():
         return "a new move at another height"
     if not (other.f[fresh] > 0).all():
         return "a new move without a feed rate"
-    total = np.cumsum(other.extruded) - other.before.retracted
-    depth = np.maximum.accumulate(np.maximum(total, 0.0)) - total
-    return "extrusion while retracted" if (depth[drawn] > 1e-3).any() else ""
+    for body, text in zip(some, texts, strict=True):
+        first = body.first + int(done.shift[body.first])
+        part = slice(first, first + text.count(b"\n"))
+        total = np.cumsum(other.extruded[part])  # the nozzle is primed where a body begins
+        depth = np.maximum.accumulate(np.maximum(total, 0.0)) - total
+        if (depth[drawn[part]] > 1e-3).any():
+            return "extrusion while retracted"
+        if len(depth) and depth[-1] > 1e-3:
+            return "a section that ends retracted"
+    return ""
 
 
 def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: bytes) -> tuple[bytes, bytes, int]:
@@ -307,13 +319,19 @@ def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: by
     return back, forth, 1
 
 
-def _held(table: Table, body: Body) -> list[bytes]:
-    """Return the lines of a body that are no moves, in their order."""
-    lines = np.arange(body.first, body.last + 1)
-    kind = table.kind[lines]
-    kept = lines[kind != MOVE]
+def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
+    """Return the lines of a body that are no moves, in their order, with the share of the filament before each."""
+    inside = slice(body.first, body.last + 1)
+    moved = table.given[inside, :2].any(axis=1)
+    pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
+    share = pushed / max(float(pushed[-1]), 1e-12)
+    kept = np.flatnonzero(table.kind[inside] != MOVE)
     retractions = {command.line for command in table.commands if command.code in ("G10", "G11")}
-    return [table.text(line, line + 1) for line in kept.tolist() if line not in retractions]
+    return [
+        (float(share[place]), table.text(body.first + place, body.first + place + 1))
+        for place in kept.tolist()
+        if body.first + place not in retractions
+    ]
 
 
 def _word(value: float, decimals: int = 3) -> bytes:

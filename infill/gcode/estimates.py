@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 
 _LINE = re.compile(
     rb"^(?:M73 [^\n]*|; (?:total )?filament used \[[a-z0-9]+\] = [^\n]*|; total filament cost = [^\n]*"
@@ -35,6 +35,25 @@ class Change:
     seconds: float = 0.0
     filament: float = 1.0
     tools: tuple[float, ...] = ()
+
+    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float]) -> Change:
+        """Return the change with ratios of the filament that the print says it takes, if it says so by tool.
+
+        Parameters
+        ----------
+        lines : iterable of bytes
+            That tell time or filament.
+        change : mapping of int to float
+            mm of filament more, by tool.
+        """
+        for line in lines:
+            if line.startswith(b"; filament used [mm] = "):
+                said = [float(number) for number in _NUMBER.findall(line.partition(b" = ")[2])]
+                now = [length + change.get(tool, 0.0) for tool, length in enumerate(said)]
+                if all(length > 0 for length in now if length) and sum(said) > 0:
+                    ratios = tuple(new / old if old > 0 else 1.0 for new, old in zip(now, said, strict=True))
+                    return replace(self, filament=sum(now) / sum(said), tools=ratios)
+        return self
 
 
 def estimates(text: bytes) -> Iterator[tuple[int, int]]:

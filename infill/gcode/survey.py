@@ -15,6 +15,7 @@ HEAD = 1 << 18  # bytes looked at for the header and the modes
 TAIL = 1 << 17  # bytes looked at for the settings
 WINDOW = 1 << 18  # bytes read at each place that is sampled
 MOST_WINDOW = 16 << 20
+WHOLE = 3  # layers at each place
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(rb"(?:generated (?:by|with) |Generated with |Sliced by )([A-Za-z][\w. +-]{1,60})", re.IGNORECASE)
@@ -57,6 +58,12 @@ class Survey:
     stamped: bool
     resets_filament: bool
     windows: tuple[bytes, ...]
+
+    @property
+    def layers(self) -> float:
+        """About how many layers there are."""
+        there = sum(len(LAYER_TAG.findall(text)) for text in self.windows)
+        return self.size * there / max(1, sum(map(len, self.windows)))
 
     def number(self, *names: str) -> float | None:
         """Return the first of several settings that is there, as a number; the first one of a list."""
@@ -133,13 +140,13 @@ def _check(head: bytes, size: int) -> None:
 
 
 def _window(file: BinaryIO, size: int, share: float) -> bytes:
-    """Return two whole layers around a place, or fewer; none if there is no layer."""
+    """Return three whole layers around a place, or fewer; none if there is no layer."""
     file.seek(int(size * share))
     text = file.read(WINDOW)
     while len(text) < MOST_WINDOW:
         tags = [found.start() for found in LAYER_TAG.finditer(text)]
-        if len(tags) > 2:
-            return text[tags[0] : tags[2]]
+        if len(tags) > WHOLE:
+            return text[tags[0] : tags[WHOLE]]
         more = file.read(len(text))
         if not more:
             break

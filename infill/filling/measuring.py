@@ -1,0 +1,112 @@
+"""What holds the infill up, before and after, measured on layers here and there as they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.contact import Contact, Samples, contact, merged, sampled
+from infill.filling.surroundings import Beads
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+MEASURED = 24  # layers of a print, about
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawing:
+    """Paths of some layers.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    first : (M + 1,) int
+    layer : (M,) int
+    """
+
+    points: Floats
+    first: Places
+    layer: Places
+
+    def of(self, number: int) -> Samples:
+        """Return samples of the paths of one layer."""
+        some = np.flatnonzero(self.layer == number)
+        count = self.first[some + 1] - self.first[some]
+        ends = np.concatenate([[0], np.cumsum(count)])
+        at = np.arange(ends[-1]) + np.repeat(self.first[some] - ends[:-1], count)
+        return sampled(self.points[at], ends)
+
+
+def drawing(paths: Sequence[Floats], layer: Sequence[int]) -> Drawing:
+    """Return a drawing of single paths."""
+    return Drawing(
+        points=np.concatenate(paths) if paths else np.empty((0, 2)),
+        first=np.concatenate([[0], np.cumsum([len(path) for path in paths])]).astype(np.intp),
+        layer=np.array(layer, dtype=np.intp),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Below:
+    """A layer that was drawn: what the next one lies on.
+
+    Parameters
+    ----------
+    number : int
+    before, after : Samples
+        Everything it prints, old and new.
+    """
+
+    number: int
+    before: Samples
+    after: Samples
+
+
+def measured(
+    old: Drawing, new: Drawing, others: Beads, layers: Places, *, line_width: float, stride: int, last: Below | None
+) -> tuple[Contact, Contact, Below | None]:
+    """Measure every `stride`-th layer of a batch, old and new.
+
+    Parameters
+    ----------
+    old, new : Drawing
+        The infill.
+    others : Beads
+        Everything else.
+    layers : (L,) int, ascending
+        Of the batch.
+    line_width : float, mm
+    stride : int
+    last : Below, optional
+        The last layer of the batch before, if it is needed.
+
+    Returns
+    -------
+    before, after : Contact
+    last : Below or None
+        For the next batch.
+    """
+    before, after = Contact(), Contact()
+
+    def below(number: int) -> Below:
+        walls = others.samples_of(number)
+        return Below(number=number, before=merged(old.of(number), walls), after=merged(new.of(number), walls))
+
+    there = set(layers.tolist())
+    for number in np.unique(old.layer).tolist():
+        if number % stride:
+            continue
+        if number - 1 in there:
+            under = below(number - 1)
+        elif last is not None and last.number == number - 1:
+            under = last
+        else:
+            continue
+        before += contact(old.of(number), under.before, line_width)
+        after += contact(new.of(number), under.after, line_width)
+    final = int(layers[-1]) if len(layers) else 0
+    return before, after, below(final) if len(layers) and (final + 1) % stride == 0 else None
