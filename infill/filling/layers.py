@@ -25,6 +25,7 @@ from infill.gcode.table import State, Table, read
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
+LEAST_RADIUS = 0.02  # mm: below this a corner beside a wall was hardly touched
 LEAST_TRAVEL = 1.0  # mm: shorter ways are never retracted
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 SLOWED = 0.97  # a layer whose infill is slower than this share of the usual was slowed down to cool
@@ -93,6 +94,29 @@ class Rules:
 
 
 @dataclass(kw_only=True)
+class Histogram:
+    """How often lengths occur, by tenths of an octave from a micrometre to a metre: it does not grow."""
+
+    counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(200, dtype=np.int64))
+
+    def add(self, lengths: Floats) -> None:
+        """Count some lengths, mm."""
+        place = np.clip(10 * np.log2(np.maximum(lengths, 1e-3) / 1e-3), 0, len(self.counts) - 1)
+        self.counts += np.bincount(place.astype(np.intp), minlength=len(self.counts))
+
+    def report(self) -> dict[str, float] | None:
+        """Return the lengths that 1, 50 and 99 % do not reach, to a fifteenth, mm."""
+        total = np.cumsum(self.counts)
+        if not total[-1]:
+            return None
+        places = np.searchsorted(total, np.array([0.01, 0.5, 0.99]) * total[-1])
+        return {
+            name: round(float(1e-3 * 2 ** ((place + 0.5) / 10)), 4)
+            for name, place in zip(("smallest_hundredth", "median", "largest_hundredth"), places, strict=True)
+        }
+
+
+@dataclass(kw_only=True)
 class Tally:
     """What was done so far: sums over batches."""
 
@@ -109,7 +133,7 @@ class Tally:
     infill_filament: float = 0.0
     infill_filament_after: float = 0.0
     corners: int = 0
-    smallest_radius: float = np.inf
+    radii: Histogram = field(default_factory=Histogram)
     lines: list[tuple[int, bytes, float]] = field(default_factory=list)
     before: Contact = field(default_factory=Contact)
     after: Contact = field(default_factory=Contact)
@@ -322,9 +346,9 @@ def _count(tally: Tally, reason: str, number: int) -> None:
 def _count_corners(infill: Strokes, changed: NDArray[np.bool_], radius: Floats, tally: Tally) -> None:
     bent = np.repeat(changed, np.diff(infill.first))
     radius = radius[: len(bent)] if len(radius) == len(bent) else radius
-    found = radius[(radius > 0) & np.isfinite(radius)]
+    found = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
     tally.corners += len(found)
-    tally.smallest_radius = min(tally.smallest_radius, float(found.min(initial=np.inf)))
+    tally.radii.add(found)
 
 
 def _chosen(

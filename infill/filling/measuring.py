@@ -14,7 +14,7 @@ from infill.filling.surroundings import Beads
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-MEASURED = 24  # layers of a print, about
+MEASURED = 16  # layers of a print, about
 
 
 @dataclass(frozen=True, kw_only=True)

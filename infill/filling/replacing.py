@@ -365,7 +365,8 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     wanted = column.density * column.area.area
     paths = _covered(body, column.area, column.cell, layer)
     best, cell = paths, column.cell
-    if layer.plan.same_filament and wanted > LEAST_LENGTH:
+    # What varies with the height has one cell everywhere, or its layers would not fit one another.
+    if layer.plan.same_filament and layer.plan.family.prismatic and wanted > LEAST_LENGTH:
         error = _length(paths) / wanted - 1
         if abs(error) > (OFF if column.fresh else FAR_OFF):
             for _ in range(TRIES):

@@ -21,9 +21,9 @@ from infill.gcode.survey import Survey
 from infill.gcode.table import Table, read
 
 LEAST_SHARE = 0.94
-AIM = 0.95  # what layers here and there must keep, so that all of them keep the least
+AIM = 0.941  # what layers here and there must keep, so that all of them keep the least
 # mm; tried from the largest down. Beyond them, legs are what limits an arc.
-DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, 0.1, 0.085, 0.075, *(0.07 - 0.005 * k for k in range(11)), 0.01)
+DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 

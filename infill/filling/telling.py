@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from infill.filling.layers import Rules, Tally
-from infill.filling.request import Request
+from infill.filling.request import KEEP, Request
 from infill.filling.support import LEAST_SHARE, kept_shares
 from infill.gcode.survey import Survey
 from infill.version import __version__
@@ -40,15 +40,16 @@ def report_of_refill(
     report["rounding"] = {
         "deviation_mm": _finite(rules.rounding.deviation),
         "corners": tally.corners,
-        "smallest_radius_mm": _finite(tally.smallest_radius),
+        "radius_mm": tally.radii.report(),
     }
+    keeps = request.pattern == KEEP and request.density is None
     ratio = tally.infill_filament_after / tally.infill_filament if tally.infill_filament else 1.0
     density = found.number("fill_density", "sparse_infill_density")
     report["filament"] = {
         "infill_before_mm": tally.infill_filament,
         "infill_after_mm": tally.infill_filament_after,
         "print_ratio": tally.filament_ratio,
-        "density_for_the_same_percent": round(density / ratio, 2) if density and ratio > 0 else None,
+        "density_for_the_same_percent": round(density / ratio, 2) if keeps and density and ratio > 0 else None,
     }
     report["time"] = {"infill_before_s": tally.seconds, "infill_after_s": tally.seconds_after}
     report["contact"] = contact_section(tally)
@@ -66,7 +67,8 @@ def contact_section(tally: Tally) -> dict[str, Any]:
         "supported_after": after[0],
         "bonded_before": before[1],
         "bonded_after": after[1],
-        "kept": min(kept),
+        "kept_supported": kept[0],
+        "kept_bonded": kept[1],
     }
 
 
@@ -75,6 +77,7 @@ def _finite(value: float) -> float | None:
 
 
 def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
+    keeps = report["request"]["pattern"] == KEEP
     found = []
     if not tally.sections:
         found.append("there is no sparse infill in this print; nothing was changed")
@@ -85,9 +88,14 @@ def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
     if failed:
         found.append(f"{failed} sections were kept because a check of the new text failed")
     contact = report["contact"]
-    if contact["measured_mm"] and contact["kept"] < LEAST_SHARE:
+    if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
         found.append(
-            f"support or contact fell to {contact['kept']:.2f} of the slicer's own; "
-            "give a smaller --smooth-radius or --max-deviation"
+            f"support on the layer below fell to {contact['kept_supported']:.2f} of the slicer's own; "
+            + ("give a smaller --max-deviation" if keeps else "take another pattern, or keep")
+        )
+    if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
+        found.append(
+            f"contact of doubled lines fell to {contact['kept_bonded']:.2f} of the slicer's own; "
+            "give a smaller --max-deviation"
         )
     return found

@@ -18,7 +18,9 @@ MOST_WINDOW = 16 << 20
 WHOLE = 3  # layers at each place
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
-_SLICER = re.compile(rb"(?:generated (?:by|with) |Generated with |Sliced by )([A-Za-z][\w. +-]{1,60})", re.IGNORECASE)
+_SLICER = re.compile(
+    rb"(?:generated (?:by|with) |Generated with |Sliced by )([A-Za-z][\w.+-]*(?: (?!on\b)[\w.+-]+){0,3})", re.IGNORECASE
+)
 # What other files begin with.
 OTHERS = {
     b"PK\x03\x04": "a zip or 3MF file",
