@@ -109,7 +109,7 @@ def _measured(output: Path, before: float, report: dict[str, Any]) -> dict[str, 
         "turns_per_m": sharp / length * 1000,
         "radius": float(all_radii.min()) if len(all_radii) else None,
         "radius_p1": float(np.quantile(all_radii, 0.01)) if len(all_radii) else None,
-        "radius_reported": (report.get("rounding") or {}).get("smallest_radius_mm"),
+        "radius_reported": ((report.get("rounding") or {}).get("radius_mm") or {}).get("smallest_hundredth"),
         "problems": report["problems"],
     }
 
