@@ -90,7 +90,7 @@ def _measured(output: Path, before: float, report: dict[str, Any]) -> dict[str, 
         return {"error": "; ".join(report["problems"])[:200] or "nothing was changed"}
     after = sum(each.filament for each in motion(output).features if each.role == ROLE)
     apart, radii, sharp, length = [], [], 0, 0.0
-    for window in windows(output.read_bytes())[::2]:
+    for window in windows(output.read_bytes(), 1, 6):
         for _, infill, _ in layers_of(window):
             paths = lines_of(infill)
             if paths:

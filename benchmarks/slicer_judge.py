@@ -1,7 +1,7 @@
 """What is measured on the G-code of the slicer report: time by one planner, and what holds the infill together.
 
 The time is that of `infill motion` for the feature sparse infill, with what leads to it: travel and retractions. Three
-planners tell whether the gain hangs on the model of the firmware. Support and contact are measured on windows of three
+planners tell whether the gain hangs on the model of the firmware. Support and contact are measured on a few runs of
 layers, spread over the print, by the second implementation that the tests have (tests/gcode_structure.py).
 """
 
@@ -18,7 +18,7 @@ from tests.gcode_judge import replayed
 from tests.gcode_structure import held_up, touched
 
 ROLE = "sparse infill"
-WINDOWS = 10  # of three layers
+WINDOWS, TALL = 3, 14  # runs of layers, and layers in a run: half a period of a gyroid, whose support comes and goes
 LAYER = re.compile(rb"^;(?:LAYER_CHANGE|LAYER:\d+)\b", re.MULTILINE)
 SPARSE = re.compile(rb"^;TYPE:(?:Internal infill|FILL)\b", re.MULTILINE)
 
@@ -88,7 +88,7 @@ def judged(path: Path, acceleration: float) -> Judged:
 
 
 def structure(data: bytes) -> tuple[float, float]:
-    """Return the shares of the infill's length that are supported and bonded, in windows of three layers."""
+    """Return the shares of the infill's length that are supported and bonded, in a few runs of layers."""
     held = whole = touching = length = 0.0
     for window in windows(data):
         some = held_up(window)
@@ -99,19 +99,24 @@ def structure(data: bytes) -> tuple[float, float]:
     return (held / whole if whole else 1.0), (touching / length if length else 0.0)
 
 
-def windows(data: bytes) -> list[bytes]:
-    """Return pieces of three layers each, evenly spread over the layers that have sparse infill."""
+def windows(data: bytes, count: int = WINDOWS, tall: int = TALL) -> list[bytes]:
+    """Return pieces of so many layers each, evenly spread over the layers that have sparse infill."""
     starts = [found.start() for found in LAYER.finditer(data)]
     ends = [*starts[1:], len(data)]
     filled = [
-        number
-        for number, (start, end) in enumerate(zip(starts, ends, strict=True))
-        if number >= 2 and SPARSE.search(data, start, end)
+        number for number, (start, end) in enumerate(zip(starts, ends, strict=True)) if SPARSE.search(data, start, end)
     ]
     if not filled:
         return []
-    chosen = np.unique(np.linspace(1, len(filled) - 1, WINDOWS + 2)[1:-1].round().astype(int)) if filled[1:] else [0]
-    relative = b"M83" in data[: starts[0]] or b"\nM83" in data[: starts[0] + 4096]
-    mode = b"G90\nM83\n" if relative else b"G90\nM82\n"
-    # Positions at the beginning of a piece are not known; its first layer is only what the second lies on.
-    return [mode + data[starts[filled[place] - 2] : ends[filled[place]]] for place in chosen]
+    mode = b"G90\nM83\n" if b"M83" in data[: starts[0] + 4096] else b"G90\nM82\n"
+    # From places that share no period with the layers; where one begins, positions are not known, so that its first
+    # layer is only what the second lies on.
+    places = np.round((np.arange(count) + 0.5) / count * len(filled)).astype(int)
+    lowest = [max(filled[place] - tall // 2, 0) for place in places]
+    pieces, done = [], 0
+    for low in lowest:
+        first, last = max(low, done), min(low + tall, len(starts))
+        if last - first > 1:
+            pieces.append(mode + data[starts[first] : ends[last - 1]])
+        done = last - 1
+    return pieces

@@ -8,7 +8,7 @@ from typing import Any
 
 from benchmarks.slicer_cases import CURA, DENSITIES, OURS, PARTS, PRINTERS, PRUSA, Case, case_of
 from benchmarks.slicer_extras import density_section, speed_section
-from benchmarks.slicer_judge import WINDOWS
+from benchmarks.slicer_judge import TALL, WINDOWS
 from benchmarks.slicer_promises import (
     SAME,
     WIDE,
@@ -48,8 +48,8 @@ corners, square corner velocity 5 mm/s, no minimum cruise ratio. A minus means l
 *Supported* is the share of the infill's length whose centre line lies on a bead of the layer below, of any feature,
 that is within half a line width of its centre line. *Bonded* is the share that another stretch of infill of the same
 layer touches: within 1.05 line widths from centre line to centre line, the path's own next 4 line widths left out. Both
-are measured on {layers} layers spread over the print, by an implementation that shares no code with the package
-(`tests/gcode_structure.py`), so they differ a little from what `refill` reports.
+are measured on {windows} runs of {tall} layers, spread over the print, by an implementation that shares no code with
+the package (`tests/gcode_structure.py`), so they differ a little from what `refill` reports.
 
 *Printers.* {printers}. The slicers lay lines 0.45 mm wide, 0.2 mm high, with two walls; PrusaSlicer retracts 0.8 mm
 with wipe and lift. No minimum layer time. The machine that ran this is shared, so that the seconds of `refill` itself
@@ -69,7 +69,7 @@ def page(results: dict[str, Any], total: int, code: str) -> str:
         INTRODUCTION,
         _stands_on(results, total, code),
         promises_section(results),
-        READING.format(printers=_printers(), layers=3 * WINDOWS),
+        READING.format(printers=_printers(), windows=WINDOWS, tall=TALL),
         *(_pattern_section(runs, "prusa", pattern) for pattern in PRUSA),
         *(_pattern_section(runs, "cura", pattern) for pattern in CURA),
         _little_section(runs),
@@ -89,7 +89,7 @@ def _stands_on(results: dict[str, Any], total: int, code: str) -> str:
     failed = sum("error" in run for run in made_runs)
     refills = [run for modes in runs.values() for mode, run in modes.items() if mode != "slicer"]
     old = sum(run.get("code") != code for run in refills)
-    stale = f"; {old} of {len(refills)} refills were made by older code of ours" if old else ""
+    stale = f"; {old} of {len(refills)} refills were made by older code, of refill or of this report" if old else ""
     return (
         f"It stands on {len(runs)} of {total} slicings ({told}), of {len({case.part for case in cases})} of "
         f"{len(PARTS)} parts, each refilled in up to three modes; {failed} runs failed{stale}. "

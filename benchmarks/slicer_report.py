@@ -78,7 +78,7 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
             continue
         there = {} if given.again else results["runs"].get(case.key, {})
         if given.stale:
-            there = {mode: run for mode, run in there.items() if mode == "slicer" or run.get("code") == code}
+            there = {mode: run for mode, run in there.items() if run.get("code") == code}
         missing = [mode for mode in MODES if mode not in there]
         if missing:
             todo.append((case, missing))
@@ -95,7 +95,8 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
             done += 1
             results["runs"].setdefault(case.key, {}).update({m: {**run, "code": code} for m, run in found.items()})
             save(results, given.results)
-            print(f"{done}/{len(todo)} {case.key}: {_line(found)}", flush=True)
+            told = _line(results["runs"][case.key])
+            print(f"{done}/{len(todo)} {case.key}: {told}", flush=True)
     for name in EXTRAS:
         if (
             (name not in results or given.again)
@@ -108,11 +109,13 @@ def fill(results: dict[str, Any], given: argparse.Namespace) -> None:
 
 
 def code_of() -> str:
-    """Return what tells the code that refills from older code of it."""
+    """Return what tells the code that refills and judges from older code."""
     found = hashlib.sha256()
     for room in ("filling", "gcode"):
         for path in sorted((ROOT / "infill" / room).rglob("*.py")):
             found.update(path.read_bytes())
+    for path in (ROOT / "benchmarks" / "slicer_judge.py", ROOT / "tests" / "gcode_structure.py"):
+        found.update(path.read_bytes())
     return found.hexdigest()[:12]
 
 

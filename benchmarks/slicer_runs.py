@@ -27,7 +27,7 @@ def run_case(case: Case, modes: list[str]) -> dict[str, dict[str, Any]]:
         own = judged(plain, case.acceleration)
         if not own.length:
             return {mode: {"error": "the slicer made no sparse infill"} for mode in modes}
-        found: dict[str, dict[str, Any]] = {}
+        found: dict[str, dict[str, Any]] = {"slicer": own.to_dict()}
         for mode in modes:
             try:
                 found[mode] = _mode(case, mode, plain, own, folder, found)
@@ -40,7 +40,7 @@ def _mode(
     case: Case, mode: str, plain: Path, own: Judged, folder: Path, found: dict[str, dict[str, Any]]
 ) -> dict[str, Any]:
     if mode == "slicer":
-        return own.to_dict()
+        return found[mode]
     if mode == "keep":
         return refilled(plain, folder, case, "keep")
     if mode == "ours":
