@@ -37,8 +37,8 @@ KEPT: dict[tuple[str, str], str] = {
     ("prusa-equalised", "keep"): "speed changes from move to move",
     ("prusa-purge", "keep"): PURGED,
     ("packed", "keep"): PACKED,
-    ("prusa-loose-lines", "honeycomb"): "lines that end before the walls tell no region",
-    ("prusa-two-tools", "honeycomb"): "where tools change in the infill, a retraction stays open",
+    ("packed", "honeycomb"): PACKED,
+    ("prusa-purge", "honeycomb"): PURGED,
     ("orca-limits", "honeycomb"): "a G4 in every section, and it is not known when to wait",
 }
 # Where fewer than half of the sections are replaced.
@@ -47,13 +47,6 @@ FEW = {("odd", "honeycomb"): "commands of all kinds stand between the beads"}
 REFUSED: dict[tuple[str, str], str] = {
     ("orca-numbered", "keep"): "with a number before it, a tag is none",
     ("orca-numbered", "honeycomb"): "with a number before it, a tag is none",
-    ("prusa-combined", "honeycomb"): COMBINED,
-    ("thick", "honeycomb"): COMBINED,
-    ("prusa-support", "honeycomb"): "no region is wide enough",
-    ("prusa-purge", "honeycomb"): PURGED,
-    ("packed", "honeycomb"): PACKED,
-    ("prusa-vase", "honeycomb"): "no infill, no pattern",
-    ("prusa-empty", "honeycomb"): "no infill, no pattern",
 }
 
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from infill.cli.console import print_json, progress_bar, reports_errors, say, table
 from infill.errors import InfillError
+
+if TYPE_CHECKING:
+    from infill.inspection.layer_speeds import LayerSpeeds
 
 PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 
@@ -27,13 +30,19 @@ def refill(
         bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
     ] = False,
     pattern: Annotated[
-        str, typer.Option(help="keep: the slicer's own paths, with round corners.", rich_help_panel=PATHS)
+        str,
+        typer.Option(
+            help="keep: the slicer's own paths, with round corners. Or one of ours: honeycomb, zigzag, "
+            "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, "
+            "schwarz-d, concentric, honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt.",
+            rich_help_panel=PATHS,
+        ),
     ] = "keep",
     density: Annotated[
         str | None,
         typer.Option(
-            help="same: with keep, beads up to 8 % wider make up for shorter paths. "
-            "(default: the slicer's filament per mm)",
+            help="same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
+            "for a pattern of ours. (default: same for ours, the slicer's filament per mm for keep)",
             rich_help_panel=PATHS,
         ),
     ] = None,
@@ -50,6 +59,17 @@ def refill(
     layers: Annotated[
         str | None, typer.Option(help="Layers to refill, counted from 1: 5-20, or 5-.", rich_help_panel=WHERE)
     ] = None,
+    part: Annotated[
+        str | None,
+        typer.Option("--object", help="Refill only objects with this in their name.", rich_help_panel=WHERE),
+    ] = None,
+    preview: Annotated[
+        Path | None,
+        typer.Option(
+            help="Picture to write of the middle layer, before and after, coloured by speed: FILE.png.",
+            rich_help_panel=FILES,
+        ),
+    ] = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what would be done.", rich_help_panel=RUN)] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object to stdout.", rich_help_panel=RUN)
@@ -59,6 +79,9 @@ def refill(
     """Give the infill of a sliced print round corners, in its G-code; nothing else changes."""
     from infill.cli.words import parse_radius, parse_range, parse_share
 
+    if preview is not None and dry_run:
+        raise typer.BadParameter("a dry run draws nothing; leave --preview out")
+    before = _before(gcode, preview, overwrite=force) if preview is not None else {}
     with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
         from infill.filling.refilling import refill as refilled
 
@@ -70,14 +93,41 @@ def refill(
             smooth_radius=parse_radius(smooth_radius),
             max_deviation=max_deviation,
             layers=None if layers is None else parse_range("layers", layers),
+            part=part,
             dry_run=dry_run,
             overwrite=force,
             progress=progress,
         )
+    if preview is not None:
+        _write_preview(before, result.path or gcode, preview)
     if not quiet:
         say(_summary(result.report, str(gcode), str(result.path) if result.path else ""))
     if as_json:
         print_json({**result.report, "files": [str(result.path)] if result.path else []})
+
+
+def _before(gcode: Path, preview: Path, *, overwrite: bool) -> dict[str, LayerSpeeds]:
+    """Return the middle layer of a print, by its caption."""
+    from infill.formats.whole_files import check_targets
+    from infill.inspection.layer_speeds import layer_speeds, middle_layer
+    from infill.pictures.preview import check_preview
+
+    check_targets([check_preview(preview)], overwrite=overwrite)
+    if not gcode.is_file():
+        return {}
+    number = middle_layer(gcode)
+    return {f"layer {number}, as sliced": layer_speeds(gcode, number)}
+
+
+def _write_preview(before: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
+    from functools import partial
+
+    from infill.formats.whole_files import deliver
+    from infill.inspection.layer_speeds import layer_speeds, middle_layer
+    from infill.pictures.speeds import write_speeds
+
+    number = middle_layer(path)
+    deliver({preview: partial(write_speeds, {**before, f"layer {number}, refilled": layer_speeds(path, number)})})
 
 
 @contextlib.contextmanager

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ONE_OF = 3  # points are looked at
-STEP = 0.1  # mm between the points that are looked at
+ONE_OF = 2  # pieces is looked at, and fewer in large layers:
+MOST_POINTS = 5000
+STEP = 0.2  # mm, of the pieces that paths are cut into
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
-MOST_NEIGHBOURS = 28  # within 1.05 line widths of 0.45 mm: 11 on the path itself, and fewer on each of the others
+MOST_NEIGHBOURS = 18  # within 1.05 line widths of 0.45 mm: 6 pieces of the path itself, and fewer of each other
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,8 +89,8 @@ def merged(one: Samples, other: Samples) -> Samples:
 def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
     """Return the middles of equal pieces of every segment, at most `step` long.
 
-    >>> sampled(np.array([[0.0, 0.0], [0.2, 0.0]]), np.array([0, 2])).points[:, 0].round(3).tolist()
-    [0.05, 0.15]
+    >>> sampled(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2])).points[:, 0].round(3).tolist()
+    [0.1, 0.3]
     """
     path = np.repeat(np.arange(len(first) - 1), np.diff(first))
     segment = np.flatnonzero(np.diff(path) == 0)
@@ -130,14 +131,15 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
     random = np.random.default_rng(0)
-    some = np.arange(0, len(infill.points), ONE_OF)
-    some = np.minimum(some + random.integers(0, ONE_OF, len(some)), len(infill.points) - 1)
+    apart = max(ONE_OF, len(infill.points) // MOST_POINTS)
+    some = np.arange(0, len(infill.points), apart)
+    some = np.minimum(some + random.integers(0, apart, len(some)), len(infill.points) - 1)
     points = infill.points[some] + infill.half[some] * random.uniform(-1, 1, (len(some), 1))
     weight = infill.weight[some] * (infill.weight.sum() / infill.weight[some].sum())
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
         reach = line_width / 2
-        _, other = cKDTree(below.points).query(points, k=2, distance_upper_bound=reach + STEP / 2)
+        _, other = cKDTree(below.points).query(points, k=3, distance_upper_bound=reach + STEP / 2)
         supported |= (_distances(points, below, other) <= reach).any(axis=1)
     bonded = _beside(points, some, infill, TOUCHING * line_width)
     return Contact(

@@ -361,6 +361,9 @@ def _chosen(
     if rules.request.layers is not None:
         low, high = rules.request.layers
         reasons["not among the layers asked for"] = (layer < low) | (layer > high)
+    if rules.request.part is not None:
+        wanted = [number for number, name in marks.names.items() if rules.request.part in name]
+        reasons["another object"] = ~np.isin(marks.section[opens], wanted)
     reasons["slowed down to cool"] = _slowed(table, marks, layer, table.f[opens], rules)
     ends = np.stack([infill.points[infill.first[:-1]], infill.points[infill.first[1:] - 1]])
     last = infill.line[infill.first[1:] - 1] == len(table) - 1

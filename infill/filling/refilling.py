@@ -9,6 +9,7 @@ Step 4. Tell time and filament anew, and put the new file in the place of the ol
 from __future__ import annotations
 
 import io
+import math
 import os
 import shutil
 from collections.abc import Callable, Iterable, Iterator
@@ -205,12 +206,19 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
-    change = change.as_told([line for _, line, _ in tally.lines], tally.change)
+    change = change.as_told([line for _, line, _ in tally.lines], tally.change, _section(found))
     edits: list[tuple[int, int, bytes]] = []
     if tally.replaced:
         edits = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
         edits.append(_stamp(draft, tally))
     return _Done(report=report, tally=tally, edits=tuple(sorted(edits)), change=change, said=said)
+
+
+def _section(found: Survey) -> float:
+    """Return the section of the filament, mm², if the print counts filament by volume, else 1."""
+    volumetric = found.settings.get("use_volumetric_e", "0") not in ("0", "")
+    diameter = found.number("filament_diameter") or 1.75
+    return math.pi / 4 * diameter**2 if volumetric else 1.0
 
 
 def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:

@@ -24,6 +24,7 @@ LEAST_SHARE = 0.94
 AIM = 0.941  # what layers here and there must keep, so that all of them keep the least
 # mm; tried from the largest down. Beyond them, legs are what limits an arc.
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
+ENOUGH = 1000.0  # mm of infill in a layer
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 
@@ -43,9 +44,12 @@ class Sample:
     @cached_property
     def filled(self) -> list[int]:
         """Layers with infill, the lowest left out unless it is the only one: nothing is known of what is below it."""
-        there = np.unique(self.marks.layer[first_moves(self.infill)]).tolist()
+        layer = self.marks.layer[first_moves(self.infill)]
         lowest = int(self.marks.layer.min())
-        return [number for number in there if number > lowest + 1] or there[-1:]
+        there = np.unique(layer).tolist()
+        found = [number for number in there if number > lowest] or there[-1:]
+        # One is enough where there is much of it.
+        return found[-1:] if found and self.infill.length[layer == found[-1]].sum() > ENOUGH else found
 
 
 def samples(found: Survey) -> list[Sample]:

@@ -16,6 +16,7 @@ from infill.gcode.table import ARC, MOVE, ODD, Table
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
+LEAST_STEP = 1e-6  # mm
 ALIKE = 0.03  # strokes of one section that are drawn anew extrude alike to this share
 # What a machine is told on the way, and may as well be told at the end of a section.
 HARMLESS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
@@ -128,7 +129,7 @@ def _oddness(
             return f"a {code or 'strange'} command in between"
     # Everything that extrudes between its first and last move must be a stroke.
     drawn = np.flatnonzero(table.extruded[inside] > 0) + first
-    moving = drawn[table.given[drawn, :2].any(axis=1)]
+    moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
     own = np.isin(moving, infill.line)
     return "" if own.all() and (marks.section[inside] == marks.section[first]).all() else "extrusion of another kind"
 
@@ -160,7 +161,7 @@ class Ways:
 
 def ways_of(table: Table, before: Ways | None = None) -> Ways:
     """Return how a table travels and retracts: the usual amounts and feed rates."""
-    moved = table.given[:, :2].any(axis=1)
+    moved = table.given[:, 0] | table.given[:, 1]
     still = (table.kind == MOVE) & ~moved
     back, forth = still & (table.extruded < 0), still & (table.extruded > 0)
     travel = (table.kind == MOVE) & moved & (table.extruded == 0)
@@ -225,11 +226,8 @@ def composed(
     whole = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
     drawn = 0.0
     for path, retract in zip(paths, retracts[:-1], strict=True):
-        while held and held[0][0] * whole <= drawn:
-            pieces.append(held.pop(0)[1])
         go(path[0], retract)
         along = np.cumsum(np.hypot(*np.diff(path, axis=0).T))
-        drawn += float(along[-1])
         steps = np.rint((pushed + along * rate) / FILAMENT_UNIT)
         if relative:
             words = np.diff(steps, prepend=np.rint(pushed / FILAMENT_UNIT)) * FILAMENT_UNIT
@@ -241,7 +239,15 @@ def composed(
         if feed != body.feed:
             feeds[0] = feed = body.feed
         columns = [(b" X", path[1:, 0], 3), (b" Y", path[1:, 1], 3), (b" E", words, 5), (b" F", feeds, 3)]
-        pieces.append(write_words(columns, b"G1", ends).text)
+        rows = write_words(columns, b"G1", ends)
+        done = 0
+        while held and held[0][0] * whole < drawn + along[-1]:  # a line that stood between moves
+            share, text = held.pop(0)
+            row = int(np.searchsorted(along, share * whole - drawn + LEAST_STEP))
+            pieces += [rows.text[rows.start[done] : rows.start[row]], text]
+            done = row
+        pieces.append(rows.text[rows.start[done] :])
+        drawn += float(along[-1])
         here = path[-1]
     go(body.end, retracts[-1])
     pieces.extend(text for _, text in held)
@@ -281,7 +287,7 @@ def unlawful(other: Table, done: Spliced, some: Sequence[Body], texts: Sequence[
     fresh = np.ones(len(other), dtype=bool)
     old = np.flatnonzero(done.same)
     fresh[old + done.shift[old]] = False
-    drawn = fresh & (other.kind == MOVE) & other.given[:, :2].any(axis=1) & (other.extruded != 0)
+    drawn = fresh & (other.kind == MOVE) & (other.given[:, 0] | other.given[:, 1]) & (other.extruded != 0)
     if (other.kind[fresh] == ODD).any():
         return "a new line that cannot be read"
     if (other.extruded[drawn] < 0).any():
@@ -322,7 +328,7 @@ def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: by
 def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
     """Return the lines of a body that are no moves, in their order, with the share of the filament before each."""
     inside = slice(body.first, body.last + 1)
-    moved = table.given[inside, :2].any(axis=1)
+    moved = table.given[inside, 0] | table.given[inside, 1]
     pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
     share = pushed / max(float(pushed[-1]), 1e-12)
     kept = np.flatnonzero(table.kind[inside] != MOVE)

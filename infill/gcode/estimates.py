@@ -36,7 +36,7 @@ class Change:
     filament: float = 1.0
     tools: tuple[float, ...] = ()
 
-    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float]) -> Change:
+    def as_told(self, lines: Iterable[bytes], change: Mapping[int, float], area: float = 1.0) -> Change:
         """Return the change with ratios of the filament that the print says it takes, if it says so by tool.
 
         Parameters
@@ -44,12 +44,14 @@ class Change:
         lines : iterable of bytes
             That tell time or filament.
         change : mapping of int to float
-            mm of filament more, by tool.
+            Filament more, by tool, in what the print counts: mm, or mm³ for volumetric E.
+        area : float
+            Section of the filament, mm², for volumetric E; else 1.
         """
         for line in lines:
             if line.startswith(b"; filament used [mm] = "):
                 said = [float(number) for number in _NUMBER.findall(line.partition(b" = ")[2])]
-                now = [length + change.get(tool, 0.0) for tool, length in enumerate(said)]
+                now = [length + change.get(tool, 0.0) / area for tool, length in enumerate(said)]
                 if all(length > 0 for length in now if length) and sum(said) > 0:
                     ratios = tuple(new / old if old > 0 else 1.0 for new, old in zip(now, said, strict=True))
                     return replace(self, filament=sum(now) / sum(said), tools=ratios)

@@ -34,6 +34,8 @@ class Tags:
         mm, NaN while unknown.
     part : int
         Number of tags so far that begin or end an object.
+    name : str
+        Of the object; "" if none is said.
     wiping : bool
     acceleration : float
         mm/s² of printing moves as last commanded; NaN while unknown.
@@ -44,6 +46,7 @@ class Tags:
     width: float = NAN
     height: float = NAN
     part: int = 0
+    name: str = ""
     wiping: bool = False
     acceleration: float = NAN
 
@@ -63,6 +66,8 @@ class Marks:
     layer : (N,) int
     width, height, acceleration : (N,) float64
     wiping : (N,) bool
+    names : dict of int to str
+        By section, the name of its object.
     tagged : (N,) bool
         The line is such a tag.
     after : Tags
@@ -77,6 +82,7 @@ class Marks:
     height: Floats
     acceleration: Floats
     wiping: NDArray[np.bool_]
+    names: dict[int, str]
     tagged: NDArray[np.bool_]
     after: Tags
 
@@ -144,6 +150,7 @@ def marked(table: Table, before: Tags) -> Marks:
         height=spread([tags.height for tags in said]),
         acceleration=spread([tags.acceleration for tags in said]),
         wiping=np.repeat(np.array([tags.wiping for tags in said]), count),
+        names={int(number): tags.name for number, tags in zip(new, said, strict=True)},
         tagged=tagged,
         after=now,
     )
@@ -156,7 +163,8 @@ def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
         case "layer":
             return replace(tags, role=UNTAGGED, layer=tags.layer + 1)
         case "object" | "object end":
-            return replace(tags, part=tags.part + 1)
+            name = value.decode("utf-8", "replace") if meaning == "object" else ""
+            return replace(tags, part=tags.part + 1, name=name)
         case "width":
             return replace(tags, width=_length(value, tags.width))
         case "height":
@@ -219,7 +227,7 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
         passive[command.line] |= command.code in TALK
     feed = _shifted(table.f, table.before.f)
     with np.errstate(invalid="ignore"):
-        passive |= (table.kind == MOVE) & ~table.given[:, [0, 1, 2, 3]].any(axis=1) & (table.f == feed)
+        passive |= (table.kind == MOVE) & ~table.moves & (table.f == feed)
     here = np.flatnonzero(drawn)
     broken = np.cumsum(~(drawn | passive))
     rate = table.extruded[here] / length[here]

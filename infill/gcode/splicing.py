@@ -212,7 +212,7 @@ def _wrong_moves(strokes: Strokes, new: Redrawn, done: Spliced, other: Table) ->
     fresh = np.ones(len(other), dtype=bool)
     old = np.flatnonzero(done.same)
     fresh[old + done.shift[old]] = False
-    move = np.flatnonzero(fresh & (other.kind == MOVE) & other.given[:, :2].any(axis=1))
+    move = np.flatnonzero(fresh & (other.kind == MOVE) & (other.given[:, 0] | other.given[:, 1]))
     owner = np.repeat(np.arange(len(new.which)), np.diff(new.first) - 1)
     if len(move) != len(owner):
         return "the number of new moves"

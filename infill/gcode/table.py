@@ -144,6 +144,13 @@ class Table:
     def __len__(self) -> int:
         return len(self.kind)
 
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """Whether each line has a word that moves something: X, Y, Z or E."""
+        given = self.given
+        something: NDArray[np.bool_] = given[:, 0] | given[:, 1] | given[:, 2] | given[:, 3]
+        return something
+
     def text(self, first: int, last: int) -> bytes:
         """Return lines `first` to `last` (exclusive) as they stand in the file."""
         return self.data[self.start[first] : self.start[last]]

@@ -14,6 +14,7 @@ from infill.errors import ParameterError
 from infill.gcode.columns import chained, part
 from infill.gcode.dialect import role_of
 from infill.gcode.planner import Plan
+from infill.gcode.stream import LAYER_TAG, batches
 from infill.gcode.timeline import Steps, Timeline
 from infill.inspection.printing_time import given_limits
 
@@ -105,3 +106,9 @@ def _speed(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) 
         rising = entry**2 + 2 * acceleration * share * length
         falling = leaving**2 + 2 * acceleration * (1 - share) * length
     return np.asarray(np.sqrt(np.minimum(np.minimum(rising, falling), peak**2)))
+
+
+def middle_layer(path: str | os.PathLike[str]) -> int:
+    """Return the number of the layer in the middle of a print, counted from 1."""
+    with open(path, "rb") as file:
+        return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(file)) // 2)
