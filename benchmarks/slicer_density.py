@@ -7,7 +7,6 @@ filament; the least distance of two strands; turns; the smallest radius of what 
 from __future__ import annotations
 
 import itertools
-import os
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -64,7 +63,6 @@ def outline(region: str) -> shapely.Polygon:
 
 
 def _region(region: str, density: float) -> dict[str, Any]:
-    os.nice(5)
     found: dict[str, Any] = {}
     with tempfile.TemporaryDirectory(prefix="slicer-density-") as name:
         folder = Path(name)
