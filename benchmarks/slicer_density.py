@@ -117,7 +117,12 @@ def distances(paths: list[np.ndarray]) -> np.ndarray:
     points, along, path = samples(paths)
     near = np.full(len(points), 2 * WIDTH)
     i, j = cKDTree(points).query_pairs(2 * WIDTH, output_type="ndarray").reshape(-1, 2).T
-    other = (path[i] != path[j]) | (np.abs(along[i] - along[j]) > 4 * WIDTH)
+    away = np.abs(along[i] - along[j])
+    # The two ends of a loop that closes are one place of it.
+    length = np.array([along[path == number].max(initial=0.0) for number in range(len(paths))])
+    loop = np.array([np.hypot(*(each[-1] - each[0])) < 2 * WIDTH for each in paths])
+    away = np.where(loop[path[i]], np.minimum(away, length[path[i]] - away), away)
+    other = (path[i] != path[j]) | (away > 4 * WIDTH)
     i, j = i[other], j[other]
     apart = np.hypot(*(points[i] - points[j]).T)
     np.minimum.at(near, i, apart)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from benchmarks.slicer_cases import CURA, MODES, PARTS, PRUSA, case_of, cases, quick
-from benchmarks.slicer_density import SPACING, curvature, distances
+from benchmarks.slicer_density import SPACING, WIDTH, curvature, distances
 from benchmarks.slicer_judge import judged, structure, windows
 from benchmarks.slicer_page import page
 from benchmarks.slicer_promises import kept, promises, saved, turns
@@ -72,6 +72,13 @@ def test_strands_too_near_and_sharp_turns_are_seen() -> None:
     assert apart == pytest.approx(SPACING, abs=0.01)  # samples are 0.1 mm apart
     assert distances([line, line + np.array([0, 0.2])]).min() < 0.95 * SPACING
     assert curvature([np.array([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]])])[1] == 1
+
+
+def test_where_a_loop_closes_no_strand_is_too_near() -> None:
+    turn = np.linspace(0, 2 * np.pi, 200)
+    loop = 5 * np.column_stack([np.cos(turn), np.sin(turn)])
+    assert distances([loop]).min() == 2 * WIDTH  # nothing nearer than what is looked at
+    assert distances([loop, 0.97 * loop]).min() == pytest.approx(0.15, abs=0.01)
 
 
 def test_the_most_telling_cases_come_first() -> None:
