@@ -100,7 +100,7 @@ def test_the_length_may_be_measured_otherwise() -> None:
         FAMILIES["honeycomb"],
         900,
         line_width=WIDTH,
-        measure=lambda paths: 0.9 * total_length(paths),
+        measure=lambda paths, _: 0.9 * total_length(paths),
     )
     paths = cover(DISC, FAMILIES["honeycomb"], cell=solved.cell, line_width=WIDTH, z=Z, layer=LAYER)
     assert 0.9 * length_of(paths) == pytest.approx(900, rel=0.005)

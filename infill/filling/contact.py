@@ -15,12 +15,14 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ONE_OF = 2  # pieces is looked at, and fewer in large layers:
-MOST_POINTS = 5000
+ONE_OF = 2  # pieces is looked at, and fewer in large layers; all of a few, or shares would be off
+FEW, MOST_POINTS = 2000, 5000
 STEP = 0.2  # mm, of the pieces that paths are cut into
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
-MOST_NEIGHBOURS = 18  # within 1.05 line widths of 0.45 mm: 6 pieces of the path itself, and fewer of each other
+# Within 1.05 line widths of 0.45 mm lie 6 pieces of the path itself, and fewer of each other; more are looked at
+# where beads are wider, or chords shorter.
+NEIGHBOURS = 18
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,7 +133,7 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
     random = np.random.default_rng(0)
-    apart = max(ONE_OF, len(infill.points) // MOST_POINTS)
+    apart = max(ONE_OF, len(infill.points) // MOST_POINTS) if len(infill.points) > FEW else 1
     some = np.arange(0, len(infill.points), apart)
     some = np.minimum(some + random.integers(0, apart, len(some)), len(infill.points) - 1)
     points = infill.points[some] + infill.half[some] * random.uniform(-1, 1, (len(some), 1))
@@ -166,12 +168,20 @@ def _beside(points: Floats, piece: Places, infill: Samples, reach: float) -> NDA
     """Return which points, on certain pieces of some infill, have another stretch of it within `reach`."""
     from scipy.spatial import cKDTree
 
-    count = min(MOST_NEIGHBOURS, len(infill.points))
-    _, other = cKDTree(infill.points).query(points, k=count, distance_upper_bound=reach + STEP / 2)
-    other = other.reshape(len(points), -1)
-    near = _distances(points, infill, other) <= reach
-    other = np.minimum(other, len(infill.points) - 1)
-    same = infill.path[other] == infill.path[piece, None]
-    own = np.abs(infill.along[other] - infill.along[piece, None]) <= OWN * reach / TOUCHING
-    touches: NDArray[np.bool_] = np.logical_and(near, ~np.logical_and(same, own)).any(axis=1)
+    tree, number = cKDTree(infill.points), len(infill.points)
+    touches: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
+    left, count = np.arange(len(points)), NEIGHBOURS
+    while len(left):
+        count = min(count, number)
+        _, other = tree.query(points[left], k=count, distance_upper_bound=reach + STEP / 2)
+        other = other.reshape(len(left), -1)
+        near = _distances(points[left], infill, other) <= reach
+        full = other[:, -1] < number
+        other = np.minimum(other, number - 1)
+        same = infill.path[other] == infill.path[piece[left], None]
+        own = np.abs(infill.along[other] - infill.along[piece[left], None]) <= OWN * reach / TOUCHING
+        touches[left] = np.logical_and(near, ~np.logical_and(same, own)).any(axis=1)
+        if count == number:
+            break
+        left, count = left[full & ~touches[left]], 4 * count
     return touches

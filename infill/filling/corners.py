@@ -27,7 +27,7 @@ Places = NDArray[np.intp]
 SHARPEST = math.radians(172)  # a path that turns back on itself keeps its corner
 LEAST_DEVIATION = 0.001  # mm: less than the numbers of G-code can tell
 COARSEST = 0.02  # mm between a chord and its arc
-SHORTEST_CHORD = 0.06  # mm
+SHORTEST_CHORD = 0.06  # mm: speed is no reason for shorter ones
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,10 +156,10 @@ def _chords(arc: Floats, turn: Floats, machine: Machine, here: Places) -> Places
     """Return into how many chords each arc is cut."""
     arc = np.where(np.isfinite(arc), np.maximum(arc, 1e-9), 1e9)
     speed = np.minimum(np.sqrt(_at(machine.acceleration, here) * arc), _at(machine.speed, here))
-    most = np.minimum(machine.corner / speed, 2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0)))
-    chords = np.ceil(turn / most - 1e-9)
-    longest: Floats = np.maximum(1.0, np.floor(turn * arc / SHORTEST_CHORD))
-    number: Places = np.clip(chords, 1, longest).astype(np.intp)
+    quick = np.ceil(turn * speed / machine.corner - 1e-9)
+    quick = np.minimum(quick, np.floor(turn * arc / SHORTEST_CHORD))
+    close = np.ceil(turn / (2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0))) - 1e-9)
+    number: Places = np.maximum(np.maximum(quick, close), 1).astype(np.intp)
     return number
 
 

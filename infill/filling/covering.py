@@ -96,7 +96,7 @@ def solve_cell(
     radius: float = 0.0,
     anchor: float = ANCHOR,
     anchor_max: float = ANCHOR_MAX,
-    measure: Callable[[Sequence[Path]], float] | None = None,
+    measure: Callable[[Sequence[Path], float], float] | None = None,
 ) -> Solved:
     """Return the cell at which a family's paths in some regions are as long as asked, together.
 
@@ -114,7 +114,8 @@ def solve_cell(
     line_width, radius, anchor, anchor_max
         As for `cover`.
     measure : callable, optional
-        What counts as the length of paths, mm: after rounding, for instance. `total_length` if it is not given.
+        What counts as the length of paths, mm, drawn at a cell, mm: after rounding, for instance. `total_length` if it
+        is not given.
 
     Raises
     ------
@@ -129,16 +130,13 @@ def solve_cell(
         raise ParameterError(
             f"{wanted:g} mm of beads {least:g} mm apart do not fit into {area:g} mm²; ask for a lower density"
         )
-    counted = measure or total_length
 
     def ratio(cell: float) -> float:
-        return (
-            sum(
-                counted(_joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max))
-                for outline, z, layer in outlines
-            )
-            / wanted
-        )
+        length = 0.0
+        for outline, z, layer in outlines:
+            paths = _joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max)
+            length += total_length(paths) if measure is None else measure(paths, cell)
+        return length / wanted
 
     found: list[tuple[float, float]] = []
     for cell, share in _steps(ratio, max(least, family.cell_for(wanted * least / area, line_width)), least):

@@ -26,6 +26,7 @@ GENTLE = math.radians(40)  # a turn above this is a corner
 MOST_BULGE = 0.1  # mm between a curve and the slicer's chord
 PIECES = 4  # of a leg, to integrate along it
 STRAIGHTEST = 1e-6  # 1/mm
+MOST_MISSED = 1.5 * COARSEST  # mm between an old point of a curve and the new chords
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,15 +78,18 @@ def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats
     longer = np.maximum(length[:-1], length[1:])
     gentle = np.zeros(count, dtype=bool)
     gentle[1:-1] = same[:-1] & same[1:] & (np.minimum(length[:-1], length[1:]) > 0)
-    most = bulge[1:-1] if isinstance(bulge, np.ndarray) else bulge
-    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < most)
+    most = np.broadcast_to(bulge, count)
+    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < most[1:-1])
     bent = np.flatnonzero(gentle[:-1] & gentle[1:] & same)
-    if not len(bent):
-        return Recut(points=points, first=first, source=np.arange(count), curved=np.zeros(count, dtype=bool))
     # The circle through three points turns towards each neighbour by that leg's share.
     part = np.zeros(count)
     part[1:-1] = length[:-1] / np.maximum(length[:-1] + length[1:], 1e-300)
     leaving, arriving = -turn[bent] * (1 - part[bent]), turn[bent + 1] * part[bent + 1]
+    # A leg beside shorter ones takes nearly all of the turn at both of its ends.
+    low = _bulges(length[bent], np.abs(leaving), np.abs(arriving)) < np.minimum(most[bent], most[bent + 1])
+    bent, leaving, arriving = bent[low], leaving[low], arriving[low]
+    if not len(bent):
+        return Recut(points=points, first=first, source=np.arange(count), curved=np.zeros(count, dtype=bool))
     start, end = heading[bent] + leaving, heading[bent] + arriving
     handle = length[bent] / 3
     control = np.stack(
@@ -96,7 +100,22 @@ def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats
             points[bent + 1],
         ]
     )
-    return _resampled(points, first, bent, control, machine)
+    number = _chords(control, bent, machine)
+    opens = np.flatnonzero(np.diff(bent, prepend=-2) != 1)  # where a run of curved legs begins
+    while True:
+        done, astray = _resampled(points, first, bent, control, number, opens)
+        if not len(astray):
+            return done
+        opens = np.union1d(opens, astray)  # these joints stay
+
+
+def _bulges(length: Floats, one: Floats, other: Floats) -> Floats:
+    """Return how far cubic curves leave their legs at most, from the angles at both ends.
+
+    That is L α / 4 if they are equal, 4 L α / 27 if one of them is 0, and no more than between these elsewhere.
+    """
+    found: Floats = length * (np.minimum(one, other) / 4 + np.abs(one - other) * 4 / 27)
+    return found
 
 
 def _wrapped(angle: Floats) -> Floats:
@@ -131,11 +150,15 @@ def _chords(control: Floats, bent: Places, machine: Machine) -> Floats:
     return number
 
 
-def _resampled(points: Floats, first: Places, bent: Places, control: Floats, machine: Machine) -> Recut:
-    """Put new points in the place of those inside runs of curved legs."""
+def _resampled(
+    points: Floats, first: Places, bent: Places, control: Floats, number: Floats, opens: Places
+) -> tuple[Recut, Places]:
+    """Put new points in the place of those inside runs of curved legs.
+
+    Return also the curved legs that begin at an old point which the new chords miss: where a curve is straight for
+    long and then turns, its length tells too little.
+    """
     count = len(points)
-    number = _chords(control, bent, machine)
-    opens = np.flatnonzero(np.diff(bent, prepend=-2) != 1)  # where a run of curved legs begins
     run = np.repeat(np.arange(len(opens)), np.diff(np.append(opens, len(bent))))
     whole = np.add.reduceat(number.sum(axis=1), opens)
     chords = np.maximum(1, np.ceil(whole - 1e-9)).astype(np.intp)
@@ -151,6 +174,13 @@ def _resampled(points: Floats, first: Places, bent: Places, control: Floats, mac
     lowest, highest = opens[of], np.append(opens[1:], len(bent))[of] - 1
     leg = np.clip(place.astype(np.intp), lowest, highest)
     new = _bezier(control[:, leg], np.clip(place - leg, 0.0, 1.0))
+    starts = np.empty((int(before[-1]), 2))
+    starts[before[:-1]], starts[inner] = points[bent[opens]], new
+    ends = np.roll(starts, -1, axis=0)
+    ends[before[1:] - 1] = points[bent[np.append(opens[1:], len(bent)) - 1] + 1]
+    joint = np.setdiff1d(np.arange(len(bent)), opens)
+    chord = np.clip(along[joint * PIECES].astype(np.intp), before[run[joint]], before[run[joint] + 1] - 1)
+    astray = joint[_distances(points[bent[joint]], starts[chord], ends[chord]) > MOST_MISSED]
     stays = np.ones(count, dtype=bool)
     stays[bent] = False
     stays[bent[opens]] = True
@@ -161,9 +191,17 @@ def _resampled(points: Floats, first: Places, bent: Places, control: Floats, mac
     order = np.lexsort((np.concatenate([np.zeros(len(old)), place + 1]), source))
     found = np.concatenate([points[old], new])[order]
     source = source[order]
-    return Recut(
+    done = Recut(
         points=found,
         first=np.searchsorted(source, first),
         source=source,
         curved=np.concatenate([on_curve[old], np.ones(len(new), dtype=bool)])[order],
     )
+    return done, astray
+
+
+def _distances(points: Floats, starts: Floats, ends: Floats) -> Floats:
+    """Return the distance, mm, of each point from a chord of its own."""
+    chord, delta = ends - starts, points - starts
+    share = (delta * chord).sum(axis=1) / np.maximum((chord**2).sum(axis=1), 1e-300)
+    return np.asarray(np.hypot(*(delta - np.clip(share, 0.0, 1.0)[:, None] * chord).T))

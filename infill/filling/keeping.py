@@ -137,7 +137,10 @@ def smoothed(
         machine=machine(curves.first),
         unit=UNIT,
     )
-    return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=done.radius)
+    radius = np.full(len(points), np.inf)
+    kept = np.flatnonzero(~curves.curved)
+    radius[curves.source[kept]] = done.radius[kept]
+    return Rounded(points=done.points, first=done.first, source=curves.source[done.source], radius=radius)
 
 
 def _by_layer(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from infill.filling.contact import Contact
 from infill.filling.keeping import Rounding, first_moves, lengths, line_width, redrawn, rounded_strokes
 from infill.filling.measuring import MEASURED, Below, Drawing, drawing, measured
-from infill.filling.replacing import Memory, Plan, fresh_sections, outside, retractions
+from infill.filling.replacing import Fresh, Memory, Plan, fresh_sections, outside, retractions
 from infill.filling.request import SAME, Request
 from infill.filling.support import Sample
 from infill.filling.surroundings import beads
@@ -27,6 +27,7 @@ Places = NDArray[np.intp]
 
 LEAST_RADIUS = 0.02  # mm: below this a corner beside a wall was hardly touched
 LEAST_TRAVEL = 1.0  # mm: shorter ways are never retracted
+SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the file tells
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 SLOWED = 0.97  # a layer whose infill is slower than this share of the usual was slowed down to cool
 
@@ -255,12 +256,12 @@ def _replaced(
     fresh = [each for each in fresh if may[each.body.strokes].all()]
     for reason, number in reasons.items():
         _count(tally, reason, number)
-    leaving = [each for each in fresh if outside(each)]
-    if leaving:
-        _count(tally, "a path would leave its region", len(leaving))
-        fresh = [each for each in fresh if each not in leaving]
+    within = [each for each in fresh if not outside(each)]
+    _count(tally, "a path would leave its region", len(fresh) - len(within))
+    fresh = within
     if not fresh:
         return _nothing(table, infill, before, tally)
+    fresh = _unhurried(table, marks, fresh, rules)
     texts, filament = [], []
     for each in fresh:
         text, pushed, _ = composed(table, each.body, each.paths, each.rate, ways, retractions(each, LEAST_TRAVEL))
@@ -301,6 +302,19 @@ def _replaced(
     first = np.array([each.body.first for each in fresh])
     _add(tally.change, tools[first], np.array(filament) - np.array([each.body.filament for each in fresh]))
     return done.text, tally
+
+
+def _unhurried(table: Table, marks: Marks, fresh: list[Fresh], rules: Rules) -> list[Fresh]:
+    """Slow down new paths that are shorter than the old ones, in layers that may be as short as cooling allows."""
+    short = _layer_seconds(table, marks) < max(SHORT_LAYER, rules.least_layer)
+    slowed = []
+    for each in fresh:
+        body = each.body
+        length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in each.paths)
+        if short[body.layer - int(marks.layer[0])] and 0 < length < body.length:
+            body = replace(body, feed=body.feed * length / body.length)
+        slowed.append(replace(each, body=body))
+    return slowed
 
 
 def _accelerations(marks: Marks, line: Places, rules: Rules) -> Floats:
@@ -345,8 +359,7 @@ def _count(tally: Tally, reason: str, number: int) -> None:
 
 def _count_corners(infill: Strokes, changed: NDArray[np.bool_], radius: Floats, tally: Tally) -> None:
     bent = np.repeat(changed, np.diff(infill.first))
-    radius = radius[: len(bent)] if len(radius) == len(bent) else radius
-    found = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
+    found = radius[bent & (radius > LEAST_RADIUS) & np.isfinite(radius)]
     tally.corners += len(found)
     tally.radii.add(found)
 
@@ -384,12 +397,16 @@ def _slowed(table: Table, marks: Marks, layer: Places, speed: Floats, rules: Rul
     if not rules.least_layer:
         return slowed
     slowed |= speed < SLOWED * rules.usual_speed
-    x = np.diff(table.x, prepend=table.before.x)
-    y = np.diff(table.y, prepend=table.before.y)
-    seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
-    number = marks.layer - marks.layer[0]
-    each = np.bincount(number, weights=seconds)
+    each = _layer_seconds(table, marks)
     # Rounding takes a tenth of the length of the infill at most.
     short = each * 0.9 < rules.least_layer
     found: NDArray[np.bool_] = slowed | short[layer - marks.layer[0]]
     return found
+
+
+def _layer_seconds(table: Table, marks: Marks) -> Floats:
+    """Return how long each layer of a table takes at its feed rates, without acceleration, as slicers reckon."""
+    x = np.diff(table.x, prepend=table.before.x)
+    y = np.diff(table.y, prepend=table.before.y)
+    seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
+    return np.bincount(marks.layer - marks.layer[0], weights=seconds).astype(np.float64)

@@ -141,7 +141,10 @@ def refill(
         if dry_run or (nothing and output is None):
             return RefillResult(report=done.report, path=None)
         if nothing:  # a copy
-            shutil.copyfile(source, target)
+            if not _same(source, target):
+                with whole_file(target) as file, source.open("rb") as old:
+                    copy_mode(source, file)
+                    shutil.copyfileobj(old, file)
             return RefillResult(report=done.report, path=target)
         if progress is not None:
             progress("writing", 0.95)
@@ -149,6 +152,10 @@ def refill(
             copy_mode(source, file)
             write_print(given, file, done.text(draft), done.change, done.said)
     return RefillResult(report=done.report, path=target)
+
+
+def _same(source: Path, target: Path) -> bool:
+    return target.exists() and target.samefile(source)
 
 
 def _refilled_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
@@ -159,7 +166,8 @@ def _refilled_lines(lines: Iterable[str], request: Request, progress: Progress |
     done = _refilled(given, draft, request, progress)
     if done.tally is not None and done.tally.replaced:
         text = b"".join(done.text(draft)).decode("utf-8", "surrogateescape")
-    return RefillResult(report=done.report, path=None, lines=tuple(text.splitlines(keepends=True)))
+    # Not splitlines: comments may hold what it takes for the end of a line.
+    return RefillResult(report=done.report, path=None, lines=tuple(f"{line}\n" for line in text.split("\n")[:-1]))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -257,7 +265,7 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
     rules = rules.with_survey(found, some)
     if request.pattern != KEEP:
         family = family_of(request.pattern)
-        density = request.density if isinstance(request.density, float) else None
+        density = None if isinstance(request.density, str | None) else float(request.density)
         plan = planned(family, some, rounding, density=density, acceleration=acceleration)
         return rules.with_plan(plan) if plan is not None else rules.with_deviation(0.0)
     if request.smooth_radius == "auto" and some:

@@ -67,10 +67,11 @@ def region_of(walls: Floats, infill: Floats, before: Region | None = None) -> Re
         return Region(polygons=(), distance=USUAL_DISTANCE)
     tree = cKDTree(walls)
     distance = _kept_distance(tree.query(infill, distance_upper_bound=ALONG_WALLS)[0])
-    if before is not None and _fits(before, tree, infill, distance):
+    if before is not None and _fits(before, tree, walls, infill, distance):
         return before
     low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
-    if np.prod((high - low) / NODES) > MOST_NODES:
+    wide, deep = ((high - low) / NODES).tolist()
+    if wide * deep > MOST_NODES:
         return Region(polygons=(), distance=distance)
     x, y = (np.arange(low[axis], high[axis] + NODES, NODES) for axis in (0, 1))
     nodes = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
@@ -89,7 +90,7 @@ def _kept_distance(near: Floats) -> float:
     return float(np.quantile(beside, SHARE_BESIDE))
 
 
-def _fits(region: Region, tree: object, infill: Floats, distance: float) -> bool:
+def _fits(region: Region, tree: object, walls: Floats, infill: Floats, distance: float) -> bool:
     """Return whether the region of another layer is that of this one too."""
     import shapely
 
@@ -104,6 +105,9 @@ def _fits(region: Region, tree: object, infill: Floats, distance: float) -> bool
         return False
     whole = shapely.union_all([polygon.buffer(0.1) for polygon in region.polygons])
     shapely.prepare(whole)
+    # A hole that begins in this layer may be far from every outline.
+    if shapely.contains_xy(whole, walls[:, 0], walls[:, 1]).any():
+        return False
     inside = shapely.contains_xy(whole, infill[:, 0], infill[:, 1])
     return bool(inside.mean() > 0.99)
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.contact import STEP as CONTACT_STEP
-from infill.filling.contact import sampled
+from infill.filling.contact import Samples, sampled
 from infill.filling.covering import cover, solve_cell
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.heart import ConcentricHeart
@@ -34,11 +33,14 @@ Paths = list[Floats]
 LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
 SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
-INSIDE = 0.02  # mm that a path may leave its region
+INSIDE = 0.01  # mm that a path may leave its region
 LARGEST_RADIUS = 1000.0  # mm: as large as it gets
-OFF = 0.05  # of the length that an area should have, before it gets a cell of its own
-FAR_OFF = 0.3  # of it, before a column changes its cell, so that its layers no longer lie on one another
+OFF = 0.08  # of the length that an area should have, which beads cannot make up for, before it gets a cell of its own
+FAR_OFF = 0.12  # of it, before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
+NEAR = 0.02  # of the length: near enough
+SMALL = 300.0  # mm of lines, below which cells around are tried too: the length jumps there
+SPREAD, SCANNED = 0.25, 26
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
 NEWEST = 0.2  # how much the last layer counts in the density of a column
 
@@ -53,15 +55,15 @@ class Plan:
     cell : float, mm
     line_width : float, mm
     rounding : Rounding
-    same_filament : bool
-        Every section keeps its filament; else the beads keep their width.
+    density : float, optional
+        mm of line per mm², if it was asked for; else every section keeps its filament.
     """
 
     family: Family
     cell: float
     line_width: float
     rounding: Rounding
-    same_filament: bool
+    density: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,10 +138,10 @@ def family_of(pattern: str) -> Family:
     return drawn(pattern)
 
 
-def layer_samples(infill: Strokes, some: Places) -> Floats:
-    """Return points on some strokes, (N, 2) float64, mm."""
+def layer_samples(infill: Strokes, some: Places) -> Samples:
+    """Return samples of some strokes."""
     ends = np.concatenate([[0], np.cumsum(np.diff(infill.first)[some])])
-    return sampled(infill.points[points_of(infill.first, some)], ends).points
+    return sampled(infill.points[points_of(infill.first, some)], ends)
 
 
 def planned(
@@ -159,22 +161,23 @@ def planned(
     """
     import shapely
 
-    regions, length, width = [], 0.0, 0.0
+    regions, walls, length, width, spacing = [], [], 0.0, 0.0, 1.0
     for sample in some:
         opens = first_moves(sample.infill)
         layer = sample.marks.layer[opens]
         others = beads(sample.table, sample.marks, sample.infill)
         width = float(np.median(line_width(sample.marks, opens)))
-        number = sample.filled[-1]
-        chosen = np.flatnonzero(layer == number)
-        region = region_of(others.of(number, STEP), layer_samples(sample.infill, chosen))
-        if not region.polygons:
-            continue
-        area = shapely.MultiPolygon(list(region.polygons))
-        regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
-        heights = sample.marks.height[opens]
-        spacing = _spacing(width, float(np.median(heights)))
-        length += float(sample.infill.length[chosen].sum()) if density is None else density * area.area / spacing
+        for number in sample.filled:
+            chosen = np.flatnonzero(layer == number)
+            beside = others.of(number, STEP)
+            region = region_of(beside, layer_samples(sample.infill, chosen).points)
+            if not region.polygons:
+                continue
+            walls.append(beside)
+            area = shapely.MultiPolygon(list(region.polygons))
+            regions.append((area, float(sample.table.z[opens[chosen[0]]]), int(number)))
+            spacing = _spacing(width, float(np.median(sample.marks.height[opens])))
+            length += float(sample.infill.length[chosen].sum()) if density is None else density * area.area / spacing
     if not regions:
         return None
     if isinstance(family, ConcentricHeart):  # one centre for the whole print
@@ -182,13 +185,22 @@ def planned(
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))
 
-    def measure(paths: Sequence[Floats]) -> float:
-        done = _rounded(list(paths), None, rounding, width, acceleration, 80.0)
+    around = np.concatenate(walls)  # of all layers at once: where they differ, a few more corners stay sharp
+
+    def measure(paths: Sequence[Floats], cell: float) -> float:
+        arcs = replace(rounding, radius=min(rounding.radius, family.largest_radius(cell, width)))
+        done = _rounded(list(paths), around, arcs, width, acceleration, 80.0)
         return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in done))
 
     radius = min(rounding.radius, LARGEST_RADIUS)
     solved = solve_cell(regions, family, length, line_width=width, radius=radius, measure=measure)
-    return Plan(family=family, cell=solved.cell, line_width=width, rounding=rounding, same_filament=density is None)
+    return Plan(
+        family=family,
+        cell=solved.cell,
+        line_width=width,
+        rounding=rounding,
+        density=None if density is None else density / spacing,
+    )
 
 
 def _spacing(width: float, height: float) -> float:
@@ -208,7 +220,7 @@ def fresh_sections(
     for number in np.unique(layer):
         some = np.flatnonzero(layer == number)
         walls = others.of(int(number), STEP)
-        region = region_of(walls, layer_samples(infill, some), memory.region)
+        region = region_of(walls, layer_samples(infill, some).points, memory.region)
         if region is not memory.region:
             memory.paths.clear()
         memory.region = region
@@ -232,11 +244,13 @@ def fresh_sections(
             if not pushed:
                 reasons["no path fits"] = reasons.get("no path fits", 0) + len(members)
                 continue
-            factor = 1.0
-            if plan.same_filament:
-                wanted = sum(body.filament for body in members) + memory.owed
-                factor = float(np.clip(wanted / pushed, LEAST_WIDTH, MOST_WIDTH))
-                memory.owed = wanted - factor * pushed
+            wanted = sum(body.filament for body in members)
+            if plan.density is not None:
+                area = sum(region.polygons[each].area for some_areas in group.areas.values() for each in some_areas)
+                wanted = members[0].rate * plan.density * area
+            wanted += memory.owed
+            factor = float(np.clip(wanted / pushed, LEAST_WIDTH, MOST_WIDTH))
+            memory.owed = wanted - factor * pushed
             areas = tuple(region.polygons[area] for each in group.areas.values() for area in each)
             fresh += [
                 Fresh(body=body, paths=drawn[body.section], rate=body.rate * factor, areas=areas) for body in members
@@ -273,7 +287,7 @@ class _Layer:
 
 def _column(area: Polygon, length: float, plan: Plan, memory: Memory) -> Column:
     """Return the column that an area continues, or begins."""
-    density = length / area.area
+    density = length / area.area if plan.density is None else plan.density
     best, most = None, 0.0
     for column in memory.columns:
         if column.area is area:
@@ -309,12 +323,13 @@ def _grouped(region: Region, infill: Strokes, some: Places, section: Places) -> 
     grown = shapely.buffer(np.array(region.polygons, dtype=object), 0.1)
     shapely.prepare(grown)
     numbers = np.unique(section[some]).tolist()
-    held = np.zeros((len(numbers), len(grown)), dtype=np.int64)
+    held = np.zeros((len(numbers), len(grown)))
     lost: set[int] = set()
     for place, number in enumerate(numbers):
-        points = layer_samples(infill, some[section[some] == number])
+        drawn = layer_samples(infill, some[section[some] == number])
+        points = drawn.points
         inside = np.array([shapely.contains_xy(area, points[:, 0], points[:, 1]) for area in grown])
-        held[place] = inside.sum(axis=1) if len(grown) else 0
+        held[place] = inside @ drawn.weight if len(grown) else 0.0
         if not len(grown) or inside.any(axis=0).mean() < 1 - LOST:
             lost.add(number)
     # A section that printed next to nothing of an area has no share in it.
@@ -330,7 +345,7 @@ def _grouped(region: Region, infill: Strokes, some: Places, section: Places) -> 
         for place in np.flatnonzero(label == each).tolist():
             own = [area for area in range(len(grown)) if held[:, area].any() and held[:, area].argmax() == place]
             areas[numbers[place]] = tuple(own)
-        amount = held[label == each].sum(axis=0) * CONTACT_STEP
+        amount = held[label == each].sum(axis=0)
         lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
         groups.append(_Group(areas=areas, lengths=lengths))
     return groups, lost
@@ -366,20 +381,20 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     paths = _covered(body, column.area, column.cell, layer)
     best, cell = paths, column.cell
     # What varies with the height has one cell everywhere, or its layers would not fit one another.
-    if layer.plan.same_filament and layer.plan.family.prismatic and wanted > LEAST_LENGTH:
+    if layer.plan.family.prismatic and wanted > LEAST_LENGTH:
         error = _length(paths) / wanted - 1
         if abs(error) > (OFF if column.fresh else FAR_OFF):
-            for _ in range(TRIES):
-                cell *= float(np.clip(1 + error, 0.6, 1.6))
+            around = cell * np.exp(np.linspace(-SPREAD, SPREAD, SCANNED)) if wanted < SMALL else ()
+            for tried in range(TRIES + len(around)):
+                cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if tried < TRIES else float(around[tried - TRIES])
                 cell = max(cell, TOUCH * layer.plan.line_width)
                 paths = _covered(body, column.area, cell, layer)
-                then = _length(paths) / wanted - 1
-                if abs(then) < abs(_length(best) / wanted - 1):
+                error = _length(paths) / wanted - 1
+                if abs(error) < abs(_length(best) / wanted - 1):
                     best = paths
                     memory.columns[area] = replace(column, cell=cell)
-                if abs(then) < OFF / 2:
+                if abs(error) < NEAR:
                     break
-                error = then
     return best
 
 
@@ -404,7 +419,7 @@ def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
     done = _rounded(strands, layer.walls, rounding, plan.line_width, layer.acceleration, speed)
     near = shapely.buffer(area, INSIDE)
     shapely.prepare(near)
-    inside = [bool(shapely.contains_xy(near, path[:, 0], path[:, 1]).all()) for path in done]
+    inside = shapely.covers(near, [shapely.linestrings(path) for path in done]).tolist()
     if all(inside):
         return done
     plain = [np.rint(path / UNIT) * UNIT for path in strands if len(path) > 1]
@@ -450,7 +465,6 @@ def outside(fresh: Fresh) -> bool:
 
     if not fresh.paths:
         return False
-    near = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + 0.001)
+    near = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + UNIT)
     shapely.prepare(near)
-    points = np.concatenate(fresh.paths)
-    return not bool(shapely.contains_xy(near, points[:, 0], points[:, 1]).all())
+    return not bool(shapely.covers(near, [shapely.linestrings(path) for path in fresh.paths]).all())

@@ -19,6 +19,7 @@ STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 ANCHORED = 1 / 3  # line widths that a corner beside a bead may move away from it
 TOWARDS = 0.02  # mm that it may move towards it
+MOST_SQUARES = 4096  # to a side of a plane of squares: 2.4 m of them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,18 +81,25 @@ def beside(points: Floats, walls: Floats, distance: float) -> tuple[Places, Floa
 
     if not len(points) or not len(walls):
         return np.empty(0, dtype=np.intp), np.empty(0)
-    # Squares as wide as the distance: only those around a bead are worth a closer look.
+    some = _around(points, walls, distance)
+    near, _ = cKDTree(walls).query(points[some], distance_upper_bound=distance)
+    found = np.isfinite(near)
+    return some[found], near[found]
+
+
+def _around(points: Floats, walls: Floats, distance: float) -> Places:
+    """Return the points that are worth a closer look: those in squares around a wall, as wide as the distance."""
     low = np.minimum(walls.min(axis=0), points.min(axis=0)) - 2 * distance
+    high = np.maximum(walls.max(axis=0), points.max(axis=0))
+    if ((high - low) / distance).max() > MOST_SQUARES:
+        return np.arange(len(points))
     square = ((walls - low) / distance).astype(np.intp)
     own = ((points - low) / distance).astype(np.intp)
     taken = np.zeros(np.maximum(square.max(axis=0), own.max(axis=0)) + 3, dtype=bool)
     for right in (-1, 0, 1):
         for up in (-1, 0, 1):
             taken[square[:, 0] + right, square[:, 1] + up] = True
-    some = np.flatnonzero(taken[own[:, 0], own[:, 1]])
-    near, _ = cKDTree(walls).query(points[some], distance_upper_bound=distance)
-    found = np.isfinite(near)
-    return some[found], near[found]
+    return np.flatnonzero(taken[own[:, 0], own[:, 1]])
 
 
 def bounded_deviation(points: Floats, corners: Places, walls: Floats, *, deviation: float, line_width: float) -> Floats:

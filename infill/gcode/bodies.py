@@ -130,7 +130,7 @@ def _oddness(
     # Everything that extrudes between its first and last move must be a stroke.
     drawn = np.flatnonzero(table.extruded[inside] > 0) + first
     moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
-    own = np.isin(moving, infill.line)
+    own = np.isin(moving, np.delete(infill.line, infill.first[:-1]))  # where a stroke begins, another may end
     return "" if own.all() and (marks.section[inside] == marks.section[first]).all() else "extrusion of another kind"
 
 
@@ -332,7 +332,11 @@ def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
     pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
     share = pushed / max(float(pushed[-1]), 1e-12)
     kept = np.flatnonzero(table.kind[inside] != MOVE)
-    retractions = {command.line for command in table.commands if command.code in ("G10", "G11")}
+    retractions = {
+        command.line
+        for command in table.commands
+        if command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words)
+    }
     return [
         (float(share[place]), table.text(body.first + place, body.first + place + 1))
         for place in kept.tolist()

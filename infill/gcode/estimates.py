@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 _LINE = re.compile(
-    rb"^(?:M73 [^\n]*|; (?:total )?filament used \[[a-z0-9]+\] = [^\n]*|; total filament cost = [^\n]*"
+    rb"^(?:M73 [^\n]*|; (?:total )?filament used \[[a-z0-9]+\] = [^\n]*|; (?:total )?filament cost = [^\n]*"
+    rb"|; total filament (?:length|volume|weight) \[[a-z0-9^]+\] : [^\n]*"
     rb"|; estimated printing time [^\n]*|; model printing time: [^\n]*|;TIME:\d[^\n]*|;TIME_ELAPSED:[^\n]*"
     rb"|;PRINT\.TIME:\d[^\n]*|;Filament used: [^\n]*)$",
     re.MULTILINE,
@@ -124,13 +125,16 @@ def _progress(line: bytes, so_far: float, saved: float, total: float) -> bytes:
 
     def anew(found: re.Match[bytes]) -> bytes:
         value = float(found[2])
+        decimals = len(found[2].partition(b".")[2])
         if found[1] in b"RS":
-            return found[1] + b"%d" % max(0, round(value - (saved - so_far) / 60))
+            return found[1] + b"%.*f" % (decimals, max(0.0, value - (saved - so_far) / 60))
         if found[1] in b"PQ" and total > saved:
-            return found[1] + b"%d" % min(100, max(0, round((value * total - 100 * so_far) / (total - saved))))
+            share = (value * total - 100 * so_far) / (total - saved)
+            return found[1] + b"%.*f" % (decimals, min(100.0, max(0.0, share)))
         return found[0]
 
-    return _WORD.sub(anew, line)
+    words, mark, remark = line.partition(b";")
+    return _WORD.sub(anew, words) + mark + remark
 
 
 def _scaled(number: bytes, factor: float) -> bytes:

@@ -171,10 +171,10 @@ def unlike(table: Table, strokes: Strokes, new: Redrawn, done: Spliced) -> str:
     """Replay old and new text from the same state, and say how they differ where they must not; nothing if they agree.
 
     Compared are every line that was copied (kind, position, feed rate, filament), the state at the end, and the new
-    moves: each extrudes what its stroke extrudes per mm, above 0, without a move of z.
+    moves: each extrudes what its stroke extrudes per mm, above 0, at its feed rate, without a move of z.
     """
     other = read(done.text, table.before)
-    return differing(table, other, done) or _wrong_moves(strokes, new, done, other)
+    return differing(table, other, done) or _wrong_moves(table, strokes, new, done, other)
 
 
 def differing(table: Table, other: Table, done: Spliced) -> str:
@@ -207,7 +207,7 @@ def _alike(one: object, other: object) -> bool:
     return True
 
 
-def _wrong_moves(strokes: Strokes, new: Redrawn, done: Spliced, other: Table) -> str:
+def _wrong_moves(table: Table, strokes: Strokes, new: Redrawn, done: Spliced, other: Table) -> str:
     """Say what is wrong with the new moves, if anything is."""
     fresh = np.ones(len(other), dtype=bool)
     old = np.flatnonzero(done.same)
@@ -226,6 +226,9 @@ def _wrong_moves(strokes: Strokes, new: Redrawn, done: Spliced, other: Table) ->
     extruded = other.extruded[move]
     if not (extruded > 0).all():
         return "a new move without filament"
+    feed = table.f[strokes.line[strokes.first[new.which] + 1]]
+    if (np.abs(other.f[move] - feed[owner]) > UNIT).any():
+        return "the feed rate of a new move"
     rate = new.filament / np.bincount(owner, weights=length, minlength=len(new.which))
     if (np.abs(extruded - rate[owner] * length) > RATE_TOLERANCE * rate[owner] * length + 2 * FILAMENT_UNIT).any():
         return "the filament per mm of a new move"

@@ -58,7 +58,11 @@ def _last_layer(text: bytes) -> int:
 
 
 def _check_line(text: bytes) -> None:
-    if len(text) - 1 - text.rfind(b"\n") > LONGEST_LINE:
-        raise FormatError(
-            f"a line of more than {LONGEST_LINE >> 20} MiB is no G-code; give the file that the slicer wrote"
-        )
+    begin = 0
+    while len(text) - begin > LONGEST_LINE:  # in steps of as many lines as fit
+        end = text.rfind(b"\n", begin, begin + LONGEST_LINE + 1)
+        if end < 0:
+            raise FormatError(
+                f"a line of more than {LONGEST_LINE >> 20} MiB is no G-code; give the file that the slicer wrote"
+            )
+        begin = end + 1

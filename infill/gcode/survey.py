@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from dataclasses import dataclass
@@ -19,7 +20,8 @@ WHOLE = 3  # layers at each place
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(
-    rb"(?:generated (?:by|with) |Generated with |Sliced by )([A-Za-z][\w.+-]*(?: (?!on\b)[\w.+-]+){0,3})", re.IGNORECASE
+    rb"(?:generated (?:by|with) |Sliced by |^; (?=BambuStudio ))([A-Za-z][\w.+-]*(?: (?!on\b)[\w.+-]+){0,3})",
+    re.IGNORECASE | re.MULTILINE,
 )
 # What other files begin with.
 OTHERS = {
@@ -71,9 +73,11 @@ class Survey:
         """Return the first of several settings that is there, as a number; the first one of a list."""
         for name in names:
             try:
-                return float(self.settings[name].split(",")[0].rstrip("%"))
+                number = float(self.settings[name].split(",")[0].rstrip("%"))
             except (KeyError, ValueError):
                 continue
+            if math.isfinite(number):
+                return number
         return None
 
 

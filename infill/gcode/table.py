@@ -197,7 +197,7 @@ def _kinds(
 
     blank = byte() <= SPACE
     for _ in range(8):  # indented lines are rare; deeper ones are odd
-        inner = ((byte() == SPACE) | (byte() == TAB)) & (first < start[1:] - 1)
+        inner = (byte() == SPACE) | (byte() == TAB)  # a line end is neither, and the text ends with one
         if not inner.any():
             break
         first += inner
@@ -207,7 +207,11 @@ def _kinds(
         first += numbered
         for _ in range(10):
             first += numbered & _is_digit(byte())
-        first += numbered & (byte() == SPACE)
+        for _ in range(8):
+            inner = numbered & ((byte() == SPACE) | (byte() == TAB))
+            if not inner.any():
+                break
+            first += inner
     head = byte()
     kind = np.full(len(first), OTHER, dtype=np.uint8)
     kind[head == SEMICOLON] = COMMENT

@@ -1,0 +1,557 @@
+"""Laws of rounded corners, of curves cut anew, and of what they are measured by: contact, walls, regions and time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from infill.filling.contact import STEP as CONTACT_STEP
+from infill.filling.contact import Contact, Samples, contact, merged, sampled
+from infill.filling.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
+from infill.filling.curves import GENTLE, MOST_BULGE, recut
+from infill.filling.regions import STEP, region_of
+from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, beside, bounded_deviation
+from infill.filling.timing import neutral_limits, path_seconds
+
+EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
+WIDTH = 0.45  # mm
+
+
+def ends_of(paths: Sequence[np.ndarray]) -> np.ndarray:
+    return np.concatenate([[0], np.cumsum([len(path) for path in paths])]).astype(np.intp)
+
+
+def one(path: Iterable[Sequence[float]]) -> tuple[np.ndarray, np.ndarray]:
+    points = np.array(list(path), dtype=float)
+    return points, np.array([0, len(points)])
+
+
+def turns(points: np.ndarray) -> np.ndarray:
+    """Return the turn at every inner point, positive to the left."""
+    heading = np.unwrap(np.arctan2(*np.diff(points, axis=0).T[::-1]))
+    return np.diff(heading)
+
+
+def length_of(points: np.ndarray) -> float:
+    return float(np.hypot(*np.diff(points, axis=0).T).sum())
+
+
+def walk(legs: Iterable[tuple[float, float]]) -> np.ndarray:
+    """Return the path of legs of some length, each with a turn, in degrees, before it."""
+    at, heading, path = np.zeros(2), 0.0, [np.zeros(2)]
+    for length, turn in legs:
+        heading += math.radians(turn)
+        at = at + length * np.array([math.cos(heading), math.sin(heading)])
+        path.append(at)
+    return np.array(path)
+
+
+def walks(sharpest: float, shortest: float = 0.3, longest: float = 12.0):
+    leg = st.tuples(st.floats(shortest, longest), st.floats(-sharpest, sharpest).map(lambda turn: round(turn, 6)))
+    return st.lists(leg, min_size=1, max_size=9).map(walk)
+
+
+limits = st.one_of(st.just(math.inf), st.floats(0.01, 2.0))
+machines = st.builds(
+    Machine,
+    acceleration=st.floats(300, 10000),
+    speed=st.floats(20, 300),
+    corner=st.floats(3, 15),
+)
+
+
+# --- corners ---------------------------------------------------------------------------------------------------
+
+
+@given(path=walks(171), deviation=limits, radius=limits, machine=machines)
+def test_corners_become_arcs(path: np.ndarray, deviation: float, radius: float, machine: Machine) -> None:
+    """Tangent to both legs, as large as told, within the deviation, inside the corner, and cut as the machine needs."""
+    done = rounded(*one(path), deviation=deviation, radius=radius, machine=machine)
+    assert done.first.tolist() == [0, len(done.points)]
+    assert (done.points[[0, -1]] == path[[0, -1]]).all()
+    assert (np.diff(done.source) >= 0).all()
+    assert (np.isin(np.arange(len(path)), done.source)).all() or len(path) > 2
+    assert length_of(done.points) <= length_of(path) + EXACT
+    legs = np.diff(path, axis=0)
+    lengths = np.hypot(*legs.T)
+    setbacks = np.zeros(len(path))
+    for corner in range(1, len(path) - 1):
+        own = done.points[done.source == corner]
+        size = done.radius[corner]
+        turn = abs(turns(path[corner - 1 : corner + 2])[0])
+        if not 0 < size < np.inf:
+            assert len(own) == 1
+            assert (own == path[corner]).all()
+            continue
+        assert size <= radius + EXACT
+        setback = setbacks[corner] = size * math.tan(turn / 2)
+        assert setback * math.tan(turn / 4) <= deviation + EXACT
+        before, after = legs[corner - 1] / lengths[corner - 1], legs[corner] / lengths[corner]
+        begin, end = path[corner] - before * setback, path[corner] + after * setback
+        left = np.sign(before[0] * after[1] - before[1] * after[0])
+        middle = begin + size * left * np.array([-before[1], before[0]])
+        assert np.hypot(*(own - middle).T) == pytest.approx(size, abs=1e-7)  # radii reach 1e4 mm where turns are small
+        # An arc that begins where another ends, or at an end of the path, shares that point.
+        points = np.array([begin, *own, end])
+        chords = np.abs(turns(points[np.hypot(*np.diff(points, axis=0, prepend=np.inf).T) > 1e-7]))
+        triangle = shapely.Polygon([begin, path[corner], end])
+        assert shapely.distance(triangle, shapely.points(own)).max(initial=0) < 1e-6
+        speed = min(math.sqrt(machine.acceleration * size), machine.speed)
+        count = len(chords) + 1
+        shortest = turn * size / count  # of as many chords
+        assert turn / count <= machine.corner / speed + EXACT or turn * size / (count + 1) < SHORTEST_CHORD
+        assert size * (1 - math.cos(turn / count / 2)) <= COARSEST + EXACT
+        assert shortest > 0
+    assert (setbacks[:-1] + setbacks[1:] <= lengths + EXACT).all()
+    old = shapely.LineString(path)
+    assert max(shapely.distance(shapely.points(done.points), old)) <= min(deviation, 100.0) + EXACT
+
+
+@given(path=walks(120), radius=st.floats(0.05, 3.0))
+def test_turning_adds_up(path: np.ndarray, radius: float) -> None:
+    """Arcs turn the way of their corners: never further, nor back. Short ends would be taken up by arcs."""
+    path = np.concatenate([[2 * path[0] - path[1]], path, [2 * path[-1] - path[-2]]])
+    path[[0, -1]] += 20 * (path[[0, -1]] - path[[1, -2]]) / np.hypot(*(path[[0, -1]] - path[[1, -2]]).T)[:, None]
+    done = rounded(*one(path), radius=radius)
+    old, new = turns(path), turns(done.points)
+    assert new.sum() == pytest.approx(old.sum(), abs=1e-6)
+    # Where arcs of a left and a right turn meet, one chord bridges them.
+    assert np.abs(new).sum() <= np.abs(old).sum() + 1e-6
+
+
+def test_length_of_an_arc_is_radius_times_turn() -> None:
+    """Chords of 0.06 mm turn by 0.015 rad, and are shorter than their arc by 1e-5 of it."""
+    path = walk([(10, 0), (10, 90)])
+    done = rounded(*one(path), radius=4.0, machine=Machine(corner=0.0632))
+    assert len(done.points) == 2 + 1 + int(2 * math.pi / SHORTEST_CHORD)
+    assert length_of(done.points) == pytest.approx(2 * 6 + 4 * math.pi / 2, abs=1e-4)
+
+
+def test_two_corners_share_a_leg() -> None:
+    path = walk([(10, 0), (4, 90), (10, -90)])
+    assert rounded(*one(path)).radius[1:3] == pytest.approx([2, 2])
+    # A corner that needs less leaves the rest to the other.
+    needs = np.array([0, np.inf, 0.5 * math.tan(math.radians(22.5)), 0])
+    assert rounded(*one(path), deviation=needs).radius[1:3] == pytest.approx([3.5, 0.5])
+    assert rounded(*one(path), radius=1.5).radius[1:3] == pytest.approx([1.5, 1.5])
+    # Arcs that meet share the point between them.
+    done = rounded(*one(path))
+    assert (np.hypot(*np.diff(done.points, axis=0).T) > 0.01).all()
+
+
+@given(path=walks(170), deviation=limits, angle=st.floats(0, 2 * math.pi))
+def test_symmetries(path: np.ndarray, deviation: float, angle: float) -> None:
+    done = rounded(*one(path), deviation=deviation)
+    turning = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    for matrix in (np.diag([-1.0, 1.0]), turning):
+        other = rounded(*one(path @ matrix), deviation=deviation)
+        assert other.points == pytest.approx(done.points @ matrix, abs=1e-7)
+        assert other.radius == pytest.approx(done.radius, rel=1e-6)
+    back = rounded(*one(path[::-1]), deviation=deviation)
+    assert back.points[::-1] == pytest.approx(done.points, abs=1e-7)
+    assert back.radius[::-1] == pytest.approx(done.radius, rel=1e-6)
+
+
+@given(path=walks(179))
+def test_nothing_asked_nothing_changed(path: np.ndarray) -> None:
+    for asked in ({"radius": 0.0}, {"deviation": 0.0}, {"deviation": np.zeros(len(path))}):
+        done = rounded(*one(path), **asked)
+        assert (done.points == path).all()
+        assert done.source.tolist() == list(range(len(path)))
+
+
+@pytest.mark.parametrize(
+    "legs",
+    [
+        [(10, 0), (10, 0), (3, 0)],
+        [(10, 0), (10, 180)],
+        [(10, 0), (10, 175), (4, -178)],
+        [(5, 30)],
+    ],
+)
+def test_straight_and_reversing_paths_stay(legs: list[tuple[float, float]]) -> None:
+    path = walk(legs)
+    done = rounded(*one(path))
+    assert (done.points == path).all()
+    assert not ((done.radius > 0) & (done.radius < np.inf)).any()
+    assert math.radians(170) < SHARPEST < math.radians(175)
+
+
+def test_points_on_one_another_stay() -> None:
+    path = np.array([[0, 0], [5, 0], [5, 0], [5, 5], [5, 5], [5, 5], [0, 5.0]])
+    assert (rounded(*one(path)).points == path).all()
+
+
+def test_no_paths() -> None:
+    done = rounded(np.empty((0, 2)), np.array([0]))
+    assert len(done.points) == len(done.source) == 0
+    assert done.first.tolist() == [0]
+
+
+@given(paths=st.lists(walks(170), min_size=2, max_size=4), deviation=limits)
+def test_paths_are_rounded_each_for_itself(paths: list[np.ndarray], deviation: float) -> None:
+    """Also if one begins where another ends."""
+    paths = [path - path[0] + (paths[k - 1][-1] - paths[k - 1][0] if k else 0) for k, path in enumerate(paths)]
+    first = ends_of(paths)
+    whole = rounded(np.concatenate(paths), first, deviation=deviation)
+    single = [rounded(*one(path), deviation=deviation) for path in paths]
+    assert (whole.points == np.concatenate([each.points for each in single])).all()
+    assert whole.first.tolist() == ends_of([each.points for each in single]).tolist()
+    assert whole.source.tolist() == [
+        int(k + begin) for each, begin in zip(single, first[:-1], strict=True) for k in each.source
+    ]
+    assert (whole.radius == np.concatenate([each.radius for each in single])).all()
+
+
+@given(path=walks(170), deviation=limits)
+def test_points_are_numbers_of_gcode(path: np.ndarray, deviation: float) -> None:
+    """Nearer to the exact ones than a unit along each axis, and none on the one before it."""
+    path = np.round(path, 3)
+    exact, done = (rounded(*one(path), deviation=deviation, unit=unit) for unit in (0.0, 0.001))
+    assert done.points / 0.001 == pytest.approx(np.rint(done.points / 0.001), abs=1e-6)
+    assert done.points[[0, -1]] == pytest.approx(path[[0, -1]], abs=EXACT)
+    assert (np.hypot(*np.diff(done.points, axis=0).T) > 0.001).all()
+    near = shapely.distance(shapely.points(done.points), shapely.LineString(exact.points))
+    assert near.max() <= 0.001 * math.sqrt(0.5) + EXACT
+
+
+# --- curves ----------------------------------------------------------------------------------------------------
+
+
+def arc(radius: float, angles: Iterable[float]) -> np.ndarray:
+    angles = np.radians(list(angles))
+    return radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+
+
+@given(
+    radius=st.floats(0.5, 20),
+    steps=st.lists(st.floats(0.7, 1.3), min_size=5, max_size=20),
+    machine=machines,
+)
+def test_a_circle_is_found_again(radius: float, steps: list[float], machine: Machine) -> None:
+    """A cubic curve through the ends of a chord of turn t, tangent there, errs by t² / 16 of the sagitta."""
+    chord = min(0.5, 0.5 * math.sqrt(8 * MOST_BULGE / radius))  # half the limit for equal chords
+    path = arc(radius, np.degrees(chord) * np.cumsum([0.0, *steps]))
+    done = recut(*one(path), machine)
+    assert (done.points[[0, 1, -2, -1]] == path[[0, 1, -2, -1]]).all()
+    longest = 1.3 * chord
+    sagitta = radius * (1 - math.cos(longest / 2))
+    assert np.abs(np.hypot(*done.points[done.curved].T) - radius).max() <= longest**2 / 12 * sagitta + EXACT
+    # Chords are equal, as many as the machine needs, and no more.
+    inner = done.points[1:-1]
+    number = len(inner) - 1
+    speed = min(math.sqrt(machine.acceleration * radius), machine.speed)
+    turn = chord * sum(steps[1:-1])
+    wanted = turn * max(speed / machine.corner, math.sqrt(radius / (8 * COARSEST)))
+    assert abs(number - wanted) <= 1 + 0.03 * wanted  # the curvature is that of four pieces of every leg
+    assert np.hypot(*np.diff(inner, axis=0).T) == pytest.approx(length_of(inner) / number, rel=0.06)
+
+
+# What is straight for long and then turns; and a leg with all of the turn at one end.
+@example(path=walk([(1, 0), *[(2, 0)] * 9, (0.5, 0), (1, 4), *[(2, 0)] * 9]), bulge=MOST_BULGE, machine=Machine())
+@example(path=walk([(0.0625, 0), (1, 24), (1, 0)]), bulge=0.0546875, machine=Machine())
+# Short legs beside a long one: circles through three points turn along the long one.
+@example(path=walk([(1, 0), (0.1, 3), (2, 21), (0.1, 21), (1, 3)]), bulge=MOST_BULGE, machine=Machine())
+@given(path=walks(60, 0.05, 3.0), bulge=st.floats(0.0, MOST_BULGE), machine=machines)
+def test_curves_lie_where_the_chords_did(path: np.ndarray, bulge: float, machine: Machine) -> None:
+    first = one(path)[1]
+    done = recut(path, first, machine, bulge)
+    assert (done.points[[0, -1]] == path[[0, -1]]).all()
+    assert (np.diff(done.source) >= 0).all()
+    assert done.first.tolist() == [0, len(done.points)]
+    # Corners are corners still.
+    for corner in np.flatnonzero(np.abs(turns(path)) >= GENTLE) + 1:
+        at = np.flatnonzero((done.points == path[corner]).all(axis=1))
+        assert len(at) == 1
+        assert not done.curved[at[0]]
+        assert done.source[at[0]] == corner
+    # Both ways: nothing is left out either.
+    off = shapely.hausdorff_distance(shapely.LineString(path), shapely.LineString(done.points), densify=0.05)
+    assert off <= bulge + COARSEST + EXACT
+    new = shapely.distance(shapely.points(done.points), shapely.LineString(path))
+    assert new.max() <= bulge + EXACT
+
+
+def test_the_bulge_is_kept_point_by_point() -> None:
+    path = arc(5, range(0, 181, 15))
+    bulge = np.where(np.arange(len(path)) < 6, MOST_BULGE, 0.02)
+    done = recut(*one(path), Machine(), bulge)
+    # A leg of 15° bulges by 5 mm × (1 − cos 7.5°) = 0.043 mm.
+    assert not done.curved[[0, -1]].any()
+    assert done.curved[done.source <= 4].sum() > 3
+    assert not done.curved[done.source > 5].any()
+    assert (done.points[done.source > 5] == path[6:]).all()
+
+
+@given(paths=st.lists(walks(50, 0.1, 2.0), min_size=2, max_size=4), machine=machines)
+def test_paths_are_recut_each_for_itself(paths: list[np.ndarray], machine: Machine) -> None:
+    first = ends_of(paths)
+    whole = recut(np.concatenate(paths), first, machine)
+    single = [recut(*one(path), machine) for path in paths]
+    assert whole.points == pytest.approx(np.concatenate([each.points for each in single]), abs=EXACT)
+    assert whole.first.tolist() == ends_of([each.points for each in single]).tolist()
+    assert (whole.curved == np.concatenate([each.curved for each in single])).all()
+
+
+@given(path=walks(50, 0.1, 2.0))
+def test_the_way_back_is_the_same_curve(path: np.ndarray) -> None:
+    """As long within a hundredth: chords begin at the other end of each run."""
+    there, back = (recut(*one(each), Machine()).points for each in (path, path[::-1]))
+    assert length_of(back) == pytest.approx(length_of(there), rel=0.01)
+    assert shapely.LineString(there).hausdorff_distance(shapely.LineString(back)) <= 2 * COARSEST
+
+
+# --- contact ---------------------------------------------------------------------------------------------------
+
+
+def line(*ends: tuple[float, float]) -> Samples:
+    return sampled(np.array(ends, dtype=float), np.array([0, len(ends)]))
+
+
+def along(y: float, length: float = 30.0) -> Samples:
+    return line((0, y), (length, y))
+
+
+NOTHING = sampled(np.empty((0, 2)), np.array([0]))
+
+
+@given(paths=st.lists(walks(170, 0.01), min_size=1, max_size=4))
+def test_weights_add_up_to_the_length(paths: list[np.ndarray]) -> None:
+    """And each sample stands for a fifth of a millimetre at most, in the middle of its piece."""
+    found = sampled(np.concatenate(paths), ends_of(paths))
+    for k, path in enumerate(paths):
+        own = found.path == k
+        assert found.weight[own].sum() == pytest.approx(length_of(path))
+        assert found.along[own] == pytest.approx(np.cumsum(found.weight[own]) - found.weight[own] / 2, abs=1e-6)
+        assert shapely.distance(shapely.points(found.points[own]), shapely.LineString(path)).max() < EXACT
+    assert found.weight.max() <= CONTACT_STEP + EXACT
+    assert 2 * np.hypot(*found.half.T) == pytest.approx(found.weight)
+
+
+@pytest.mark.parametrize(("apart", "share"), [(0.4, 1.0), (0.47, 1.0), (0.48, 0.0), (0.6, 0.0)])
+def test_parallel_lines_are_bonded_where_beads_touch(apart: float, share: float) -> None:
+    found = contact(merged(along(0), along(apart)), NOTHING, WIDTH)
+    assert found.length == pytest.approx(60)
+    assert found.shares == pytest.approx((0.0, share))
+
+
+@pytest.mark.parametrize("width", [0.3, 0.6, 0.8, 1.2, 2.0])
+def test_wide_beads_touch_as_narrow_ones_do(width: float) -> None:
+    for apart, share in ((0.95 * width, 1.0), (1.1 * width, 0.0)):
+        assert contact(merged(along(0), along(apart)), NOTHING, width).shares[1] == pytest.approx(share)
+
+
+def test_short_chords_hide_no_neighbour() -> None:
+    """Points 0.02 mm apart: the next fifty neighbours are all of the same line."""
+    x = np.arange(0, 10, 0.02)
+    paths = [np.stack([x, np.full(len(x), y)], axis=1) for y in (0, 0.44)]
+    found = contact(sampled(np.concatenate(paths), ends_of(paths)), NOTHING, WIDTH)
+    assert found.shares[1] == pytest.approx(1)
+
+
+def test_a_line_is_no_neighbour_of_itself_unless_it_comes_back() -> None:
+    assert contact(line((0, 0), (20, 0), (20, 20)), NOTHING, WIDTH).bonded == 0
+    back = contact(line((0, 0), (20, 0), (20, 0.4), (0, 0.4)), NOTHING, WIDTH)
+    # Near the turn both sides are within 1.8 mm along the path: 0.7 mm of each.
+    assert back.bonded == pytest.approx(40.4 - 2 * 0.7 - 0.4, abs=0.4)  # one of three samples is looked at
+
+
+@pytest.mark.parametrize(("aside", "share"), [(0.0, 1.0), (0.22, 1.0), (0.23, 0.0), (0.45, 0.0)])
+def test_a_line_lies_on_a_line(aside: float, share: float) -> None:
+    assert contact(along(0), along(aside), WIDTH).shares == pytest.approx((share, 0.0))
+
+
+@pytest.mark.parametrize("angle", [90, 60, 30])
+def test_crossing_lines_lie_on_one_another_where_they_cross(angle: float) -> None:
+    """Half a width to both sides of each of 99 crossings, seen from the line above."""
+    slant = 1 / math.tan(math.radians(angle))
+    below = [np.array([[k - slant, -1.0], [k + slant, 1.0]]) for k in range(1, 100)]
+    found = contact(along(0, 100.0), sampled(np.concatenate(below), ends_of(below)), WIDTH)
+    crossed = min(WIDTH / math.sin(math.radians(angle)), 1.0)
+    # A third of 1000 samples decides: 0.45 of them, with a standard error of 0.027.
+    assert found.shares[0] == pytest.approx(crossed, abs=0.06)
+
+
+def test_contacts_add_up() -> None:
+    sums = Contact(length=4, supported=2, bonded=1) + Contact(length=1, supported=1, bonded=0)
+    assert sums.shares == (0.6, 0.2)
+    assert contact(NOTHING, along(0), WIDTH) == Contact()
+    assert Contact().shares == (0, 0)
+
+
+# --- walls -----------------------------------------------------------------------------------------------------
+
+coordinates = st.tuples(st.floats(-5, 5), st.floats(-5, 5))
+clouds = st.lists(coordinates, min_size=1, max_size=40).map(np.array)
+
+
+@given(points=clouds, walls=clouds, distance=st.floats(0.1, 3))
+def test_what_lies_beside_walls_is_found(points: np.ndarray, walls: np.ndarray, distance: float) -> None:
+    apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1)).min(axis=1)
+    some, near = beside(points, walls, distance)
+    assert sorted(some) == np.flatnonzero(apart < distance).tolist()
+    assert near == pytest.approx(apart[some])
+
+
+def test_a_wall_far_away_takes_no_memory() -> None:
+    walls = np.array([[0.0, 0.0], [1e7, -1e7], [3e300, 0.0]])
+    some, near = beside(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), walls, 0.5)
+    assert some.tolist() == [0]
+    assert near == pytest.approx([0.3])
+    assert len(beside(np.empty((0, 2)), walls, 0.5)[0]) == len(beside(walls, np.empty((0, 2)), 0.5)[0]) == 0
+
+
+@given(
+    turn=st.floats(20, 170), side=st.floats(-math.pi, math.pi), near=st.floats(0.1, 1.0), deviation=st.floats(0.005, 2)
+)
+def test_corners_beside_walls_hardly_move(turn: float, side: float, near: float, deviation: float) -> None:
+    """Away from a wall by a third of a width at most, and towards it by 0.02 mm; what lies on a wall may cross it."""
+    path = walk([(5, 0), (5, turn)])
+    middle = path[1] + near * np.array([math.cos(side), math.sin(side)])
+    direction = np.array([-math.sin(side), math.cos(side)])
+    walls = middle + np.linspace(-4, 4, 801)[:, None] * direction  # a straight one, at `near`
+    allowed = bounded_deviation(path, np.array([1]), walls, deviation=deviation, line_width=WIDTH)[0]
+    if near > BESIDE * WIDTH + 0.001:
+        assert allowed == deviation
+        return
+    if near > BESIDE * WIDTH:
+        return
+    assert 0 < allowed <= min(deviation, ANCHORED * WIDTH) + EXACT
+    inward = (path[0] - path[1]) / 5 + (path[2] - path[1]) / 5
+    towards = float(inward @ (middle - path[1])) / near / np.hypot(*inward)  # of each mm that the corner moves
+    # Across the wall or up to it: points on it are 0.01 mm apart.
+    assert allowed * towards <= TOWARDS + 0.001 or allowed <= TOWARDS
+    if towards <= 0:
+        assert allowed == min(deviation, ANCHORED * WIDTH)
+
+
+# --- regions ---------------------------------------------------------------------------------------------------
+
+
+def dense(geometry: shapely.Geometry, step: float) -> np.ndarray:
+    """Return points on lines, at most `step` apart."""
+    return shapely.get_coordinates(shapely.segmentize(geometry, step))
+
+
+def filled(area: shapely.Geometry, kept: float) -> np.ndarray:
+    """Return points on infill in an area: along its walls at a distance, and lines across."""
+    inner = area.buffer(-kept, quad_segs=32)
+    x0, y0, x1, y1 = inner.bounds
+    across = shapely.MultiLineString([[(x0, y), (x1, y)] for y in np.arange(y0 + 1, y1, 3)])
+    return np.concatenate([dense(inner.boundary, 0.1), dense(inner.intersection(across), 0.1)])
+
+
+SQUARE = shapely.box(100, 80, 120, 100)
+AREAS = {
+    "square": SQUARE,
+    "hole": SQUARE.difference(shapely.box(107, 86, 113, 95)),
+    "two islands": shapely.MultiPolygon([SQUARE, shapely.box(125, 80, 140, 92)]),
+    "turned": shapely.affinity.rotate(SQUARE, 31),
+    "disc": shapely.Point(110, 90).buffer(12, 64),
+}
+
+
+@pytest.mark.parametrize("kept", [0.3, 0.36, 0.42])
+@pytest.mark.parametrize("name", AREAS)
+def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
+    """Within 0.5 % of the area, and 0.05 mm of the outline: its corners are rounded by 0.5 mm, 0.21 mm from there."""
+    area = AREAS[name]
+    found = region_of(dense(area.boundary, STEP), filled(area, kept))
+    wanted = area.buffer(-kept, quad_segs=32)
+    assert found.distance == pytest.approx(kept, abs=0.01)
+    whole = shapely.MultiPolygon(list(found.polygons))
+    assert whole.is_valid
+    assert len(found.polygons) == len(shapely.get_parts(wanted))
+    assert [len(polygon.interiors) for polygon in found.polygons] == [
+        len(polygon.interiors) for polygon in shapely.get_parts(wanted)
+    ]
+    assert whole.area == pytest.approx(wanted.area, rel=0.005)
+    assert whole.difference(wanted.buffer(0.05)).is_empty
+    assert wanted.difference(whole.buffer(0.25)).is_empty
+
+
+def test_what_holds_no_infill_is_no_region() -> None:
+    walls = dense(AREAS["two islands"].boundary, STEP)
+    found = region_of(walls, filled(SQUARE, 0.36))
+    assert len(found.polygons) == 1
+    assert SQUARE.covers(found.polygons[0])
+    assert region_of(np.empty((0, 2)), walls).polygons == region_of(walls, np.empty((0, 2))).polygons == ()
+
+
+@pytest.mark.parametrize("far", [1e4, 1e9, 1e300])
+def test_infill_far_away_takes_no_memory(far: float) -> None:
+    lost = np.concatenate([filled(SQUARE, 0.36), [[far, far]]])
+    assert region_of(dense(SQUARE.boundary, STEP), lost).polygons == ()
+
+
+def test_a_region_is_taken_again_only_where_it_fits() -> None:
+    walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
+    before = region_of(walls, infill)
+    assert region_of(walls, infill, before) is before
+    # The next layer's samples lie elsewhere on the same walls.
+    moved = dense(shapely.segmentize(SQUARE.boundary, 0.13), STEP)
+    assert region_of(moved, filled(SQUARE, 0.36), before) is before
+    for other in (shapely.box(100, 80, 120, 100.2), SQUARE.buffer(0.1, join_style="mitre"), AREAS["hole"]):
+        assert region_of(dense(other.boundary, STEP), filled(other, 0.36), before) is not before
+    assert region_of(walls, filled(SQUARE, 0.42), before) is not before
+
+
+# --- time ------------------------------------------------------------------------------------------------------
+
+
+def seconds(*paths: np.ndarray, speed: float = 80.0, acceleration: float = 1000.0) -> np.ndarray:
+    count = len(paths)
+    return path_seconds(
+        np.concatenate(paths),
+        ends_of(paths),
+        np.full(count, speed),
+        np.full(count, acceleration),
+        neutral_limits(5.0),
+    )
+
+
+@given(length=st.floats(0.01, 100), speed=st.floats(5, 300), acceleration=st.floats(100, 20000))
+def test_a_straight_line_is_a_trapezoid(length: float, speed: float, acceleration: float) -> None:
+    wanted = (
+        length / speed + speed / acceleration
+        if length * acceleration > speed**2
+        else 2 * math.sqrt(length / acceleration)
+    )
+    found = seconds(np.array([[0, 0], [length, 0.0]]), speed=speed, acceleration=acceleration)
+    assert found == pytest.approx(wanted, rel=1e-6)
+    # A point on the way changes nothing.
+    assert seconds(
+        np.array([[0, 0], [0.3 * length, 0], [length, 0.0]]), speed=speed, acceleration=acceleration
+    ) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_a_right_angle_is_passed_at_the_square_corner_velocity() -> None:
+    """Each leg of 20 mm: from rest to 80 mm/s, then down to 5 mm/s."""
+    one_leg = 80 / 1000 + 75 / 1000 + (20 - 80**2 / 2000 - (80**2 - 5**2) / 2000) / 80
+    assert seconds(walk([(20, 0), (20, 90)])) == pytest.approx(2 * one_leg, rel=1e-6)
+
+
+@given(paths=st.lists(walks(150), min_size=1, max_size=4))
+def test_times_of_paths(paths: list[np.ndarray]) -> None:
+    """Each for itself, and the same the other way."""
+    together = seconds(*paths)
+    assert together == pytest.approx([seconds(path)[0] for path in paths])
+    assert seconds(*[path[::-1] for path in paths]) == pytest.approx(together)
+
+
+def test_no_paths_take_no_time() -> None:
+    none = np.empty(0)
+    assert len(path_seconds(np.empty((0, 2)), np.array([0]), none, none, neutral_limits())) == 0
+
+
+def test_round_corners_take_less_time() -> None:
+    """A zigzag of right angles, passed at 5 mm/s, or on arcs of 1 mm at √(1000) mm/s."""
+    path = walk([(3, 90 * (-1) ** k) for k in range(20)])
+    round_ones = rounded(*one(path), radius=1.0)
+    assert seconds(round_ones.points)[0] < 0.75 * seconds(path)[0]
