@@ -90,8 +90,8 @@ def speed_section(found: dict[str, Any] | None) -> str:
     ]
     return (
         "## Speed and memory\n\n"
-        f"`infill refill` as a command, start included, in turn with `prusa-slicer` slicing the same print: medians of "
-        f"{found['runs']} pairs, the ratio pair by pair. {found['cores']} cores; the load at the end was "
+        f"`infill refill` as a command, start included, in turn with `prusa-slicer` slicing the same print: medians, "
+        f"pairs: {found['runs']}, the ratio pair by pair. {found['cores']} cores; the load at the end was "
         f"{found['load']:.1f}, so that seconds are upper bounds and the ratio is what to trust.\n\n"
         + table(("job", "MB", "s", "peak MB", "slicing, s", "ratio", "limit", "reached?"), rows)
         + "\n`keep` on gyroid boxes of growing height:\n\n"

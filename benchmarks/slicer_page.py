@@ -92,7 +92,7 @@ def _stands_on(results: dict[str, Any], total: int, code: str) -> str:
     stale = f"; {old} of {len(refills)} refills were made by older code, of refill or of this report" if old else ""
     return (
         f"It stands on {len(runs)} of {total} slicings ({told}), of {len({case.part for case in cases})} of "
-        f"{len(PARTS)} parts, each refilled in up to three modes; {failed} runs failed{stale}. "
+        f"{len(PARTS)} parts, each refilled in up to three modes; {failed} of these failed{stale}. "
         f"Made with PrusaSlicer {made.get('prusa', '?')}, CuraEngine {made.get('cura', '?')}, "
         f"Python {made.get('python', '?')}, {made.get('system', '?')}, {made.get('date', '?')}.\n"
     )
@@ -116,7 +116,7 @@ def promises_section(results: dict[str, Any]) -> str:
             rows.append((promise.text, promise.limit, "-", "-", "not measured"))
             continue
         value, values = found
-        spread = f"{promise.show.format(min(values))} to {promise.show.format(max(values))}, {len(values)} runs"
+        spread = f"{promise.show.format(min(values))} to {promise.show.format(max(values))}, {_runs(values)}"
         rows.append((promise.text, promise.limit, promise.show.format(value), spread, verdict(promise.reached(value))))
     for pattern in ("gyroid", "hilbertcurve"):
         wide = [
@@ -126,12 +126,16 @@ def promises_section(results: dict[str, Any]) -> str:
         ]
         text = f"our {OURS[pattern]} against `keep` of the slicer's, regions wider than {WIDE} cells, middle over runs"
         if wide:
-            spread = f"{min(wide):+.1%} to {max(wide):+.1%}, {len(wide)} runs"
+            spread = f"{min(wide):+.1%} to {max(wide):+.1%}, {_runs(wide)}"
             rows.append((text, "no slower", f"{middle(wide):+.1%}", spread, verdict(middle(wide) <= 0)))
         else:
             rows.append((text, "no slower", "-", "-", "not measured"))
     head = ("promise", "limit", "measured", "from and to", "reached?")
     return "## What was promised, and what holds\n\n" + table(head, rows)
+
+
+def _runs(values: Sequence[float]) -> str:
+    return f"{len(values)} run" + "s" * (len(values) > 1)
 
 
 def _of(runs: Runs, slicer: str, pattern: str) -> list[tuple[Case, dict[str, Any]]]:

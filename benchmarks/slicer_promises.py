@@ -125,7 +125,7 @@ def promises() -> list[Promise]:
         found.append(
             Promise(
                 text=f"keep, {pattern}, {printer} printer, equal filament: infill time saved, middle over parts",
-                limit=f"at least {least:.0%}",
+                limit=f"at least {100 * least:.0f} %",
                 mode=SAME,
                 chosen=chosen,
                 measure=saved,

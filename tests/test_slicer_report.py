@@ -133,7 +133,7 @@ def test_runs_that_failed_and_runs_of_older_code_are_told() -> None:
     found = results()
     found["runs"]["prusa/stars/box/15/fast"]["keep"] = {"error": "it broke"}
     text = page(found, 468, "y")
-    assert "1 runs failed" in text
+    assert "1 of these failed" in text
     assert "keep: it broke" in text
     assert re.search(r"\d+ of \d+ refills were made by older code", text)
     with pytest.raises(ValueError, match="2 columns"):
