@@ -24,12 +24,13 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make slicers   PrusaSlicer and CuraEngine, on Debian, for the tests that slice
 ## make data      real meshes and scans for the tests, in data/
 ## make bench     the promised speeds
+## make slicer-report  refill against the slicers, hours of slicing, and docs/slicer-report.md
 ## make paper     the paper's figures and tables, and docs/paper.md
 ## make pictures  the pictures of README and docs
 ## make clean     removes what these made
 
 .DELETE_ON_ERROR:
-.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench paper pictures help clean
+.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench slicer-report paper pictures help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -99,6 +100,11 @@ bench: .venv/test
 	@$(BIN)/python -m benchmarks.smooth_speed
 	@$(BIN)/python -m benchmarks.smooth_quality
 	@$(BIN)/python -m benchmarks.smooth_files
+
+# Refill in the real slicers, and docs/slicer-report.md: hours; what was run before is kept in build/slicer-report.json.
+# `make slicer-report ONLY=--quick` takes some minutes, `ONLY=--page` writes the page of what is there.
+slicer-report: .venv/test
+	@$(BIN)/python -m benchmarks.slicer_report $(ONLY)
 
 # Every figure and table of the paper, and docs/paper.md: some minutes. Models are taken from $INFILL_DATA.
 paper: .venv/test

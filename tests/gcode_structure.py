@@ -38,6 +38,12 @@ def width_of(moves: list[Move]) -> float:
 
 def supported(data: bytes) -> float:
     """Return the share of the infill's length that lies on a bead of the layer below."""
+    held, whole = held_up(data)
+    return held / whole if whole else 1.0
+
+
+def held_up(data: bytes) -> tuple[float, float]:
+    """Return how much of the infill lies on a bead of the layer below, mm, and how much there is above a layer."""
     whole = held = 0.0
     below: list[Move] = []
     for _, infill, rest in layers_of(data):
@@ -50,26 +56,29 @@ def supported(data: bytes) -> float:
             whole += shapely.length(pieces).sum()
             held += shapely.length(shapely.intersection(pieces, ground)).sum()
         below = infill + rest
-    return held / whole if whole else 1.0
+    return float(held), float(whole)
 
 
 def bonded(data: bytes) -> float:
     """Return the share of the infill's length beside which another strand of it lies, as near as beads touch."""
+    touching, whole = touched(data)
+    return touching / whole if whole else 0.0
+
+
+def touched(data: bytes) -> tuple[float, float]:
+    """Return how much of the infill lies beside another strand of it, mm, and how much there is."""
     whole = touching = 0
     for _, infill, _ in layers_of(data):
         if not infill:
             continue
         points, along, path = samples(lines_of(infill))
         width = width_of(infill)
-        tree = cKDTree(points)
-        near = np.zeros(len(points), bool)
-        for i, j in tree.query_pairs(TOUCH * width, output_type="ndarray").reshape(-1, 2):
-            # The same strand, a little further along, is no neighbour; nor one that is crossed.
-            if path[i] != path[j] or abs(along[i] - along[j]) > 4 * width:
-                near[i] = near[j] = True
+        i, j = cKDTree(points).query_pairs(TOUCH * width, output_type="ndarray").reshape(-1, 2).T
+        # The same strand, a little further along, is no neighbour; nor one that is crossed.
+        beside = (path[i] != path[j]) | (np.abs(along[i] - along[j]) > 4 * width)
         whole += len(points)
-        touching += int(near.sum())
-    return touching / whole if whole else 0.0
+        touching += len(np.unique(np.concatenate([i[beside], j[beside]])))
+    return touching * STEP, whole * STEP
 
 
 def samples(paths: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

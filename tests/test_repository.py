@@ -193,7 +193,7 @@ def test_the_readme_warns_of_names_that_others_hold() -> None:
 def test_make_help_names_every_target() -> None:
     makefile = text("Makefile")
     (targets,) = re.findall(r"^\.PHONY: (.*)$", makefile, re.M)
-    named = set(re.findall(r"^## make (\w+)", makefile, re.M))
+    named = set(re.findall(r"^## make ([\w-]+)", makefile, re.M))
     assert named == set(targets.split()) - {"help"}
 
 
