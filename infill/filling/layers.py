@@ -179,6 +179,7 @@ def refilled_batch(table: Table, marks: Marks, rules: Rules, tally: Tally) -> tu
         return _replaced(table, marks, infill, rules, tally, tools)
     opens = first_moves(infill)
     section = marks.section[opens]
+    _count(tally, "no plain moves", len(np.setdiff1d(sections, section)))
     new = rounded_strokes(table, marks, infill, rules.rounding, acceleration=rules.acceleration)
     speed, acceleration = table.f[opens] / 60, _accelerations(marks, opens, rules)
     before = _seconds(infill.points, infill.first, speed, acceleration, rules)
@@ -274,6 +275,9 @@ def _replaced(
         _count(tally, f"a check failed: {wrong}", len(fresh))
         return _nothing(table, infill, before, tally)
     tally.replaced += len(fresh)
+    for radius in rules.memory.radii:
+        _count_radii(radius, tally)
+    rules.memory.radii.clear()
     changed = np.zeros(len(infill), dtype=bool)
     for each in fresh:
         changed[each.body.strokes] = True
@@ -359,7 +363,11 @@ def _count(tally: Tally, reason: str, number: int) -> None:
 
 def _count_corners(infill: Strokes, changed: NDArray[np.bool_], radius: Floats, tally: Tally) -> None:
     bent = np.repeat(changed, np.diff(infill.first))
-    found = radius[bent & (radius > LEAST_RADIUS) & np.isfinite(radius)]
+    _count_radii(radius[bent], tally)
+
+
+def _count_radii(radius: Floats, tally: Tally) -> None:
+    found = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
     tally.corners += len(found)
     tally.radii.add(found)
 

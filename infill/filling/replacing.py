@@ -101,6 +101,8 @@ class Memory:
         One for each area.
     owed : float
         mm of filament that beads could not be widened enough to take.
+    radii : list of (N,) float64, mm
+        Of the arcs that were drawn since this was last emptied; 0 or infinite where there is none.
     """
 
     region: Region | None = None
@@ -108,6 +110,7 @@ class Memory:
     paths: dict[tuple[int, int], Paths] = field(default_factory=dict)
     columns: list[Column] = field(default_factory=list)
     owed: float = 0.0
+    radii: list[Floats] = field(default_factory=list)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -416,7 +419,9 @@ def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
     rounding = replace(
         plan.rounding, radius=min(plan.rounding.radius, plan.family.largest_radius(cell, plan.line_width))
     )
-    done = _rounded(strands, layer.walls, rounding, plan.line_width, layer.acceleration, speed)
+    radii: list[Floats] = []
+    done = _rounded(strands, layer.walls, rounding, plan.line_width, layer.acceleration, speed, radii)
+    layer.memory.radii += radii
     near = shapely.buffer(area, INSIDE)
     shapely.prepare(near)
     inside = shapely.covers(near, [shapely.linestrings(path) for path in done]).tolist()
@@ -427,9 +432,15 @@ def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
 
 
 def _rounded(
-    paths: Paths, walls: Floats | None, rounding: Rounding, width: float, acceleration: float, speed: float
+    paths: Paths,
+    walls: Floats | None,
+    rounding: Rounding,
+    width: float,
+    acceleration: float,
+    speed: float,
+    radii: list[Floats] | None = None,
 ) -> Paths:
-    """Return paths with round corners; beside walls they hardly move."""
+    """Return paths with round corners, and append the radii of arcs to a list; beside walls they hardly move."""
     paths = [path for path in paths if len(path) > 1]
     if not paths:
         return paths
@@ -443,6 +454,8 @@ def _rounded(
         rounding=rounding,
         line_width=width,
     )
+    if radii is not None:
+        radii.append(done.radius)
     return [done.points[low:high] for low, high in zip(done.first[:-1], done.first[1:], strict=True)]
 
 
