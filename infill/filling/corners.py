@@ -140,7 +140,7 @@ def _turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats
         leg / np.maximum(length, 1e-300)[:, None] for leg, length in zip((before, after), lengths, strict=True)
     )
     cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-    return np.arctan2(np.abs(cross), (before * after).sum(axis=1)), before, after, lengths
+    return np.arctan2(np.abs(cross), before[:, 0] * after[:, 0] + before[:, 1] * after[:, 1]), before, after, lengths
 
 
 def _shared(wanted: Floats, here: Places, lengths: Floats, count: int) -> Floats:
@@ -199,7 +199,8 @@ def _drawn(
         new = np.rint(new / unit) * unit
     # Arcs that meet in the middle of a leg share a point there; an arc may end at a point of the path, which stays.
     keep = np.ones(len(new), dtype=bool)
-    near = np.flatnonzero(np.abs(np.diff(new, axis=0)).max(axis=1) <= max(unit * 5, 1e-9)) + 1
+    step = np.abs(np.diff(new, axis=0))
+    near = np.flatnonzero(np.maximum(step[:, 0], step[:, 1]) <= max(unit * 5, 1e-9)) + 1
     fixed = ~bent[source]
     both = fixed[near] & fixed[near - 1]
     keep[np.where(fixed[near], near - 1, near)[~both]] = False

@@ -203,7 +203,7 @@ def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
     changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
     alike = np.flatnonzero(~changed)
     old, now = infill.points[points_of(infill.first, alike)], new.points[points_of(new.first, alike)]
-    moved = np.abs(old - now).max(axis=1) > UNIT / 2
+    moved = (np.abs(old[:, 0] - now[:, 0]) > UNIT / 2) | (np.abs(old[:, 1] - now[:, 1]) > UNIT / 2)
     owner = np.repeat(alike, np.diff(infill.first)[alike])
     changed[owner[moved]] = True
     return changed
