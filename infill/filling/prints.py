@@ -12,11 +12,10 @@ from typing import BinaryIO
 
 from infill.errors import FormatError, GeometryError
 from infill.formats.whole_files import told
-from infill.gcode.binary import Kind, blocks, is_binary, metadata, rewritten, text_pieces
 from infill.gcode.estimates import Change, estimates, told_anew
 
 AT_ONCE = 1 << 20  # bytes
-MAGIC = 16  # bytes that tell binary G-code
+MAGIC = b"GCDE"  # what binary G-code begins with
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,11 +56,13 @@ def opened(source: Path, folder: Path | None) -> Iterator[Given]:
         raise FormatError(f"cannot read {source}: {said[:1].lower()}{said[1:]}") from error
     try:
         with file:
-            head = file.read(MAGIC)
+            head = file.read(len(MAGIC))
             file.seek(0)
-            if not is_binary(head):
+            if head != MAGIC:
                 yield Given(text=file)
                 return
+            from infill.gcode.binary import Kind, blocks, metadata, text_pieces
+
             with scratch(folder) as text:
                 for piece in text_pieces(file):
                     text.write(piece)
@@ -99,6 +100,8 @@ def write_print(given: Given, file: BinaryIO, text: Iterable[bytes], change: Cha
     if given.binary is None:
         file.writelines(text)
         return
+    from infill.gcode.binary import rewritten
+
     changes = {}
     for name, value in given.metadata:
         line = b"; %s = %s" % (name, value)

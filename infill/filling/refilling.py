@@ -15,23 +15,18 @@ import shutil
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from infill.errors import FormatError
-from infill.filling.keeping import Rounding
-from infill.filling.layers import Rules, Tally, refilled_batch
 from infill.filling.prints import Given, copy_mode, opened, pieces, scratch, write_print
-from infill.filling.replacing import family_of, planned
 from infill.filling.request import AUTO, KEEP, SAME, Request
-from infill.filling.support import largest_deviation, samples
-from infill.filling.telling import report_of_refill
 from infill.formats.whole_files import check_target, told, whole_file
 from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
-from infill.gcode.sections import Tags, marked
-from infill.gcode.stream import batches
-from infill.gcode.survey import STAMP, Survey, survey
-from infill.gcode.table import read
 from infill.version import __version__
+
+if TYPE_CHECKING:
+    from infill.filling.layers import Rules, Tally
+    from infill.gcode.survey import Survey
 
 Progress = Callable[[str, float], None]
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
@@ -204,6 +199,9 @@ class _Done:
 
 def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
+    from infill.filling.telling import report_of_refill
+    from infill.gcode.survey import survey
+
     found = survey(given.text)
     found = replace(found, settings={**found.settings, **given.settings})
     if found.stamped:
@@ -231,6 +229,8 @@ def _section(found: Survey) -> float:
 
 def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
     """Return the edit that puts the stamp in: after the header block, or after a first line that is a comment."""
+    from infill.gcode.survey import STAMP
+
     draft.seek(0)
     head = draft.read(HEAD)
     place = 0
@@ -248,6 +248,11 @@ def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
 
 def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
     """Decide how corners are rounded."""
+    from infill.filling.keeping import Rounding
+    from infill.filling.layers import Rules
+    from infill.filling.replacing import family_of, planned
+    from infill.filling.support import largest_deviation, samples
+
     if progress is not None:
         progress("looking at layers", 0.0)
     acceleration = found.number("infill_acceleration", "sparse_infill_acceleration", "default_acceleration") or 1000.0
@@ -276,6 +281,11 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
 
 def _drafted(file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, progress: Progress | None) -> Tally:
     """Write the new text to a draft."""
+    from infill.filling.layers import Tally, refilled_batch
+    from infill.gcode.sections import Tags, marked
+    from infill.gcode.stream import batches
+    from infill.gcode.table import read
+
     file.seek(0)
     state, tags = rules.begin, Tags()
     tally = Tally()

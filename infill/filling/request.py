@@ -9,7 +9,6 @@ from pathlib import Path
 
 from infill.checks import positive, within
 from infill.errors import ParameterError
-from infill.filling.families.catalogue import FAMILIES
 
 KEEP = "keep"
 AUTO = "auto"
@@ -68,11 +67,13 @@ class Request:
             within("max deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
             raise ParameterError(f"layers are {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
-        drawing = Path(self.pattern).suffix.lower() in DRAWINGS
-        if self.pattern != KEEP and self.pattern not in FAMILIES and not drawing:
-            near = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
-            advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
-            raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
+        if self.pattern != KEEP and Path(self.pattern).suffix.lower() not in DRAWINGS:
+            from infill.filling.families.catalogue import FAMILIES
+
+            if self.pattern not in FAMILIES:
+                near = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
+                advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
+                raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise ParameterError("keep has the slicer's density; give another pattern, or set it in the slicer")
 
