@@ -92,6 +92,7 @@ def smoothed(
     speed: Floats,
     rounding: Rounding,
     line_width: float,
+    hard: NDArray[np.bool_] | None = None,
 ) -> Rounded:
     """Cut the curves of some paths anew and round the corners.
 
@@ -108,6 +109,8 @@ def smoothed(
         mm/s² and mm/s.
     rounding : Rounding
     line_width : float, mm
+    hard : (N,) bool, optional
+        Points that stay as they are.
     """
 
     def machine(begins: Places) -> Machine:
@@ -117,7 +120,10 @@ def smoothed(
         )
 
     near = _near_walls(points, first, walls, layer, line_width)
-    curves = recut(points, first, machine(first), np.where(near, TOWARDS, MOST_BULGE))
+    bulge = np.where(near, TOWARDS, MOST_BULGE)
+    if hard is not None:
+        bulge[hard] = 0.0
+    curves = recut(points, first, machine(first), bulge)
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corner = np.flatnonzero(inner)
@@ -129,6 +135,8 @@ def smoothed(
         deviation[some] = bounded_deviation(
             curves.points, some, others, deviation=rounding.deviation, line_width=line_width
         )
+    if hard is not None:
+        deviation[hard[curves.source]] = 0.0
     done = rounded(
         curves.points,
         curves.first,

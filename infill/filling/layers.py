@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.contact import Contact
+from infill.filling.covering import total_length
 from infill.filling.keeping import Rounding, first_moves, lengths, line_width, redrawn, rounded_strokes
 from infill.filling.measuring import MEASURED, Below, Drawing, drawing, measured
 from infill.filling.replacing import Fresh, Memory, Plan, fresh_sections, outside, retractions
@@ -314,7 +315,7 @@ def _unhurried(table: Table, marks: Marks, fresh: list[Fresh], rules: Rules) -> 
     slowed = []
     for each in fresh:
         body = each.body
-        length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in each.paths)
+        length = total_length(each.paths)
         if short[body.layer - int(marks.layer[0])] and 0 < length < body.length:
             body = replace(body, feed=body.feed * length / body.length)
         slowed.append(replace(each, body=body))

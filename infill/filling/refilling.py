@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[str, float], None]
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
+LEAST_CORNER = 1.0  # mm/s × rad: less would cut an arc into crumbs
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
 
@@ -256,13 +257,11 @@ def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
     if progress is not None:
         progress("looking at layers", 0.0)
     acceleration = found.number("infill_acceleration", "sparse_infill_acceleration", "default_acceleration") or 1000.0
-    corner = (
-        (found.number("machine_max_jerk_x") or 9.0) if found.number("machine_max_junction_deviation") is None else 9.0
-    )
+    jerk = found.number("machine_max_jerk_x") if found.number("machine_max_junction_deviation") is None else None
     rounding = Rounding(
         deviation=request.deviation,
         radius=request.radius,
-        corner=max(corner, 1.0),
+        corner=max(jerk or CORNER, LEAST_CORNER),
         same_filament=request.density == SAME,
     )
     some = samples(found)

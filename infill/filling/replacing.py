@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.contact import Samples, sampled
-from infill.filling.covering import cover, solve_cell
+from infill.filling.covering import cover, solve_cell, total_length
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import TOUCH, Family
@@ -34,6 +34,9 @@ LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet
 SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
 INSIDE = 0.01  # mm that a path may leave its region
+AGAIN = 3  # times that paths are rounded, until all of them stay inside
+REACHED = 1.5  # mm from where a path leaves its region to the corners that made it leave
+USUAL_SPEED = 80.0  # mm/s, for lengths: it only decides how finely arcs are cut
 LARGEST_RADIUS = 1000.0  # mm: as large as it gets
 OFF = 0.08  # of the length that an area should have, which beads cannot make up for, before it gets a cell of its own
 FAR_OFF = 0.12  # of it, before a column changes its cell, so that its layers no longer lie on one another
@@ -192,8 +195,8 @@ def planned(
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
         arcs = replace(rounding, radius=min(rounding.radius, family.largest_radius(cell, width)))
-        done = _rounded(list(paths), around, arcs, width, acceleration, 80.0)
-        return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in done))
+        long = [path for path in paths if len(path) > 1]
+        return total_length(_rounded(long, around, arcs, width, acceleration, USUAL_SPEED)[0])
 
     radius = min(rounding.radius, LARGEST_RADIUS)
     solved = solve_cell(regions, family, length, line_width=width, radius=radius, measure=measure)
@@ -243,7 +246,7 @@ def fresh_sections(
                 continue
             layer_plan = _Layer(plan=plan, memory=memory, walls=walls, region=region, acceleration=acceleration)
             drawn = {body.section: _paths(body, group.areas[body.section], layer_plan) for body in members}
-            pushed = sum(body.rate * _length(drawn[body.section]) for body in members)
+            pushed = sum(body.rate * total_length(drawn[body.section]) for body in members)
             if not pushed:
                 reasons["no path fits"] = reasons.get("no path fits", 0) + len(members)
                 continue
@@ -303,10 +306,6 @@ def _column(area: Polygon, length: float, plan: Plan, memory: Memory) -> Column:
     if best is None:
         return Column(area=area, cell=plan.cell, density=density, fresh=True)
     return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density, fresh=False)
-
-
-def _length(paths: Paths) -> float:
-    return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in paths))
 
 
 def _unsure(group: _Group, members: list[Body], lost: set[int]) -> str:
@@ -385,15 +384,15 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
     best, cell = paths, column.cell
     # What varies with the height has one cell everywhere, or its layers would not fit one another.
     if layer.plan.family.prismatic and wanted > LEAST_LENGTH:
-        error = _length(paths) / wanted - 1
+        error = total_length(paths) / wanted - 1
         if abs(error) > (OFF if column.fresh else FAR_OFF):
             around = cell * np.exp(np.linspace(-SPREAD, SPREAD, SCANNED)) if wanted < SMALL else ()
             for tried in range(TRIES + len(around)):
                 cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if tried < TRIES else float(around[tried - TRIES])
                 cell = max(cell, TOUCH * layer.plan.line_width)
                 paths = _covered(body, column.area, cell, layer)
-                error = _length(paths) / wanted - 1
-                if abs(error) < abs(_length(best) / wanted - 1):
+                error = total_length(paths) / wanted - 1
+                if abs(error) < abs(total_length(best) / wanted - 1):
                     best = paths
                     memory.columns[area] = replace(column, cell=cell)
                 if abs(error) < NEAR:
@@ -402,7 +401,7 @@ def _fitted(body: Body, area: int, layer: _Layer) -> Paths:
 
 
 def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
-    """Return rounded paths in an area; one that would leave it keeps its corners."""
+    """Return rounded paths in an area; where one would leave it, its corners stay."""
     import shapely
 
     plan = layer.plan
@@ -415,20 +414,27 @@ def _covered(body: Body, area: Polygon, cell: float, layer: _Layer) -> Paths:
         layer=body.layer,
         radius=min(plan.rounding.radius, LARGEST_RADIUS),
     )
-    speed = body.feed / 60
-    rounding = replace(
-        plan.rounding, radius=min(plan.rounding.radius, plan.family.largest_radius(cell, plan.line_width))
-    )
-    radii: list[Floats] = []
-    done = _rounded(strands, layer.walls, rounding, plan.line_width, layer.acceleration, speed, radii)
-    layer.memory.radii += radii
+    strands = [path for path in strands if len(path) > 1]
+    if not strands:
+        return strands
+    radius = min(plan.rounding.radius, plan.family.largest_radius(cell, plan.line_width))
+    rounding = replace(plan.rounding, radius=radius)
     near = shapely.buffer(area, INSIDE)
     shapely.prepare(near)
-    inside = shapely.covers(near, [shapely.linestrings(path) for path in done]).tolist()
-    if all(inside):
-        return done
-    plain = [np.rint(path / UNIT) * UNIT for path in strands if len(path) > 1]
-    return [one if fits else other for one, other, fits in zip(done, plain, inside, strict=True)]
+    corners = shapely.points(np.concatenate(strands))
+    hard = np.zeros(len(corners), dtype=bool)
+    for _ in range(AGAIN):
+        done, radii = _rounded(
+            strands, layer.walls, rounding, plan.line_width, layer.acceleration, body.feed / 60, hard=hard
+        )
+        lines = np.array([shapely.linestrings(path) for path in done])
+        inside = shapely.covers(near, lines)
+        if inside.all():
+            break
+        hard |= shapely.dwithin(corners, shapely.union_all(shapely.difference(lines[~inside], near)), REACHED)
+    layer.memory.radii.append(radii)
+    plain = [np.rint(path / UNIT) * UNIT for path in strands]
+    return [one if fits else other for one, other, fits in zip(done, plain, inside.tolist(), strict=True)]
 
 
 def _rounded(
@@ -438,12 +444,11 @@ def _rounded(
     width: float,
     acceleration: float,
     speed: float,
-    radii: list[Floats] | None = None,
-) -> Paths:
-    """Return paths with round corners, and append the radii of arcs to a list; beside walls they hardly move."""
-    paths = [path for path in paths if len(path) > 1]
+    hard: NDArray[np.bool_] | None = None,
+) -> tuple[Paths, Floats]:
+    """Return paths with round corners, and the radii of their arcs; beside walls they hardly move."""
     if not paths:
-        return paths
+        return paths, np.empty(0)
     first = np.concatenate([[0], np.cumsum([len(path) for path in paths])])
     done = smoothed(
         np.concatenate(paths),
@@ -453,10 +458,9 @@ def _rounded(
         speed=np.full(len(paths), speed),
         rounding=rounding,
         line_width=width,
+        hard=hard,
     )
-    if radii is not None:
-        radii.append(done.radius)
-    return [done.points[low:high] for low, high in zip(done.first[:-1], done.first[1:], strict=True)]
+    return [done.points[low:high] for low, high in zip(done.first[:-1], done.first[1:], strict=True)], done.radius
 
 
 def retractions(fresh: Fresh, least: float) -> list[bool]:
