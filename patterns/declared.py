@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any, ClassVar, Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, get_args
 
 from patterns.errors import PatternError
 
@@ -122,9 +122,12 @@ def parameters(pattern: object) -> dict[str, Described]:
 
 
 class Named(Protocol):
-    """Anything that messages can refer to by name."""
+    """Anything that messages can refer to by name: a pattern, a class of patterns, or what else has parameters."""
 
-    name: ClassVar[str]
+    @property
+    def name(self) -> str:
+        """The name to type on the command line."""
+        ...
 
 
 def wanted(default: object, described: Parameter) -> str:
