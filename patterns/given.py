@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 import math
 from collections.abc import Iterable, Mapping
 from numbers import Real
 from typing import Any
 
-from patterns.declared import Described, Named, checked, parameters, shown
+from patterns.declared import Described, Named, Parameter, checked, numbers_of, parameters, shown
 from patterns.errors import PatternError
 
 BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
@@ -43,7 +44,7 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
     found = parameters(kind)
     if name not in found:
         raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, found)}")
-    return name, value_of(kind, name, _plain(value.strip(), found[name][0].default))
+    return name, value_of(kind, name, _plain(value.strip(), *found[name]))
 
 
 def value_of(kind: Named, name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
@@ -106,15 +107,15 @@ def default_text(described: Described) -> str:
     return shown(default, described[1])
 
 
-def _plain(text: str, default: object) -> object:
-    """Return the value that a text stands for, or the text itself if it stands for none of the type of `default`."""
-    word = text.lower()
+def _plain(text: str, field: dataclasses.Field[Any], described: Parameter) -> object:
+    """Return the value that a text stands for, or the text itself if it stands for none of the type of the default."""
+    word, default = text.lower(), field.default
     if default is None and word == NONE:
         return None
     if isinstance(default, bool):
         return BOOLEANS.get(word, text)
     try:
-        if isinstance(default, tuple):
+        if numbers_of(default, described) is not None:
             return tuple(float(part) for part in text.split(","))
         return float(text)
     except ValueError:

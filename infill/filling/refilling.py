@@ -67,6 +67,7 @@ def refill(
     dry_run: bool = False,
     overwrite: bool = True,
     progress: Progress | None = None,
+    **parameters: Any,  # noqa: ANN401 - of the kind that each has
 ) -> RefillResult:
     """Fill a sliced print anew, in its G-code: its own infill with round corners, or a pattern of ours in its place.
 
@@ -100,6 +101,8 @@ def refill(
         Replace `output` if it exists.
     progress : callable, optional
         Told what is being done, and how much of it is done, 0 to 1.
+    **parameters
+        Parameters of the pattern: angle=math.radians(30), phase=(1, 2) … docs/refill.md lists them.
 
     Returns
     -------
@@ -123,6 +126,7 @@ def refill(
         max_deviation=max_deviation,
         layers=layers,
         part=part,
+        parameters=parameters,
     )
     if not isinstance(gcode, str | os.PathLike):
         return _refilled_lines(gcode, request, progress)
