@@ -24,6 +24,7 @@ from infill.filling.families.turned import Turned
 from infill.filling.outlines import outline_of
 from infill.filling.placement import family_of, unplaced
 from infill.filling.settings import ENDLESS, parse_radius, parse_range, parse_share, resolve
+from patterns import PatternError
 from patterns.declared import parameters, wanted
 from patterns.given import assigned
 from patterns.linework import turn
@@ -64,10 +65,11 @@ def lines(family: Family, *, z: float = 0.6, layer: int = 3) -> shapely.MultiLin
 
 
 def apart(one: shapely.MultiLineString, other: shapely.MultiLineString) -> float:
-    """Return how far the corners of lines lie from other lines, and the other way round, in the disc; mm."""
+    """Return how far points of lines lie from other lines, and the other way round, in the disc; mm."""
     found = []
     for some, rest in ((one, other), (other, one)):
-        points = shapely.get_coordinates(some)
+        long = [line for line in some.geoms if line.distance(shapely.Point(0, 0)) < 8]
+        points = shapely.get_coordinates(shapely.segmentize(long, 1.0))
         points = points[np.hypot(*points.T) < 8]
         assert len(points) > 10
         found.append(shapely.distance(rest, shapely.points(points)).max())
@@ -130,7 +132,9 @@ def test_a_turn_by_half_and_a_shift(name: str) -> None:
     if shift is None:
         (wave,) = family.rows(4.0, WIDTH, 0.3).waves  # type: ignore[attr-defined]
         shift = (wave.period / 2, wave.height)
-    assert apart(lines(family), lines(family_of(name, {"angle": math.pi, "phase": shift}))) < 1e-6
+    # Where a gyroid has its corners is interpolated, forwards along one wave and backwards along the other.
+    limit = 5e-6 if name == "gyroid" else 1e-6
+    assert apart(lines(family), lines(family_of(name, {"angle": math.pi, "phase": shift}))) < limit
 
 
 def test_the_comparison_can_fail() -> None:
@@ -227,7 +231,7 @@ MISTAKES = {
 def test_a_mistake_in_the_file_is_one_line(text: str, tmp_path: Path) -> None:
     config = tmp_path / "a.toml"
     config.write_text(text)
-    with pytest.raises((ParameterError, FormatError)) as caught:
+    with pytest.raises((ParameterError, PatternError, FormatError)) as caught:
         resolve({}, config)
     said = str(caught.value)
     assert MISTAKES[text] in said
@@ -245,9 +249,8 @@ def test_whatever_is_given_is_read_or_refused_in_one_line(value: object) -> None
         try:
             found = read(name, value)
         except ParameterError as error:
-            assert len(str(error).splitlines()) == 1
-        else:
-            assert isinstance(found, (tuple, str, int, float))
+            found = str(error)
+        assert isinstance(found, (tuple, float, int)) or len(found.splitlines()) == 1
 
 
 @given(st.integers(0, 999_999_999), st.integers(0, 999_999_999))
@@ -264,6 +267,36 @@ def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> Non
     assert assigned(kind, f"phase = {x!r}, {y!r}") == ("phase", (x, y))
     found = resolve({"pattern": "gyroid"}, assigned=[f"angle={angle!r}", f"phase={x!r},{y!r}"])
     assert found == {"pattern": "gyroid", "angle": math.radians(angle), "phase": (x, y)}
+
+
+# --- a print refilled ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["honeycomb", "rectilinear", "gyroid", "concentric-heart", "drawing"])
+def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Path, tile: Path) -> None:
+    """Within 1 %; an independent judge finds nothing else changed, and paths lie elsewhere than those of the pattern."""
+    pattern, texts = (str(tile) if name == "drawing" else name), []
+    for words in ([], ["--set", "angle=30"]):
+        output = gcode.with_name("new.gcode")
+        result = run("refill", gcode, "-o", output, "--force", "--pattern", pattern, *words, "--json", "-q")
+        assert result.exit_code == 0, result.stderr
+        report = json.loads(result.stdout)
+        assert report["sections"] == {"all": 3, "replaced": 3, "kept": {}}
+        assert report["request"]["parameters"]["angle"] == (30.0 if words else 0.0)
+        texts.append(output.read_bytes())
+        assert judge(PRINT, texts[-1], filament=(0.99, 1.01)) == []
+    assert texts[0] != texts[1]
+    refill(gcode, pattern=pattern, angle=math.radians(30))
+    assert gcode.read_bytes() == texts[1]
+
+
+def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
+    """Two middles a cell apart and more give other paths; none given gives those of the part."""
+    texts = []
+    for more in ({}, {"middle": (100.0, 100.0)}, {"middle": (103.0, 98.0)}):
+        refill(gcode, output=gcode.with_name("new.gcode"), pattern="concentric-heart", **more)
+        texts.append(gcode.with_name("new.gcode").read_bytes())
+    assert len(set(texts)) == 3
 
 
 # --- from the command, and from Python ---------------------------------------------------------------------------

@@ -11,13 +11,15 @@ import pytest
 import shapely
 
 from infill import FormatError, OutputError, ParameterError, refill
+from infill.filling.batch import Batch
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.keeping import Rounding
-from infill.filling.measuring import Drawing, drawing, measured
-from infill.filling.replacing import planned
-from infill.filling.support import AIM, LEAST_SHARE, Sample, largest_deviation, samples
+from infill.filling.measuring import Drawing, measured
+from infill.filling.planning import planned
+from infill.filling.support import AIM, LEAST_SHARE, largest_deviation, samples
 from infill.filling.surroundings import Beads
 from infill.gcode.survey import survey
+from infill.ragged import packed
 from tests.gcode_judge import judge, lines_of
 from tests.gcode_structure import bonded, layers_of, supported
 from tests.prints import box, prusa_print
@@ -62,7 +64,7 @@ def kept(honeycomb: Path) -> Path:
 
 
 @pytest.fixture(scope="module")
-def looked_at(honeycomb: Path) -> list[Sample]:
+def looked_at(honeycomb: Path) -> list[Batch]:
     with honeycomb.open("rb") as file:
         return samples(survey(file))
 
@@ -114,7 +116,7 @@ def test_a_whole_number_is_a_density_too(honeycomb: Path) -> None:
             refill(honeycomb, dry_run=True, pattern="rectilinear", density=density)
 
 
-def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Sample]) -> None:
+def test_hearts_lie_about_the_middle_of_the_part(looked_at: list[Batch]) -> None:
     """Half a node of the grid that regions are found on is 0.1 mm."""
     plan = planned(FAMILIES["concentric-heart"], looked_at, Rounding(), density=None, acceleration=1000.0)
     assert plan is not None
@@ -141,7 +143,7 @@ def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     assert bonded(new) >= LEAST_SHARE * bonded(old) - 0.01
 
 
-def test_the_largest_deviation(looked_at: list[Sample]) -> None:
+def test_the_largest_deviation(looked_at: list[Batch]) -> None:
     """It is one of those tried, not above the one asked for, and larger ones hold less."""
     best = largest_deviation(looked_at, Rounding(), 1000.0)
     assert 0.02 <= best <= 0.2
@@ -152,7 +154,8 @@ def test_the_largest_deviation(looked_at: list[Sample]) -> None:
 def stacked(aside: float) -> Drawing:
     """Ten lines 3 mm apart, on five layers, each layer `aside` of the one below."""
     paths = [np.array([[0, 3 * k + n * aside], [30, 3 * k + n * aside]]) for n in range(1, 6) for k in range(10)]
-    return drawing(paths, [n for n in range(1, 6) for _ in range(10)])
+    points, first = packed(paths)
+    return Drawing(points=points, first=first, layer=np.repeat(np.arange(1, 6), 10))
 
 
 def test_the_measure_can_fail() -> None:

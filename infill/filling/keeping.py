@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.batch import Batch
 from infill.filling.corners import Machine, Rounded, rounded
 from infill.filling.curves import MOST_BULGE, recut
-from infill.filling.surroundings import BESIDE, TOWARDS, Beads, beads, beside, bounded_deviation
-from infill.gcode.sections import Marks, Strokes
+from infill.filling.surroundings import BESIDE, TOWARDS, Beads, beside, bounded_deviation
+from infill.gcode.sections import Strokes
 from infill.gcode.splicing import UNIT, Redrawn
-from infill.gcode.table import Table
+from infill.ragged import packed, parted, picked
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-LINE_WIDTH = 0.45  # mm, where no tag tells it
 MOST_WIDENED = 1.08  # how much wider beads may become to make up for shorter paths
 
 
@@ -45,41 +45,53 @@ class Rounding:
     same_filament: bool = False
 
 
-def line_width(marks: Marks, line: Places) -> Floats:
-    """Return the line width, mm, on some lines."""
-    width = marks.width[line]
-    return np.where(np.isnan(width), LINE_WIDTH, width)
-
-
-def first_moves(infill: Strokes) -> Places:
-    """Return the line of the first move of every stroke."""
-    return infill.line[infill.first[:-1] + 1]
-
-
-def rounded_strokes(
-    table: Table, marks: Marks, infill: Strokes, rounding: Rounding, *, acceleration: float = 1000.0
-) -> Rounded:
-    """Round the strokes of a table, layer by layer.
+def rounded_strokes(batch: Batch, rounding: Rounding, *, acceleration: float) -> Rounded:
+    """Round the strokes of a batch, layer by layer.
 
     Parameters
     ----------
-    table : Table
-        Whole layers.
+    batch : Batch
+    rounding : Rounding
     acceleration : float, mm/s²
-        Where no command tells it.
+        Where the print commands none.
     """
-    opens = first_moves(infill)
-    commanded = marks.acceleration[opens]
     return smoothed(
-        infill.points,
-        infill.first,
-        walls=beads(table, marks, infill),
-        layer=marks.layer[opens],
-        acceleration=np.where(np.isnan(commanded), acceleration, commanded),
-        speed=np.maximum(table.f[opens] / 60, 1.0),
+        batch.infill.points,
+        batch.infill.first,
+        walls=batch.others,
+        layer=batch.layer,
+        acceleration=batch.acceleration(acceleration),
+        speed=batch.speed,
         rounding=rounding,
-        line_width=float(np.median(line_width(marks, opens))) if len(opens) else LINE_WIDTH,
+        line_width=batch.line_width,
     )
+
+
+def smoothed_paths(
+    paths: Sequence[Floats],
+    *,
+    walls: Floats,
+    acceleration: float,
+    speed: float,
+    rounding: Rounding,
+    line_width: float,
+    hard: NDArray[np.bool_] | None = None,
+) -> tuple[list[Floats], Floats]:
+    """Return paths of one layer with round corners, and the radii of their arcs, mm; see `smoothed`."""
+    if not len(paths):
+        return [], np.empty(0)
+    points, first = packed(paths)
+    done = smoothed(
+        points,
+        first,
+        walls=walls,
+        acceleration=np.full(len(paths), acceleration),
+        speed=np.full(len(paths), speed),
+        rounding=rounding,
+        line_width=line_width,
+        hard=hard,
+    )
+    return parted(done.points, done.first), done.radius
 
 
 def smoothed(
@@ -173,14 +185,6 @@ def _near_walls(
     return near
 
 
-def points_of(first: Places, some: Places) -> Places:
-    """Return the numbers of the points of some paths, one path after another."""
-    number = first[some + 1] - first[some]
-    begins = np.repeat(first[some] - np.concatenate([[0], np.cumsum(number)[:-1]]), number)
-    places: Places = np.arange(int(number.sum())) + begins
-    return places
-
-
 def lengths(points: Floats, first: Places) -> Floats:
     """Return the length of every path, mm."""
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
@@ -189,9 +193,8 @@ def lengths(points: Floats, first: Places) -> Floats:
 
 def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: Rounding) -> Redrawn:
     """Return the strokes to draw anew: those chosen that rounding changed."""
-    number = np.diff(new.first)
     which = np.flatnonzero(chosen & _changed(infill, new))
-    at = points_of(new.first, which)
+    at, first = picked(new.first, which)
     length = lengths(new.points, new.first)[which]
     rate = infill.filament[which] / infill.length[which]
     filament = rate * length
@@ -200,7 +203,7 @@ def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: 
     return Redrawn(
         which=which,
         points=new.points[at],
-        first=np.concatenate([[0], np.cumsum(number[which])]),
+        first=first,
         source=new.source[at],
         filament=filament,
     )
@@ -210,7 +213,8 @@ def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:
     """Return which strokes have other points than before."""
     changed: NDArray[np.bool_] = np.diff(new.first) != np.diff(infill.first)
     alike = np.flatnonzero(~changed)
-    old, now = infill.points[points_of(infill.first, alike)], new.points[points_of(new.first, alike)]
+    (there, _), (here, _) = picked(infill.first, alike), picked(new.first, alike)
+    old, now = infill.points[there], new.points[here]
     moved = (np.abs(old[:, 0] - now[:, 0]) > UNIT / 2) | (np.abs(old[:, 1] - now[:, 1]) > UNIT / 2)
     owner = np.repeat(alike, np.diff(infill.first)[alike])
     changed[owner[moved]] = True

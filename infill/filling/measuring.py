@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import Contact, Samples, contact, merged, sampled
 from infill.filling.surroundings import Beads
+from infill.ragged import picked
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -34,20 +34,8 @@ class Drawing:
 
     def of(self, number: int) -> Samples:
         """Return samples of the paths of one layer."""
-        some = np.flatnonzero(self.layer == number)
-        count = self.first[some + 1] - self.first[some]
-        ends = np.concatenate([[0], np.cumsum(count)])
-        at = np.arange(ends[-1]) + np.repeat(self.first[some] - ends[:-1], count)
-        return sampled(self.points[at], ends)
-
-
-def drawing(paths: Sequence[Floats], layer: Sequence[int]) -> Drawing:
-    """Return a drawing of single paths."""
-    return Drawing(
-        points=np.concatenate(paths) if paths else np.empty((0, 2)),
-        first=np.concatenate([[0], np.cumsum([len(path) for path in paths])]).astype(np.intp),
-        layer=np.array(layer, dtype=np.intp),
-    )
+        places, first = picked(self.first, np.flatnonzero(self.layer == number))
+        return sampled(self.points[places], first)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,18 +19,17 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from infill.errors import FormatError
 from infill.filling.prints import Given, copy_mode, opened, pieces, scratch, write_print
-from infill.filling.request import AUTO, KEEP, SAME, Request
+from infill.filling.request import AUTO, KEEP, Request
 from infill.formats.whole_files import check_target, told, whole_file
 from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
 from infill.version import __version__
 
 if TYPE_CHECKING:
-    from infill.filling.layers import Rules, Tally
+    from infill.filling.layers import Refiller
+    from infill.filling.tally import Tally
     from infill.gcode.survey import Survey
 
 Progress = Callable[[str, float], None]
-CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
-LEAST_CORNER = 1.0  # mm/s × rad: less would cut an arc into crumbs
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
 
@@ -204,6 +203,11 @@ class _Done:
 
 def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
+    from infill.filling.layers import Refiller
+    from infill.filling.placement import family_of
+    from infill.filling.planning import planned
+    from infill.filling.rules import rules_of
+    from infill.filling.support import largest_deviation, samples
     from infill.filling.telling import report_of_refill
     from infill.gcode.survey import survey
 
@@ -211,8 +215,19 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
     found = replace(found, settings={**found.settings, **given.settings})
     if found.stamped:
         return _Done(report=report_of_refill(request, found, None, already=True))
-    rules = _rules(request, found, progress)
-    tally = _drafted(given.text, draft, found, rules, progress)
+    if progress is not None:
+        progress("looking at layers", 0.0)
+    some = samples(found)
+    rules = rules_of(request, found, some)
+    plan = None
+    if request.pattern != KEEP:
+        share = None if isinstance(request.density, str | None) else float(request.density)
+        family = family_of(request.pattern, request.parameters)
+        plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration)
+        rules = rules if plan is not None else rules.rounded_by(0.0)
+    elif request.smooth_radius == AUTO and some:
+        rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
+    tally = _drafted(given.text, draft, found, Refiller(rules, plan), progress)
     report = report_of_refill(request, found, tally, already=False, rules=rules)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
@@ -251,57 +266,24 @@ def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
     return place, 0, text
 
 
-def _rules(request: Request, found: Survey, progress: Progress | None) -> Rules:
-    """Decide how corners are rounded."""
-    from infill.filling.keeping import Rounding
-    from infill.filling.layers import Rules
-    from infill.filling.replacing import family_of, planned
-    from infill.filling.support import largest_deviation, samples
-
-    if progress is not None:
-        progress("looking at layers", 0.0)
-    acceleration = found.number("infill_acceleration", "sparse_infill_acceleration", "default_acceleration") or 1000.0
-    jerk = found.number("machine_max_jerk_x") if found.number("machine_max_junction_deviation") is None else None
-    rounding = Rounding(
-        deviation=request.deviation,
-        radius=request.radius,
-        corner=max(jerk or CORNER, LEAST_CORNER),
-        same_filament=request.density == SAME,
-    )
-    some = samples(found)
-    rules = Rules(rounding=rounding, acceleration=acceleration, request=request)
-    rules = rules.with_survey(found, some)
-    if request.pattern != KEEP:
-        family = family_of(request.pattern)
-        density = None if isinstance(request.density, str | None) else float(request.density)
-        plan = planned(family, some, rounding, density=density, acceleration=acceleration)
-        return rules.with_plan(plan) if plan is not None else rules.with_deviation(0.0)
-    if request.smooth_radius == "auto" and some:
-        deviation = largest_deviation(some, rounding, acceleration)
-        rules = rules.with_deviation(deviation)
-    return rules
-
-
-def _drafted(file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, progress: Progress | None) -> Tally:
+def _drafted(file: BinaryIO, draft: BinaryIO, found: Survey, refiller: Refiller, progress: Progress | None) -> Tally:
     """Write the new text to a draft."""
-    from infill.filling.layers import Tally, refilled_batch
-    from infill.gcode.sections import Tags, marked
+    from infill.filling.batch import batch_of
+    from infill.gcode.sections import Tags
     from infill.gcode.stream import batches
-    from infill.gcode.table import read
+    from infill.gcode.table import State, read
 
     file.seek(0)
-    state, tags = rules.begin, Tags()
-    tally = Tally()
+    state, tags, tally = State(), Tags(), refiller.tally
     done = shown = 0
     with told(Path("a temporary file")):
         for text in batches(file):
-            table = read(text, state)
-            marks = marked(table, tags)
-            new, tally = refilled_batch(table, marks, rules, tally)
+            batch = batch_of(read(text, state), tags)
+            new = refiller.refill(batch)
             for first, last in estimates(new):
                 tally.lines.append((draft.tell() + first, new[first:last], tally.saved))
             draft.write(new)
-            state, tags = table.after, marks.after
+            state, tags = batch.table.after, batch.marks.after
             done += len(text)
             if progress is not None and done >= shown:
                 progress("drawing infill", done / max(found.size, 1))

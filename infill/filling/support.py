@@ -7,18 +7,18 @@ infill's length are at least 0.94 of what they are in the slicer's own paths.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from infill.filling.batch import Batch, batch_of
 from infill.filling.contact import Contact, contact, merged
-from infill.filling.keeping import Rounding, first_moves, line_width, rounded_strokes
+from infill.filling.keeping import Rounding, rounded_strokes
 from infill.filling.measuring import Drawing
-from infill.filling.surroundings import Beads, beads
-from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
+from infill.gcode.sections import Tags
 from infill.gcode.survey import Survey
-from infill.gcode.table import Table, read
+from infill.gcode.table import read
 
 LEAST_SHARE = 0.94
 AIM = 0.941  # what layers here and there must keep, so that all of them keep the least
@@ -28,38 +28,19 @@ ENOUGH = 1000.0  # mm of infill in a layer
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sample:
-    """Some layers of a print, read."""
-
-    table: Table
-    marks: Marks
-    infill: Strokes
-
-    @cached_property
-    def others(self) -> Beads:
-        """Everything but the infill."""
-        return beads(self.table, self.marks, self.infill)
-
-    @cached_property
-    def filled(self) -> list[int]:
-        """Layers with infill, the lowest left out unless it is the only one: nothing is known of what is below it."""
-        layer = self.marks.layer[first_moves(self.infill)]
-        lowest = int(self.marks.layer.min())
-        there = np.unique(layer).tolist()
-        found = [number for number in there if number > lowest] or there[-1:]
-        # One is enough where there is much of it.
-        return found[-1:] if found and self.infill.length[layer == found[-1]].sum() > ENOUGH else found
+def filled(batch: Batch) -> list[int]:
+    """Return layers with infill, without the lowest unless it is the only one: what is below it is not known."""
+    lowest = int(batch.marks.layer.min())
+    there = np.unique(batch.layer).tolist()
+    found: list[int] = [number for number in there if number > lowest] or there[-1:]
+    # One is enough where there is much of it.
+    return found[-1:] if found and batch.infill.length[batch.layer == found[-1]].sum() > ENOUGH else found
 
 
-def samples(found: Survey) -> list[Sample]:
+def samples(found: Survey) -> list[Batch]:
     """Return the layers that a survey read."""
-    some = []
-    for text in found.windows:
-        table = read(text, found.begin)
-        marks = marked(table, Tags())
-        some.append(Sample(table=table, marks=marks, infill=strokes(table, marks)))
-    return [sample for sample in some if sample.filled]
+    some = [batch_of(read(text, found.begin), Tags()) for text in found.windows]
+    return [batch for batch in some if filled(batch)]
 
 
 def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
@@ -75,12 +56,12 @@ def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
     )
 
 
-def largest_deviation(some: list[Sample], rounding: Rounding, acceleration: float) -> float:
+def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: float) -> float:
     """Return the largest deviation, mm, that keeps support and contact.
 
     Parameters
     ----------
-    some : list of Sample
+    some : sequence of Batch
     rounding : Rounding
         Its deviation is not exceeded.
     acceleration : float, mm/s²
@@ -110,17 +91,13 @@ def largest_deviation(some: list[Sample], rounding: Rounding, acceleration: floa
     return candidates[high] if high < len(candidates) else 0.0
 
 
-def _measured(some: list[Sample], rounding: Rounding | None, acceleration: float) -> Contact:
+def _measured(some: Sequence[Batch], rounding: Rounding | None, acceleration: float) -> Contact:
     """Return the contact of the layers that were read, rounded or as they are."""
     total = Contact()
-    for sample in some:
-        points, first = sample.infill.points, sample.infill.first
-        if rounding is not None:
-            new = rounded_strokes(sample.table, sample.marks, sample.infill, rounding, acceleration=acceleration)
-            points, first = new.points, new.first
-        width = float(np.median(line_width(sample.marks, first_moves(sample.infill))))
-        infill = Drawing(points=points, first=first, layer=sample.marks.layer[first_moves(sample.infill)])
-        for number in sample.filled:
-            below = merged(infill.of(number - 1), sample.others.samples_of(number - 1))
-            total += contact(infill.of(number), below, width)
+    for batch in some:
+        new = batch.infill if rounding is None else rounded_strokes(batch, rounding, acceleration=acceleration)
+        infill = Drawing(points=new.points, first=new.first, layer=batch.layer)
+        for number in filled(batch):
+            below = merged(infill.of(number - 1), batch.others.samples_of(number - 1))
+            total += contact(infill.of(number), below, batch.line_width)
     return total

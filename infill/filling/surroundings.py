@@ -50,7 +50,7 @@ class Beads:
 def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
     """Return the beads that are not among some strokes."""
     drawn = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
-    drawn[_moves(infill)] = False
+    drawn[infill.moves] = False
     line = np.flatnonzero(drawn)
     back = line - 1
     x = np.where(back >= 0, table.x[back], table.before.x)
@@ -58,13 +58,6 @@ def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
     ends = np.stack([x, y, table.x[line], table.y[line]], axis=1).reshape(-1, 2, 2)
     known = np.isfinite(ends).all(axis=(1, 2))
     return Beads(ends=ends[known], layer=marks.layer[line][known])
-
-
-def _moves(infill: Strokes) -> Places:
-    """Return the lines of the table that are moves of strokes."""
-    inner = np.ones(len(infill.line), dtype=bool)
-    inner[infill.first[:-1]] = False
-    return infill.line[inner]
 
 
 def beside(points: Floats, walls: Floats, distance: float) -> tuple[Places, Floats]:

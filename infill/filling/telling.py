@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from infill.filling.layers import Rules, Tally
 from infill.filling.placement import placement
 from infill.filling.request import KEEP, Request
+from infill.filling.rules import Rules
 from infill.filling.support import LEAST_SHARE, kept_shares
+from infill.filling.tally import Tally
 from infill.gcode.survey import Survey
 from infill.version import __version__
 from patterns.given import in_degrees
@@ -46,15 +47,16 @@ def report_of_refill(
         "radius_mm": tally.radii.report(),
     }
     keeps = request.pattern == KEEP and request.density is None
-    ratio = tally.infill_filament_after / tally.infill_filament if tally.infill_filament else 1.0
+    before, after = tally.infill, tally.infill_after
+    ratio = after.filament / before.filament if before.filament else 1.0
     density = found.number("fill_density", "sparse_infill_density")
     report["filament"] = {
-        "infill_before_mm": tally.infill_filament,
-        "infill_after_mm": tally.infill_filament_after,
+        "infill_before_mm": before.filament,
+        "infill_after_mm": after.filament,
         "print_ratio": tally.filament_ratio,
         "density_for_the_same_percent": round(density / ratio, 2) if keeps and density and ratio > 0 else None,
     }
-    report["time"] = {"infill_before_s": tally.seconds, "infill_after_s": tally.seconds_after}
+    report["time"] = {"infill_before_s": before.seconds, "infill_after_s": after.seconds}
     report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
     return report

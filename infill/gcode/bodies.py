@@ -65,8 +65,7 @@ def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dic
     """Return the sections that can be drawn anew, and how many cannot, by reason."""
     found: list[Body] = []
     odd: dict[str, int] = {}
-    opens = infill.line[infill.first[:-1] + 1]
-    closes = infill.line[infill.first[1:] - 1]
+    opens, closes = infill.opens, infill.closes
     section = marks.section[opens]
     commands = {command.line: command.code for command in table.commands}
     for number in np.unique(section):
@@ -121,7 +120,7 @@ def _oddness(
         long = infill.length[some] > 2.0
         if np.ptp(rate[long] if long.any() else rate) > ALIKE * rate.mean():
             return "lines of different widths"
-    if np.isnan(table.z[first]) or np.ptp(table.z[infill.line[infill.first[some] + 1]]) > 0:
+    if np.isnan(table.z[first]) or np.ptp(table.z[infill.opens[some]]) > 0:
         return "lines at different heights"
     for line in range(first, last + 1):
         code = commands.get(line)
@@ -130,7 +129,7 @@ def _oddness(
     # Everything that extrudes between its first and last move must be a stroke.
     drawn = np.flatnonzero(table.extruded[inside] > 0) + first
     moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
-    own = np.isin(moving, np.delete(infill.line, infill.first[:-1]))  # where a stroke begins, another may end
+    own = np.isin(moving, infill.moves)  # where a stroke begins, another may end
     return "" if own.all() and (marks.section[inside] == marks.section[first]).all() else "extrusion of another kind"
 
 
@@ -190,8 +189,8 @@ def ways_of(table: Table, before: Ways | None = None) -> Ways:
 
 def composed(
     table: Table, body: Body, paths: Sequence[Floats], rate: float, ways: Ways, retracts: Sequence[bool]
-) -> tuple[bytes, float, int]:
-    """Return the text of a body with new paths, the filament that they take, mm, and the number of retractions.
+) -> tuple[bytes, float]:
+    """Return the text of a body with new paths, and the filament that they take, mm.
 
     Parameters
     ----------
@@ -209,14 +208,12 @@ def composed(
     here, feed = body.start, float(table.f[body.first - 1]) if body.first else table.before.f
     pieces: list[bytes] = []
     pushed = 0.0
-    number = 0
 
     def go(there: Floats, retract: bool) -> None:
-        nonlocal feed, number, counter
+        nonlocal feed
         if np.abs(there - here).max() < 1e-9:
             return
-        up, down, drawn = _retraction(body, ways, counter, relative, ends) if retract else (b"", b"", 0)
-        number += drawn
+        up, down = _retraction(body, ways, counter, relative, ends) if retract else (b"", b"")
         pieces.append(up)
         pieces.append(b"G1 X%s Y%s F%s%s" % (_word(there[0]), _word(there[1]), _word(ways.travel), ends))
         pieces.append(down)
@@ -256,7 +253,7 @@ def composed(
         pieces.append(b"G92 E%s%s" % (_word(expected, 5), ends))
     if feed != body.feed_after:
         pieces.append(b"G1 F%s%s" % (_word(body.feed_after), ends))
-    return b"".join(pieces), pushed, number
+    return b"".join(pieces), pushed
 
 
 def exchanged(table: Table, some: Sequence[Body], texts: Sequence[bytes]) -> Spliced:
@@ -308,8 +305,8 @@ def unlawful(other: Table, done: Spliced, some: Sequence[Body], texts: Sequence[
     return ""
 
 
-def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: bytes) -> tuple[bytes, bytes, int]:
-    """Return the lines before and after a travel that is retracted, and how many retractions that is."""
+def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: bytes) -> tuple[bytes, bytes]:
+    """Return the lines before and after a travel that is retracted."""
     if ways.firmware:
         back, forth = b"G10" + ends, b"G11" + ends
     elif ways.retraction:
@@ -318,11 +315,11 @@ def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: by
         back = b"G1 E%s F%s%s" % (_word(low, 5), _word(ways.retract_feed), ends)
         forth = b"G1 E%s F%s%s" % (_word(high, 5), _word(ways.prime_feed), ends)
     else:
-        return b"", b"", 0
+        return b"", b""
     if ways.lift:
         back += b"G1 Z%s F%s%s" % (_word(body.z + ways.lift), _word(ways.lift_feed), ends)
         forth = b"G1 Z%s F%s%s" % (_word(body.z), _word(ways.lift_feed), ends) + forth
-    return back, forth, 1
+    return back, forth
 
 
 def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:

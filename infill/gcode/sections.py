@@ -209,6 +209,21 @@ class Strokes:
     def __len__(self) -> int:
         return len(self.first) - 1
 
+    @property
+    def opens(self) -> Places:
+        """The line of the first move of every stroke."""
+        return self.line[self.first[:-1] + 1]
+
+    @property
+    def closes(self) -> Places:
+        """The line of its last move."""
+        return self.line[self.first[1:] - 1]
+
+    @property
+    def moves(self) -> Places:
+        """The lines of all their moves."""
+        return np.delete(self.line, self.first[:-1])
+
 
 def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
     """Return the strokes of `role`.

@@ -1,0 +1,73 @@
+"""Some whole layers of a print, read: their lines, what they belong to, and the infill among them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.surroundings import Beads, beads
+from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
+from infill.gcode.table import Table
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+LINE_WIDTH = 0.45  # mm, where no tag tells it
+LEAST_SPEED = 1.0  # mm/s
+
+
+@dataclass(frozen=True, kw_only=True)
+class Batch:
+    """Whole layers of a print.
+
+    Parameters
+    ----------
+    table : Table
+    marks : Marks
+    infill : Strokes
+        M strokes of sparse infill.
+    """
+
+    table: Table
+    marks: Marks
+    infill: Strokes
+
+    @cached_property
+    def layer(self) -> Places:
+        """Of each stroke, (M,)."""
+        return self.marks.layer[self.infill.opens]
+
+    @cached_property
+    def section(self) -> Places:
+        """Of each stroke, (M,)."""
+        return self.marks.section[self.infill.opens]
+
+    @cached_property
+    def speed(self) -> Floats:
+        """Of each stroke, (M,), mm/s."""
+        return np.maximum(self.table.f[self.infill.opens] / 60, LEAST_SPEED)
+
+    @cached_property
+    def others(self) -> Beads:
+        """Everything but the infill."""
+        return beads(self.table, self.marks, self.infill)
+
+    @cached_property
+    def line_width(self) -> float:
+        """The usual one of the infill, mm."""
+        width = self.marks.width[self.infill.opens]
+        return float(np.median(np.where(np.isnan(width), LINE_WIDTH, width))) if len(width) else LINE_WIDTH
+
+    def acceleration(self, otherwise: float) -> Floats:
+        """Return that of each stroke, (M,), mm/s²; `otherwise` where the print commands none."""
+        commanded = self.marks.acceleration[self.infill.opens]
+        return np.where(np.isnan(commanded), otherwise, commanded)
+
+
+def batch_of(table: Table, tags: Tags) -> Batch:
+    """Return the batch of a table, beginning with what tags said before it."""
+    marks = marked(table, tags)
+    return Batch(table=table, marks=marks, infill=strokes(table, marks))

@@ -1,0 +1,128 @@
+"""Which pattern fills the regions of a print, and how large its cells are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.batch import Batch
+from infill.filling.contact import sampled
+from infill.filling.covering import solve_cell, total_length
+from infill.filling.families.heart import ConcentricHeart
+from infill.filling.families.protocol import Family
+from infill.filling.keeping import Rounding, smoothed_paths
+from infill.filling.regions import STEP, region_of
+from infill.filling.support import filled
+from infill.ragged import picked
+
+if TYPE_CHECKING:
+    from shapely import MultiPolygon
+
+Floats = NDArray[np.float64]
+
+USUAL_SPEED = 80.0  # mm/s, for lengths: it only decides how finely arcs are cut
+LARGEST_RADIUS = 1000.0  # mm: as large as it gets
+USUAL_HEIGHT = 0.2  # mm of a layer, where no tag tells it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What fills the regions.
+
+    Parameters
+    ----------
+    family : Family
+    cell : float, mm
+    line_width : float, mm
+    rounding : Rounding
+    density : float, optional
+        mm of line per mm², if it was asked for; else every section keeps its filament.
+    """
+
+    family: Family
+    cell: float
+    line_width: float
+    rounding: Rounding
+    density: float | None
+
+    @property
+    def radius(self) -> float:
+        """The largest radius that was asked for, mm."""
+        return min(self.rounding.radius, LARGEST_RADIUS)
+
+    def rounding_of(self, cell: float) -> Rounding:
+        """Return how the corners of a cell, mm, are rounded."""
+        return replace(self.rounding, radius=min(self.radius, self.family.largest_radius(cell, self.line_width)))
+
+
+def planned(
+    family: Family, some: Sequence[Batch], rounding: Rounding, *, density: float | None, acceleration: float
+) -> Plan | None:
+    """Choose the cell, so that the layers that were looked at take the filament that they should; None without infill.
+
+    Parameters
+    ----------
+    family : Family
+    some : sequence of Batch
+    rounding : Rounding
+    density : float, optional
+        Share of the volume; without it, the filament of the slicer's own infill.
+    acceleration : float, mm/s²
+        Where the print commands none.
+    """
+    import shapely
+
+    regions: list[tuple[MultiPolygon, float, int]] = []
+    walls, length, width, spacing = [], 0.0, 0.0, 1.0
+    for batch in some:
+        width = batch.line_width
+        for number in filled(batch):
+            chosen = np.flatnonzero(batch.layer == number)
+            opens = batch.infill.opens[chosen]
+            beside = batch.others.of(number, STEP)
+            places, first = picked(batch.infill.first, chosen)
+            region = region_of(beside, sampled(batch.infill.points[places], first).points)
+            if not region.polygons:
+                continue
+            walls.append(beside)
+            area = shapely.MultiPolygon(list(region.polygons))
+            regions.append((area, float(batch.table.z[opens[0]]), number))
+            spacing = _spacing(width, float(np.median(batch.marks.height[opens])))
+            length += float(batch.infill.length[chosen].sum()) if density is None else density * area.area / spacing
+    if not regions:
+        return None
+    if isinstance(family, ConcentricHeart) and family.middle is None:  # one centre for the whole print
+        boxes = np.array([area.bounds for area, _, _ in regions])
+        low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+        family = replace(family, middle=tuple(((low + high) / 2).tolist()))
+    plan = Plan(
+        family=family,
+        cell=1.0,
+        line_width=width,
+        rounding=rounding,
+        density=None if density is None else density / spacing,
+    )
+    around = np.concatenate(walls)  # of all layers at once: where they differ, a few more corners stay sharp
+
+    def measure(paths: Sequence[Floats], cell: float) -> float:
+        done, _ = smoothed_paths(
+            [path for path in paths if len(path) > 1],
+            walls=around,
+            acceleration=acceleration,
+            speed=USUAL_SPEED,
+            rounding=plan.rounding_of(cell),
+            line_width=width,
+        )
+        return total_length(done)
+
+    solved = solve_cell(regions, family, length, line_width=width, radius=plan.radius, measure=measure)
+    return replace(plan, cell=solved.cell)
+
+
+def _spacing(width: float, height: float) -> float:
+    """Return the spacing, mm, at which beads with rounded sides fill the plane."""
+    return width - (USUAL_HEIGHT if np.isnan(height) else min(height, width)) * (1 - np.pi / 4)

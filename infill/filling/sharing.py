@@ -1,0 +1,111 @@
+"""Which sections of a layer fill which of its areas: a slicer may print one area in several sections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.contact import sampled
+from infill.filling.regions import Region
+from infill.gcode.bodies import ALIKE, Body
+from infill.gcode.sections import Strokes
+from infill.ragged import picked
+
+Places = NDArray[np.intp]
+
+SHARED = 0.02  # of an area's infill may be another section's
+LOST = 0.1  # of a section's infill may lie outside every area that was found
+AROUND = 0.1  # mm around an area that belong to it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Group:
+    """Sections of a layer that share areas; most are alone.
+
+    Parameters
+    ----------
+    areas : dict of int to tuple of int
+        By section, the areas that it is to fill: those of which it printed more than the others.
+    lengths : dict of int to float
+        mm of the slicer's infill in each area.
+    """
+
+    areas: dict[int, tuple[int, ...]]
+    lengths: dict[int, float]
+
+
+def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> tuple[list[Group], set[int]]:
+    """Return the sections of a layer in groups that share areas, and the sections whose areas are not sure.
+
+    Parameters
+    ----------
+    region : Region
+        Of the layer.
+    infill : Strokes
+    some : (S,) int
+        The strokes of the layer.
+    section : (M,) int
+        Of every stroke.
+    """
+    import shapely
+
+    grown = shapely.buffer(np.array(region.polygons, dtype=object), AROUND)
+    shapely.prepare(grown)
+    numbers = np.unique(section[some]).tolist()
+    held = np.zeros((len(numbers), len(grown)))
+    lost: set[int] = set()
+    for place, number in enumerate(numbers):
+        places, first = picked(infill.first, some[section[some] == number])
+        drawn = sampled(infill.points[places], first)
+        inside = np.array([shapely.contains_xy(area, drawn.points[:, 0], drawn.points[:, 1]) for area in grown])
+        held[place] = inside @ drawn.weight if len(grown) else 0.0
+        if not len(grown) or inside.any(axis=0).mean() < 1 - LOST:
+            lost.add(number)
+    # A section that printed next to nothing of an area has no share in it.
+    shares = held > SHARED * held.sum(axis=0)
+    label = np.arange(len(numbers))
+    for area in range(len(grown)):
+        together = np.flatnonzero(shares[:, area])
+        if len(together):
+            label[np.isin(label, label[together])] = label[together[0]]
+    groups = []
+    for each in np.unique(label):
+        areas: dict[int, tuple[int, ...]] = {}
+        for place in np.flatnonzero(label == each).tolist():
+            own = [area for area in range(len(grown)) if held[:, area].any() and held[:, area].argmax() == place]
+            areas[numbers[place]] = tuple(own)
+        amount = held[label == each].sum(axis=0)
+        lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
+        groups.append(Group(areas=areas, lengths=lengths))
+    return groups, lost
+
+
+def lengths_of(groups: Sequence[Group]) -> dict[int, float]:
+    """Return mm of the slicer's infill by area."""
+    held: dict[int, float] = {}
+    for group in groups:
+        for area, length in group.lengths.items():
+            held[area] = held.get(area, 0.0) + length
+    return held
+
+
+def unsure(group: Group, members: Sequence[Body], lost: set[int]) -> str:
+    """Say why a group of sections cannot be filled anew; nothing if it can.
+
+    Parameters
+    ----------
+    group : Group
+    members : sequence of Body
+        Its sections that can be drawn anew.
+    lost : set of int
+        Sections whose areas are not sure.
+    """
+    if lost & set(group.areas):
+        return "no sure region"
+    if len(members) < len(group.areas):
+        return "shares its region with a section that is kept"
+    rates = [body.rate for body in members]
+    return "lines of different widths" if rates and max(rates) > (1 + ALIKE) * min(rates) else ""
