@@ -195,7 +195,7 @@ def test_the_command_line_wins_over_the_file(tmp_path: Path) -> None:
         "angle": math.radians(-45),
         "phase": (0.0, 0.0),
     }
-    with pytest.raises(ParameterError, match="gyroid has no option 'flats'; it has pattern, density"):
+    with pytest.raises(ParameterError, match="gyroid has no option 'flats'; it has angle, phase, pattern"):
         resolve({"pattern": "gyroid"}, config)
 
 

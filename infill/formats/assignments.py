@@ -85,7 +85,7 @@ def gathered(
     for name in {**filed, **flags}:
         if name not in options and name not in own:
             word = name.replace("_", "-")
-            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, [*options, *own])}")
+            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, [*own, *options])}")
     flagged, top = ({name: value for name, value in each.items() if name not in options} for each in (flags, filed))
     return merged(
         kind,
