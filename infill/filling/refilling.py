@@ -71,6 +71,7 @@ def refill(
     dry_run: bool = False,
     overwrite: bool = True,
     progress: Progress | None = None,
+    **parameters: Any,  # noqa: ANN401 - of the kind that each has
 ) -> RefillResult:
     """Fill a sliced print anew, in its G-code: its own infill with round corners, or a pattern of ours in its place.
 
@@ -104,6 +105,8 @@ def refill(
         Replace `output` if it exists.
     progress : callable, optional
         Told what is being done, and how much of it is done, 0 to 1.
+    **parameters
+        Parameters of the pattern: angle=math.radians(30), phase=(1, 2) … docs/refill.md lists them.
 
     Returns
     -------
@@ -127,6 +130,7 @@ def refill(
         max_deviation=max_deviation,
         layers=layers,
         part=part,
+        parameters=parameters,
     )
     if not isinstance(gcode, str | os.PathLike):
         return _refilled_lines(gcode, request, progress)
@@ -204,7 +208,8 @@ class _Done:
 
 def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
-    from infill.filling.planning import family_of, planned
+    from infill.filling.placement import family_of
+    from infill.filling.planning import planned
     from infill.filling.rules import rules_of
     from infill.filling.support import largest_deviation, samples
     from infill.filling.telling import report_of_refill
@@ -221,7 +226,7 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
     plan = None
     if request.pattern != KEEP:
         share = None if isinstance(request.density, str | None) else float(request.density)
-        family = family_of(request.pattern)
+        family = family_of(request.pattern, request.parameters)
         plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration)
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache, partial
 from typing import Any, TypeVar
@@ -68,7 +68,7 @@ def _pool(threads: int, process: int) -> ThreadPoolExecutor:  # noqa: ARG001 - a
     return ThreadPoolExecutor(threads - 1, thread_name_prefix="infill")
 
 
-def in_order(work: Callable[[Item], Result], items: Iterable[Item], *, threads: int) -> Iterator[tuple[Item, Result]]:
+def in_order(work: Callable[[Item], Result], items: Iterable[Item], *, threads: int) -> Generator[tuple[Item, Result]]:
     """Yield each item with the result of its work; the next ones are worked on meanwhile.
 
     Items are taken as they are needed, one more than there are threads, so that few are in memory at a time. An error
