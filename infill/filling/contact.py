@@ -15,14 +15,13 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-ONE_OF = 2  # pieces is looked at, and fewer in large layers; all of a few, or shares would be off
-FEW, MOST_POINTS = 2000, 5000
-STEP = 0.2  # mm, of the pieces that paths are cut into
+LEAST_POINTS, MOST_POINTS = 1000, 5000  # of a layer that are looked at: with fewer, shares would be off
+STEP = 0.4  # mm, of the pieces that paths are cut into; distances to pieces are exact
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
-# Within 1.05 line widths of 0.45 mm lie 6 pieces of the path itself, and fewer of each other; more are looked at
+# Within 1.05 line widths of 0.45 mm lie 5 pieces of the path itself, and fewer of each other; more are looked at
 # where beads are wider, or chords shorter.
-NEIGHBOURS = 18
+NEIGHBOURS = 12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,17 +132,19 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
     random = np.random.default_rng(0)
-    apart = max(ONE_OF, len(infill.points) // MOST_POINTS) if len(infill.points) > FEW else 1
-    some = np.arange(0, len(infill.points), apart)
+    apart = max(1, len(infill.points) // MOST_POINTS)
+    some = np.repeat(np.arange(0, len(infill.points), apart), max(1, LEAST_POINTS // len(infill.points)))
     some = np.minimum(some + random.integers(0, apart, len(some)), len(infill.points) - 1)
-    points = infill.points[some] + infill.half[some] * random.uniform(-1, 1, (len(some), 1))
+    aside = random.uniform(-1, 1, len(some))
+    points = infill.points[some] + infill.half[some] * aside[:, None]
+    along = infill.along[some] + infill.weight[some] * aside / 2
     weight = infill.weight[some] * (infill.weight.sum() / infill.weight[some].sum())
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
         reach = line_width / 2
         _, other = cKDTree(below.points).query(points, k=3, distance_upper_bound=reach + STEP / 2)
-        supported |= (_distances(points, below, other) <= reach).any(axis=1)
-    bonded = _beside(points, some, infill, TOUCHING * line_width)
+        supported |= (_nearest(points, below, other)[0] <= reach).any(axis=1)
+    bonded = _beside(points, infill.path[some], along, infill, TOUCHING * line_width)
     return Contact(
         length=float(infill.weight.sum()),
         supported=float(weight[supported].sum()),
@@ -151,8 +152,11 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
     )
 
 
-def _distances(points: Floats, others: Samples, which: Places) -> Floats:
-    """Return the distance, mm, from each point to the pieces of others, (N, k); infinite where there is none."""
+def _nearest(points: Floats, others: Samples, which: Places) -> tuple[Floats, Floats]:
+    """Return how far each point is from pieces of others, and where along their path it is nearest: mm, (N, k) both.
+
+    Infinite where there is no piece.
+    """
     there = which < len(others.points)
     which = np.where(there, which, 0)
     delta = points[:, None] - others.points[which]
@@ -161,12 +165,12 @@ def _distances(points: Floats, others: Samples, which: Places) -> Floats:
     square = np.maximum(half[..., 0] ** 2 + half[..., 1] ** 2, 1e-18)
     along = np.clip((delta[..., 0] * half[..., 0] + delta[..., 1] * half[..., 1]) / square, -1.0, 1.0)
     rest = delta - along[..., None] * half
-    distance: Floats = np.where(there, np.hypot(rest[..., 0], rest[..., 1]), np.inf)
-    return distance
+    distance = np.where(there, np.hypot(rest[..., 0], rest[..., 1]), np.inf)
+    return distance, others.along[which] + along * others.weight[which] / 2
 
 
-def _beside(points: Floats, piece: Places, infill: Samples, reach: float) -> NDArray[np.bool_]:
-    """Return which points, on certain pieces of some infill, have another stretch of it within `reach`."""
+def _beside(points: Floats, path: Places, along: Floats, infill: Samples, reach: float) -> NDArray[np.bool_]:
+    """Return which points, at certain places along paths of some infill, have another stretch of it within `reach`."""
     from scipy.spatial import cKDTree
 
     tree, number = cKDTree(infill.points), len(infill.points)
@@ -176,12 +180,11 @@ def _beside(points: Floats, piece: Places, infill: Samples, reach: float) -> NDA
         count = min(count, number)
         _, other = tree.query(points[left], k=count, distance_upper_bound=reach + STEP / 2)
         other = other.reshape(len(left), -1)
-        near = _distances(points[left], infill, other) <= reach
+        distance, there = _nearest(points[left], infill, other)
         full = other[:, -1] < number
-        other = np.minimum(other, number - 1)
-        same = infill.path[other] == infill.path[piece[left], None]
-        own = np.abs(infill.along[other] - infill.along[piece[left], None]) <= OWN * reach / TOUCHING
-        touches[left] = np.logical_and(near, ~np.logical_and(same, own)).any(axis=1)
+        same = infill.path[np.minimum(other, number - 1)] == path[left, None]
+        own = np.abs(there - along[left, None]) <= OWN * reach / TOUCHING
+        touches[left] = ((distance <= reach) & ~(same & own)).any(axis=1)
         if count == number:
             break
         left, count = left[full & ~touches[left]], 4 * count

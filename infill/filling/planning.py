@@ -14,7 +14,7 @@ from infill.filling.contact import sampled
 from infill.filling.covering import solve_cell, total_length
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import Family
-from infill.filling.regions import STEP, region_of
+from infill.filling.regions import INFILL_STEP, STEP, region_of
 from infill.filling.rounding import Rounding, rounded_paths
 from infill.filling.support import filled
 from infill.filling.surroundings import walls_of
@@ -86,7 +86,7 @@ def planned(
             opens = batch.infill.opens[chosen]
             beside = batch.others.of(number, STEP)
             places, first = picked(batch.infill.first, chosen)
-            region = region_of(beside, sampled(batch.infill.points[places], first).points)
+            region = region_of(beside, sampled(batch.infill.points[places], first, INFILL_STEP).points)
             if not region.polygons:
                 continue
             walls.append(beside)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 STEP = 0.15  # mm between the points on beads
+INFILL_STEP = 0.2  # mm between the points on infill
 NODES = 0.2  # mm between the nodes of the grid
 REACH = 1.2  # mm: distances above this do not matter
 ALONG_WALLS = 0.7  # mm: infill nearer than this to another bead runs along it

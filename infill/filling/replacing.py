@@ -14,7 +14,7 @@ from infill.filling.contact import sampled
 from infill.filling.covering import total_length
 from infill.filling.fitting import INSIDE, Column, Fitted, Place, column, fitted
 from infill.filling.planning import Plan
-from infill.filling.regions import STEP, Region, region_of
+from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.sharing import Group, grouped, lengths_of, unsure
 from infill.filling.surroundings import Walls, walls_of
 from infill.gcode.bodies import Body, Ways, bodies
@@ -98,7 +98,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
         some = np.flatnonzero(batch.layer == number)
         walls = batch.others.of(number, STEP)
         places, first = picked(batch.infill.first, some)
-        region = region_of(walls, sampled(batch.infill.points[places], first).points, memory.region)
+        region = region_of(walls, sampled(batch.infill.points[places], first, INFILL_STEP).points, memory.region)
         if region is not memory.region:
             memory.drawn.clear()
         memory.region = region

@@ -7,7 +7,7 @@ infill's length are at least 0.94 of what they are in the slicer's own paths.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,11 +21,14 @@ from infill.filling.rounding import Corners, Rounding
 from infill.gcode.sections import Strokes, Tags
 from infill.gcode.survey import Survey
 from infill.gcode.table import read
+from infill.kernels.threads import in_order, thread_count
 
 LEAST_SHARE = 0.94
 AIM = 0.941  # what layers here and there must keep, so that all of them keep the least
 # mm; tried from the largest down. Beyond them, legs are what limits an arc.
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
+LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about what it leaves of support or contact
+MANY = 6  # shares; with more, what they tell of the others is not used any longer
 ENOUGH = 1000.0  # mm of infill in a layer
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
@@ -70,28 +73,42 @@ def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: f
         Where the print commands none.
     """
     tried = [_Tried.of(batch, rounding, acceleration) for batch in some]
-    hard = sum((each.contact(each.batch.infill) for each in tried), Contact())
-    candidates = [rounding.deviation, *(deviation for deviation in DEVIATIONS if deviation < rounding.deviation)]
+    threads = thread_count()
 
-    def enough(place: int) -> bool:
-        now = replace(rounding, deviation=candidates[place])
-        done = sum((each.contact(each.corners.rounded(now)) for each in tried), Contact())
-        return min(kept_shares(hard, done)) >= AIM
+    def measured(infill: Callable[[_Tried], Strokes | Rounded]) -> Contact:
+        found = in_order(lambda each: each.contact(infill(each)), tried, threads=threads)
+        return sum((contact for _, contact in found), Contact())
 
-    if enough(0):
-        return candidates[0]
-    low, high, known = 1, len(candidates), set()
-    while low < high:
-        middle = (low + high) // 2
-        known.add(middle)
-        if enough(middle):
-            high = middle
-        else:
-            low = middle + 1
-    # Support does not always fall evenly: a step or two further may still do.
-    for place in (high - 2, high - 1):
-        if place > 0 and place not in known and enough(place):
-            return candidates[place]
+    hard = measured(lambda each: each.batch.infill)
+
+    def share(deviation: float) -> float:
+        now = replace(rounding, deviation=deviation)
+        return min(kept_shares(hard, measured(lambda each: each.corners.rounded(now))))
+
+    if share(rounding.deviation) >= AIM:
+        return rounding.deviation
+    return first_enough([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
+
+
+def first_enough(candidates: Sequence[float], share: Callable[[float], float]) -> float:
+    """Return the first of some deviations, from the largest down, that leaves at least `AIM`; 0 if none does.
+
+    The share falls with the deviation, by and large: where it should reach the aim is reckoned from the shares that
+    are known on both sides.
+    """
+    low, high = -1, len(candidates)  # that is known to be too much, and to be enough
+    known = {low: (LARGEST_DEVIATION, LEAST_LEFT), high: (0.0, 1.0)}
+    while high - low > 1:
+        (more, less_left), (less, more_left) = known[low], known[high]
+        aim = less + (more - less) * (more_left - AIM) / max(more_left - less_left, 1e-9)
+        place = next((k for k in range(low + 1, high) if candidates[k] <= aim), high - 1)
+        if len(known) > MANY:
+            place = (low + high) // 2
+        known[place] = candidates[place], share(candidates[place])
+        low, high = (low, place) if known[place][1] >= AIM else (place, high)
+    # Support does not always fall evenly: a step further may still do.
+    if high > 1 and high - 2 not in known and share(candidates[high - 2]) >= AIM:
+        return candidates[high - 2]
     return candidates[high] if high < len(candidates) else 0.0
 
 

@@ -165,7 +165,10 @@ def _around(points: Floats, walls: Floats, distance: float) -> Places:
     taken[:-1] |= taken[1:].copy()
     taken[:, 1:] |= taken[:, :-1].copy()
     taken[:, :-1] |= taken[:, 1:].copy()
-    own = ((points[:, 0] - low[0]) / distance).astype(np.intp), ((points[:, 1] - low[1]) / distance).astype(np.intp)
+    # Points farther out fall into the outermost squares, of which none is near a wall.
+    own = tuple(
+        np.clip((points[:, axis] - low[axis]) / distance, 0, squares[axis] - 1).astype(np.intp) for axis in (0, 1)
+    )
     return np.flatnonzero(taken[own])
 
 

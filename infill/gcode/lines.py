@@ -164,11 +164,11 @@ def _values(
     begin = np.minimum(begin, ends)
     # Words begin at a letter; everything in between is digits, signs, points and spaces, or the line is odd.
     other = np.flatnonzero(((text | 0x20) >= ord("a")) | (text == ord("=")) | (text == ord('"')) | (text == ord(":")))
-    of = np.searchsorted(start, other, side="right") - 1
-    inside = (of < lines) & (other >= begin[np.minimum(of, lines - 1)]) & (other < ends[np.minimum(of, lines - 1)])
-    place, line = other[inside], of[inside]
-    some = moving[line]
-    place, line = place[some], line[some]
+    of = np.repeat(np.arange(lines), np.diff(start))[other[: np.searchsorted(other, start[-1])]]
+    some = moving[of]
+    place, line = other[: len(of)][some], of[some]
+    inside = (place >= begin[line]) & (place < ends[line])
+    place, line = place[inside], line[inside]
     word = _LETTERS[text[place]]
     after = place + 1
     spaced = text[np.minimum(after, len(text) - 1)] == SPACE
@@ -176,21 +176,18 @@ def _values(
     known = word >= 0
     strange = np.zeros(lines, dtype=bool)
     strange[line[~known | ~good]] = True
-    line, word, number = line[known], word[known], number[known]
-    flat = line * len(WORDS) + word
-    values.ravel()[flat] = number
-    if np.bincount(line, minlength=1).sum() != np.count_nonzero(_present(flat, values.size)):
+    flat = line[known] * len(WORDS) + word[known]
+    values.ravel()[flat] = number[known]
+    given = np.zeros(values.shape, dtype=bool)
+    given.ravel()[flat] = True
+    if np.count_nonzero(given) != len(flat):  # a word that stands twice
         again = np.bincount(flat, minlength=values.size).reshape(values.shape)
         strange |= (again > 1).any(axis=1)
-    kind[moving & strange] = ODD
-    values[kind == ODD] = np.nan
-    return values, ~np.isnan(values)
-
-
-def _present(flat: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
-    there = np.zeros(size, dtype=bool)
-    there[flat] = True
-    return there
+    odd = moving & strange
+    kind[odd] = ODD
+    values[odd] = np.nan
+    given[odd] = False
+    return values, given
 
 
 def _commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
