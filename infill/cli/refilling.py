@@ -21,7 +21,11 @@ PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 @reports_errors
 def refill(
     gcode: Annotated[
-        Path, typer.Argument(metavar="PRINT.gcode", help="What a slicer wrote; replaced in place without -o.")
+        Path,
+        typer.Argument(
+            metavar="PRINT.gcode",
+            help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
+        ),
     ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="G-code to write instead.", rich_help_panel=FILES)
@@ -152,6 +156,8 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
         return table({"nothing to do": "it was refilled before"}, title=name)
     sections, filament, seconds = report["sections"], report["filament"], report["time"]
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
+    if plates := report["print"]["plates"]:
+        rows["plates"] = ", ".join(map(str, plates))
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
     if sections["replaced"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -140,6 +141,26 @@ class Tally:
         """Add what holds some infill up."""
         self.before += before
         self.after += after
+
+
+def summed(tallies: Iterable[Tally]) -> Tally:
+    """Return what was done in several prints; the lines that tell of each stay its own."""
+    whole = Tally()
+    for each in tallies:
+        whole.layers += each.layers
+        whole.sections += each.sections
+        whole.replaced += each.replaced
+        whole.infill += each.infill
+        whole.infill_after += each.infill_after
+        whole.corners += each.corners
+        whole.radii.counts += each.radii.counts
+        whole.measure(each.before, each.after)
+        for sums, more in ((whole.filament, each.filament), (whole.change, each.change)):
+            for tool, length in more.items():
+                sums[tool] = sums.get(tool, 0.0) + length
+        for reason, sections in each.kept.items():
+            whole.keep(reason, sections)
+    return whole
 
 
 def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:
