@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any, ClassVar, Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, get_args
 
 from patterns.errors import PatternError
 
@@ -37,6 +37,8 @@ class Parameter:
         True for whole numbers.
     replaces : str
         The parameter that is ignored once this one is given.
+    count : int
+        How many numbers it is, where its default is none; else its default says so.
     """
 
     help: str
@@ -45,6 +47,7 @@ class Parameter:
     high: float = math.inf
     whole: bool = False
     replaces: str = ""
+    count: int = 1
 
     @property
     def shown_unit(self) -> str:
@@ -85,6 +88,7 @@ def parameter(
     high: float = math.inf,
     whole: bool = False,
     replaces: str = "",
+    count: int = 1,
 ) -> Any:  # noqa: ANN401 - stands for a field of any type, as dataclasses.field does
     """Return a dataclass field that carries its `Parameter`.
 
@@ -96,14 +100,14 @@ def parameter(
     numbers = default if isinstance(default, tuple) else (default,)
     if (
         unit not in UNITS
-        or (unit == "rad" and isinstance(default, tuple))
+        or (unit == "rad" and (isinstance(default, tuple) or count != 1))
         or not all(each is None or isinstance(each, (bool, Real)) for each in numbers)
     ):
         raise PatternError(
             f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
             f"True, False or None, and one of the units {', '.join(map(repr, UNITS))} (a tuple in rad cannot be)"
         )
-    described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces)
+    described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces, count=count)
     return dataclasses.field(default=default, metadata={"parameter": described})
 
 
@@ -122,9 +126,12 @@ def parameters(pattern: object) -> dict[str, Described]:
 
 
 class Named(Protocol):
-    """Anything that messages can refer to by name."""
+    """Anything that messages can refer to by name: a pattern, a class of patterns, or what else has parameters."""
 
-    name: ClassVar[str]
+    @property
+    def name(self) -> str:
+        """The name to type on the command line."""
+        ...
 
 
 def wanted(default: object, described: Parameter) -> str:
@@ -136,8 +143,16 @@ def wanted(default: object, described: Parameter) -> str:
     if isinstance(default, bool):
         return "true or false"
     kind = "whole number" if described.whole else "number"
-    some = f"{len(default)} {kind}s" if isinstance(default, tuple) else f"a {kind}"
+    count = numbers_of(default, described)
+    some = f"a {kind}" if count is None else f"{count} {kind}s"
     return f"{some} {described.range}".rstrip() + (", or none" if default is None else "")
+
+
+def numbers_of(default: object, described: Parameter) -> int | None:
+    """Return how many numbers a parameter is, or None if it is a single one."""
+    if isinstance(default, tuple):
+        return len(default)
+    return described.count if default is None and described.count != 1 else None
 
 
 def check_parameters(pattern: Named) -> None:
@@ -168,8 +183,8 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
     plain: bool | float | tuple[float, ...] | None
     if isinstance(default, bool):
         plain = value if isinstance(value, bool) else None
-    elif isinstance(default, tuple):
-        plain = _numbers(value, parameter, len(default))
+    elif (count := numbers_of(default, parameter)) is not None:
+        plain = _numbers(value, parameter, count)
     else:
         plain = _number(value, parameter)
     if plain is None:

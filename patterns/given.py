@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 import math
 from collections.abc import Iterable, Mapping
 from numbers import Real
 from typing import Any
 
-from patterns.declared import Described, checked, parameters, shown
+from patterns.declared import Described, Named, Parameter, checked, numbers_of, parameters, shown
 from patterns.errors import PatternError
-from patterns.protocol import Pattern
 
 BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 NONE = "none"
@@ -27,7 +27,7 @@ def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> s
     return f"did you mean {near[0]!r}?" if near else f"it has {', '.join(names) or 'none'}"
 
 
-def assigned(kind: type[Pattern], text: str) -> tuple[str, Any]:
+def assigned(kind: Named, text: str) -> tuple[str, Any]:
     """Return the name and the value in a text such as ``waves=7.5``, or raise PatternError.
 
     Dashes and underscores are equivalent; several numbers are separated by commas; a flag is true, yes, on, 1,
@@ -44,10 +44,10 @@ def assigned(kind: type[Pattern], text: str) -> tuple[str, Any]:
     found = parameters(kind)
     if name not in found:
         raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, found)}")
-    return name, value_of(kind, name, _plain(value.strip(), found[name][0].default))
+    return name, value_of(kind, name, _plain(value.strip(), *found[name]))
 
 
-def value_of(kind: type[Pattern], name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
+def value_of(kind: Named, name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
     """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it.
 
     Angles are given and returned in degrees.
@@ -59,7 +59,7 @@ def value_of(kind: type[Pattern], name: str, value: object) -> Any:  # noqa: ANN
     return checked(kind.name, (field, described), value)
 
 
-def from_degrees(kind: type[Pattern], values: Mapping[str, Any]) -> dict[str, Any]:
+def from_degrees(kind: Named, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return parameters as a pattern takes them: like `value_of`, but with angles in radians."""
     turn = {name for name, (_, described) in parameters(kind).items() if described.unit == "rad"}
     return {
@@ -67,7 +67,7 @@ def from_degrees(kind: type[Pattern], values: Mapping[str, Any]) -> dict[str, An
     }
 
 
-def in_degrees(pattern: Pattern) -> dict[str, Any]:
+def in_degrees(pattern: object) -> dict[str, Any]:
     """Return the parameters of a pattern that are not overridden, by name, angles in degrees."""
     found = parameters(pattern)
     values = {name: getattr(pattern, name) for name in found}
@@ -80,7 +80,7 @@ def in_degrees(pattern: Pattern) -> dict[str, Any]:
     }
 
 
-def descriptions(kind: type[Pattern]) -> dict[str, dict[str, Any]]:
+def descriptions(kind: Named) -> dict[str, dict[str, Any]]:
     """Return the parameters of a pattern by name, as plain values: help, unit, default, and the limits low and high.
 
     Angles are in degrees.
@@ -107,15 +107,15 @@ def default_text(described: Described) -> str:
     return shown(default, described[1])
 
 
-def _plain(text: str, default: object) -> object:
-    """Return the value that a text stands for, or the text itself if it stands for none of the type of `default`."""
-    word = text.lower()
+def _plain(text: str, field: dataclasses.Field[Any], described: Parameter) -> object:
+    """Return the value that a text stands for, or the text itself if it stands for none of the type of the default."""
+    word, default = text.lower(), field.default
     if default is None and word == NONE:
         return None
     if isinstance(default, bool):
         return BOOLEANS.get(word, text)
     try:
-        if isinstance(default, tuple):
+        if numbers_of(default, described) is not None:
             return tuple(float(part) for part in text.split(","))
         return float(text)
     except ValueError:

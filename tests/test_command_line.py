@@ -415,9 +415,9 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
 
 
 def test_toml_quotes_what_it_must() -> None:
-    from infill.making.settings import _toml
+    from infill.formats.toml import toml_rows
 
-    assert _toml('a "b" \\ c') == '"a \\"b\\" \\\\ c"'
+    assert toml_rows({"name": 'a "b" \\ c'}) == ['name = "a \\"b\\" \\\\ c"']
 
 
 def test_cell_and_what_replaces_it(tmp_path: Path) -> None:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import typer
+
+if TYPE_CHECKING:
+    from patterns.declared import Described
 
 
 def pattern_names(incomplete: str) -> list[tuple[str, str]]:
@@ -20,8 +25,20 @@ def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[s
     pattern = next((word for word in (context.params.get("pattern"), *context.args) if word in PATTERNS), None)
     if pattern is None:
         return []
+    return _assignments(parameters(PATTERNS[pattern]), incomplete)
+
+
+def placement_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
+    """Return ``name=`` for the parameters of the pattern of a refill."""
+    from infill.filling.placement import unplaced
+    from patterns import parameters
+
+    return _assignments(parameters(unplaced(context.params.get("pattern") or "keep")), incomplete)
+
+
+def _assignments(known: dict[str, Described], incomplete: str) -> list[tuple[str, str]]:
     offered = []
-    for name, (field, described) in parameters(PATTERNS[pattern]).items():
+    for name, (field, described) in known.items():
         word = f"{name if '_' in incomplete else name.replace('_', '-')}="
         values = ("true", "false") if isinstance(field.default, bool) and incomplete.startswith(word) else ("",)
         offered += [(word + value, described.help) for value in values if (word + value).startswith(incomplete)]

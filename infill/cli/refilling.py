@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from infill.cli.completing import placement_assignments
 from infill.cli.console import print_json, progress_bar, reports_errors, say, table
 from infill.errors import InfillError
 
@@ -34,14 +35,26 @@ def refill(
         bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
     ] = False,
     pattern: Annotated[
-        str,
+        str | None,
         typer.Option(
             help="keep: the slicer's own paths, with round corners. Or one of ours: honeycomb, zigzag, "
             "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, "
-            "schwarz-d, concentric, honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt.",
+            "schwarz-d, concentric, honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt. "
+            "(default: keep)",
             rich_help_panel=PATHS,
         ),
-    ] = "keep",
+    ] = None,
+    assigned: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE",
+            help="A parameter of the pattern, such as angle=30 (degrees) or phase=1,2 (mm); may be given again. "
+            "docs/refill.md lists them all.",
+            autocompletion=placement_assignments,
+            rich_help_panel=PATHS,
+        ),
+    ] = None,
     density: Annotated[
         str | None,
         typer.Option(
@@ -51,12 +64,13 @@ def refill(
         ),
     ] = None,
     smooth_radius: Annotated[
-        str,
+        str | None,
         typer.Option(
-            help="Largest radius of a corner, mm; 0 leaves corners; auto: as large as support and contact allow.",
+            help="Largest radius of a corner, mm; 0 leaves corners; auto: as large as support and contact allow. "
+            "(default: auto)",
             rich_help_panel=PATHS,
         ),
-    ] = "auto",
+    ] = None,
     max_deviation: Annotated[
         float | None, typer.Option(help="How far a path may lie from its corner, mm.", rich_help_panel=PATHS)
     ] = None,
@@ -66,6 +80,13 @@ def refill(
     part: Annotated[
         str | None,
         typer.Option("--object", help="Refill only objects with this in their name.", rich_help_panel=WHERE),
+    ] = None,
+    config: Annotated[
+        Path | None,
+        typer.Option(
+            help="TOML file of these options, and of the pattern's parameters; the command line overrides it.",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     preview: Annotated[
         Path | None,
@@ -81,23 +102,25 @@ def refill(
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Give the infill of a sliced print round corners, in its G-code; nothing else changes."""
-    from infill.cli.words import parse_radius, parse_range, parse_share
-
+    flags = {
+        "pattern": pattern,
+        "density": density,
+        "smooth_radius": smooth_radius,
+        "max_deviation": max_deviation,
+        "layers": layers,
+        "object": part,
+    }
     if preview is not None and dry_run:
         raise typer.BadParameter("a dry run draws nothing; leave --preview out")
     before = _before(gcode, preview, overwrite=force) if preview is not None else {}
     with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
         from infill.filling.refilling import refill as refilled
+        from infill.filling.settings import resolve
 
         result = refilled(
             gcode,
             output=output,
-            pattern=pattern,
-            density=None if density is None else parse_share(density),
-            smooth_radius=parse_radius(smooth_radius),
-            max_deviation=max_deviation,
-            layers=None if layers is None else parse_range("layers", layers),
-            part=part,
+            **resolve(flags, config, assigned or []),
             dry_run=dry_run,
             overwrite=force,
             progress=progress,

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from infill.filling.batch import Batch
 from infill.filling.contact import sampled
 from infill.filling.covering import solve_cell, total_length
-from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import Family
 from infill.filling.keeping import Rounding, smoothed_paths
@@ -60,15 +59,6 @@ class Plan:
         return replace(self.rounding, radius=min(self.radius, self.family.largest_radius(cell, self.line_width)))
 
 
-def family_of(pattern: str) -> Family:
-    """Return a family by its name, or that of a drawing by its path."""
-    if pattern in FAMILIES:
-        return FAMILIES[pattern]
-    from infill.filling.drawn import drawn
-
-    return drawn(pattern)
-
-
 def planned(
     family: Family, some: Sequence[Batch], rounding: Rounding, *, density: float | None, acceleration: float
 ) -> Plan | None:
@@ -105,7 +95,7 @@ def planned(
             length += float(batch.infill.length[chosen].sum()) if density is None else density * area.area / spacing
     if not regions:
         return None
-    if isinstance(family, ConcentricHeart):  # one centre for the whole print
+    if isinstance(family, ConcentricHeart) and family.middle is None:  # one centre for the whole print
         boxes = np.array([area.bounds for area, _, _ in regions])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))

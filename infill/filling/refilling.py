@@ -24,10 +24,13 @@ from infill.filling.request import AUTO, KEEP, Request
 from infill.formats.whole_files import check_target, scratch, told, whole_file
 from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
 from infill.inspection.sliced_file import SlicedText, opened
+from infill.kernels.threads import in_order, thread_count
 from infill.version import __version__
 
 if TYPE_CHECKING:
-    from infill.filling.layers import Refiller
+    from infill.filling.batch import Batch
+    from infill.filling.layers import Refilled
+    from infill.filling.planning import Plan
     from infill.filling.rules import Rules
     from infill.filling.tally import Tally
     from infill.gcode.survey import Survey
@@ -35,6 +38,7 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], None]
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
+MOST_THREADS = 3  # more of them would only take memory: one reads what all the others draw
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,6 +73,7 @@ def refill(
     dry_run: bool = False,
     overwrite: bool = True,
     progress: Progress | None = None,
+    **parameters: Any,  # noqa: ANN401 - of the kind that each has
 ) -> RefillResult:
     """Fill a sliced print anew, in its G-code: its own infill with round corners, or a pattern of ours in its place.
 
@@ -102,6 +107,8 @@ def refill(
         Replace `output` if it exists.
     progress : callable, optional
         Told what is being done, and how much of it is done, 0 to 1.
+    **parameters
+        Parameters of the pattern: angle=math.radians(30), phase=(1, 2) … docs/refill.md lists them.
 
     Returns
     -------
@@ -125,6 +132,7 @@ def refill(
         max_deviation=max_deviation,
         layers=layers,
         part=part,
+        parameters=parameters,
     )
     if not isinstance(gcode, str | os.PathLike):
         return _refilled_lines(gcode, request, progress)
@@ -217,21 +225,24 @@ class _Done:
 
 def _report(request: Request, parts: Sequence[_Done], plates: Sequence[int] = ()) -> dict[str, Any]:
     """Return one report of all prints of a file; those that were refilled before count only where all of them were."""
-    from infill.filling.tally import summed
+    from infill.filling.tally import Tally
     from infill.filling.telling import report_of_refill
     from infill.gcode.survey import joined
 
     found = joined([each.found for each in parts])
     tallies = [each.tally for each in parts if each.tally is not None]
     rules = max((each.rules for each in parts if each.rules), key=lambda rules: rules.rounding.deviation, default=None)
-    tally = summed(tallies) if tallies else None
-    return report_of_refill(request, found, tally, already=found.stamped, rules=rules, plates=plates)
+    whole = Tally()
+    for tally in tallies:
+        whole.add(tally)
+    done = whole if tallies else None
+    return report_of_refill(request, found, done, already=found.stamped, rules=rules, plates=plates)
 
 
 def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
-    from infill.filling.layers import Refiller
-    from infill.filling.planning import family_of, planned
+    from infill.filling.placement import family_of
+    from infill.filling.planning import planned
     from infill.filling.rules import rules_of
     from infill.filling.support import largest_deviation, samples
     from infill.gcode.survey import survey
@@ -247,12 +258,12 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     plan = None
     if request.pattern != KEEP:
         share = None if isinstance(request.density, str | None) else float(request.density)
-        family = family_of(request.pattern)
+        family = family_of(request.pattern, request.parameters)
         plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration)
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
-    tally = _drafted(given.text, draft, found, Refiller(rules, plan), progress)
+    tally = _drafted(given.text, draft, found, rules, plan, progress)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
@@ -291,30 +302,40 @@ def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
     return place, 0, text
 
 
-def _drafted(file: BinaryIO, draft: BinaryIO, found: Survey, refiller: Refiller, progress: Progress | None) -> Tally:
+def _drafted(
+    file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, plan: Plan | None, progress: Progress | None
+) -> Tally:
     """Write the new text to a draft."""
-    from infill.filling.batch import batch_of
-    from infill.gcode.sections import Tags
-    from infill.gcode.stream import batches
-    from infill.gcode.table import State, read
+    from infill.filling.batch import read_batches
+    from infill.filling.layers import measured_contact, refilled
+    from infill.filling.replacing import Memory
+    from infill.filling.tally import Tally
 
     file.seek(0)
-    state, tags, tally = State(), Tags(), refiller.tally
+    tally, memory, below, tags = Tally(), Memory(), None, None
     done = shown = 0
+
+    def work(batch: Batch) -> Refilled:
+        return refilled(batch, rules, plan, memory)
+
+    # Our own paths continue those of the layer below, so that batches come one after another.
+    threads = min(thread_count(), MOST_THREADS) if plan is None else 1
     with told(Path("a temporary file")):
-        for text in batches(file):
-            batch = batch_of(read(text, state), tags)
-            new = refiller.refill(batch)
-            for first, last in estimates(new):
-                tally.lines.append((draft.tell() + first, new[first:last], tally.saved))
-            draft.write(new)
-            state, tags = batch.table.after, batch.marks.after
-            done += len(text)
+        for batch, new in in_order(work, read_batches(file), threads=threads):
+            before, after, below = measured_contact(batch, new, below, rules.stride)
+            tally.add(new.tally)
+            tally.before += before
+            tally.after += after
+            for first, last in estimates(new.text):
+                tally.lines.append((draft.tell() + first, new.text[first:last], tally.saved))
+            draft.write(new.text)
+            tags = batch.marks.after
+            done += len(batch.table.data)
             if progress is not None and done >= shown:
                 progress("drawing infill", done / max(found.size, 1))
                 shown = done + SHOWN
         draft.flush()
-    if not tags.layer:
+    if tags is None or not tags.layer:
         raise FormatError(
             "the file has no marked layers; give the G-code of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio "
             "or Cura, with its comments"

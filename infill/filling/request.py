@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import difflib
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from infill.checks import positive, within
 from infill.errors import ParameterError
+from patterns.errors import PatternError
 
 KEEP = "keep"
 AUTO = "auto"
@@ -36,6 +39,8 @@ class Request:
         First and last layer to refill, counted from 1.
     part : str, optional
         Refill only objects whose name contains this.
+    parameters : mapping
+        Of the pattern, by name; angles in radians.
 
     Raises
     ------
@@ -49,6 +54,7 @@ class Request:
     max_deviation: float | None = None
     layers: tuple[int, int] | None = None
     part: str | None = None
+    parameters: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.density is None:
@@ -76,6 +82,13 @@ class Request:
                 raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise ParameterError("keep has the slicer's density; give another pattern, or set it in the slicer")
+        if self.parameters:
+            from infill.filling.placement import placement
+
+            try:
+                placement(self.pattern, self.parameters)
+            except PatternError as error:
+                raise ParameterError(str(error)) from None
 
     @property
     def radius(self) -> float:

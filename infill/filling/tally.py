@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -137,30 +136,23 @@ class Tally:
         """Add what sections took before and take now, mm, by tool."""
         _add(self.change, tools, after - before)
 
-    def measure(self, before: Contact, after: Contact) -> None:
-        """Add what holds some infill up."""
-        self.before += before
-        self.after += after
-
-
-def summed(tallies: Iterable[Tally]) -> Tally:
-    """Return what was done in several prints; the lines that tell of each stay its own."""
-    whole = Tally()
-    for each in tallies:
-        whole.layers += each.layers
-        whole.sections += each.sections
-        whole.replaced += each.replaced
-        whole.infill += each.infill
-        whole.infill_after += each.infill_after
-        whole.corners += each.corners
-        whole.radii.counts += each.radii.counts
-        whole.measure(each.before, each.after)
-        for sums, more in ((whole.filament, each.filament), (whole.change, each.change)):
-            for tool, length in more.items():
-                sums[tool] = sums.get(tool, 0.0) + length
-        for reason, sections in each.kept.items():
-            whole.keep(reason, sections)
-    return whole
+    def add(self, other: Tally) -> None:
+        """Add what was done in a batch, or in another print."""
+        self.layers += other.layers
+        self.sections += other.sections
+        self.replaced += other.replaced
+        for reason, sections in other.kept.items():
+            self.keep(reason, sections)
+        self.infill += other.infill
+        self.infill_after += other.infill_after
+        for mine, more in ((self.filament, other.filament), (self.change, other.change)):
+            for tool, filament in more.items():
+                mine[tool] = mine.get(tool, 0.0) + filament
+        self.corners += other.corners
+        self.radii.counts += other.radii.counts
+        self.lines += other.lines
+        self.before += other.before
+        self.after += other.after
 
 
 def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:

@@ -6,12 +6,14 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from infill.filling.placement import placement
 from infill.filling.request import KEEP, Request
 from infill.filling.rules import Rules
 from infill.filling.support import LEAST_SHARE, kept_shares
 from infill.filling.tally import Tally
 from infill.gcode.survey import Survey
 from infill.version import __version__
+from patterns.given import in_degrees
 
 FORM = 1
 
@@ -32,6 +34,7 @@ def report_of_refill(
         "form": FORM,
         "request": {
             "pattern": request.pattern,
+            "parameters": in_degrees(placement(request.pattern, request.parameters)),
             "density": request.density,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,

@@ -133,9 +133,6 @@ def opened(source: Path) -> Iterator[SlicedFile]:
     FormatError
         If it cannot be read. What is raised while it is open gets the name of the file.
     """
-    from infill.gcode.bambu_archive import is_archive, plates
-    from infill.gcode.block_file import is_binary
-
     try:
         file = source.open("rb")
     except OSError as error:
@@ -143,13 +140,26 @@ def opened(source: Path) -> Iterator[SlicedFile]:
         raise FormatError(f"cannot read {source}: {said[:1].lower()}{said[1:]}") from error
     try:
         with file:
-            head = file.read(HEAD)
-            if is_archive(head):
-                yield SlicedFile(name=source.name, file=file, form="archive", plates=plates(file))
-            else:
-                yield SlicedFile(name=source.name, file=file, form="binary" if is_binary(head) else "text")
+            form = _form(file.read(HEAD))
+            numbers: tuple[int, ...] = ()
+            if form == "archive":
+                from infill.gcode.bambu_archive import plates
+
+                numbers = plates(file)
+            yield SlicedFile(name=source.name, file=file, form=form, plates=numbers)
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from error
+
+
+def _form(head: bytes) -> Form:
+    """Tell the form of a file by its first bytes; what reads a form is loaded only for it."""
+    if head.startswith(b"PK"):
+        from infill.gcode.bambu_archive import is_archive
+
+        return "archive" if is_archive(head) else "text"
+    if head.startswith(b"GCDE"):
+        return "binary"
+    return "text"
 
 
 @contextlib.contextmanager

@@ -2,8 +2,7 @@
 
 Angles are in degrees here, as on the command line; `MakeSettings.make` turns them into radians.
 
-In the file, make's options are at the top level; the pattern's parameters go next to them, or in a table
-`[set]`, where they may have any name::
+In the file, make's options are at the top level; the pattern's parameters go next to them, or in a table::
 
     pattern = "zigzag"
     size = [60, 40]
@@ -16,23 +15,21 @@ from __future__ import annotations
 
 import dataclasses
 import re
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from infill.errors import FormatError, ParameterError
-from infill.making.assigning import Source, assignments, merged, values
-from patterns import PATTERNS, Pattern, in_degrees, parameters
-from patterns.given import from_degrees, nearest
+from infill.errors import ParameterError
+from infill.formats.assignments import SET, gathered, table_of
+from infill.formats.toml import read_toml, toml_rows
+from patterns import PATTERNS, Pattern, in_degrees
+from patterns.given import from_degrees
 
 if TYPE_CHECKING:
     from infill.making.request import Block
     from infill.making.stages import MakeStages
     from infill.result import Progress, Result
-
-SET = "set"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +103,7 @@ class MakeSettings:
         plain = dataclasses.asdict(self)
         del plain["parameters"]
         own = in_degrees(self.build_pattern())
-        lines = ["# infill make --config THIS_FILE -o OUT", *_rows(plain), "", f"[{SET}]", *_rows(own), ""]
+        lines = ["# infill make --config THIS_FILE -o OUT", *toml_rows(plain), "", f"[{SET}]", *toml_rows(own), ""]
         return "\n".join(lines)
 
 
@@ -130,10 +127,8 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     FormatError
         If the file is missing or not TOML.
     """
-    filed = _read(config) if config else {}
-    table = filed.pop(SET, {})
-    if not isinstance(table, dict):
-        raise ParameterError(f"{SET} is {table!r}; it must be a table: a line [{SET}], then lines such as cell = 5")
+    filed = read_toml(config, example="size = [60, 40]") if config else {}
+    table = table_of(filed)
     flagged = {name: value for name, value in flags.items() if value is not None}
     given = filed | flagged
     if "pattern" not in given:
@@ -142,17 +137,8 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
         )
     kind = PATTERNS.find(_typed("pattern", given["pattern"], ""))
     common = {each.name: each.default for each in dataclasses.fields(MakeSettings) if each.name != "parameters"}
-    own = parameters(kind)
-    for name in given:
-        if name not in common and name not in own:
-            word = name.replace("_", "-")
-            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, own, others=common)}")
+    parameters_given = gathered(kind, common, flags=flagged, assigned=assigned, filed=filed, table=table)
     typed = {name: _typed(name, value, common[name]) for name, value in given.items() if name in common}
-    parameters_given = merged(
-        kind,
-        command=[*values(kind, _without(flagged, common), Source.FLAG), *assignments(kind, assigned, options=common)],
-        file=[*values(kind, _without(filed, common), Source.TOP), *values(kind, table, Source.TABLE)],
-    )
     return MakeSettings(**typed, parameters=parameters_given)
 
 
@@ -173,19 +159,6 @@ def parse_size(size: object) -> tuple[float, float]:
     return lengths[0], lengths[-1]
 
 
-def _read(path: Path) -> dict[str, Any]:
-    """Return the contents of a TOML file, with dashes in option names turned into underscores."""
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise FormatError(f"there is no config file {path}; check the name") from None
-    except OSError as error:
-        raise FormatError(f"cannot read {path}: {error.strerror}; check the file") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(f"{path} is not TOML: {error}; write lines such as size = [60, 40]") from error
-    return {name.replace("-", "_"): value for name, value in content.items()}
-
-
 def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
     """Return the value of one of make's options if it has the same type as `default`, or raise ParameterError."""
     word = name.replace("_", "-")
@@ -200,24 +173,5 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     return value
 
 
-def _without(given: Mapping[str, Any], names: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in given.items() if name not in names}
-
-
 def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
-
-
-def _rows(values: Mapping[str, Any]) -> list[str]:
-    """Return one line of TOML for each value that is not None."""
-    return [f"{name} = {_toml(value)}" for name, value in values.items() if value is not None]
-
-
-def _toml(value: object) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, (tuple, list)):
-        return f"[{', '.join(map(_toml, value))}]"
-    if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
-    return repr(value)

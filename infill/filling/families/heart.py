@@ -19,13 +19,14 @@ class ConcentricHeart:
     """Hearts inside one another, `cell` apart at their straight sides and up to twice that at their lobes.
 
     They lie about `middle`, mm, which is to be that of the whole part in every layer, or else about the middle of the
-    box.
+    box, turned by `angle` radians.
     """
 
     name: str = "concentric-heart"
     summary: str = "nested hearts; lines that follow an outline and never cross"
     prismatic: bool = True
     middle: tuple[float, float] | None = None
+    angle: float = 0.0
 
     def strands(
         self,
@@ -39,6 +40,7 @@ class ConcentricHeart:
     ) -> list[Path]:
         """Return one closed line per heart; see `Family`."""
         from patterns.heart import outline
+        from patterns.linework import turn
 
         box = np.array(bounds).reshape(2, 2)
         middle = box.mean(axis=0) if self.middle is None else np.array(self.middle)
@@ -46,7 +48,9 @@ class ConcentricHeart:
         count = math.ceil(math.hypot(*np.abs(box - middle).max(axis=0)) / cell) + 1
         sides = cell * (2 * np.arange(count) + 1)
         return [
-            side * (outline(_lobe_points(side / 2)) - 0.5) + middle for side in sides if side >= SMALLEST * line_width
+            turn(side * (outline(_lobe_points(side / 2)) - 0.5), self.angle) + middle
+            for side in sides
+            if side >= SMALLEST * line_width
         ]
 
     def cell_for(self, density: float, line_width: float) -> float:

@@ -1,15 +1,22 @@
-"""The parameters of a pattern as they are given: by flags, by ``--set name=value``, or in a config file."""
+"""The parameters of a pattern as they are given: by flags, by ``--set name=value``, or in a config file.
+
+In the file, options of the command are at the top level; the pattern's parameters go next to them, or in a table
+`[set]`, where they may have any name.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
 from infill.errors import ParameterError
-from patterns import Pattern, PatternError, parameters
+from patterns.declared import Named, parameters
+from patterns.errors import PatternError
 from patterns.given import assigned, nearest, value_of
+
+SET = "set"
 
 
 class Source(Enum):
@@ -38,7 +45,56 @@ class Given:
     said: str
 
 
-def values(kind: type[Pattern], named: Mapping[str, Any], source: Source) -> Iterator[Given]:
+def table_of(filed: dict[str, Any]) -> Mapping[str, Any]:
+    """Take the table of parameters out of what a config file holds, and return it."""
+    table = filed.pop(SET, {})
+    if not isinstance(table, dict):
+        raise ParameterError(f"{SET} is {table!r}; it must be a table: a line [{SET}], then lines such as cell = 5")
+    return table
+
+
+def gathered(
+    kind: Named,
+    options: Collection[str],
+    *,
+    flags: Mapping[str, Any],
+    assigned: Sequence[str],
+    filed: Mapping[str, Any],
+    table: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Return the parameters of a pattern by name, wherever they are given; the command line wins over the file.
+
+    Parameters
+    ----------
+    kind : Pattern, or what else has a name and parameters
+    options : collection of str
+        Names that are options of the command.
+    flags, filed : mapping
+        What is given by flags and at the top of the file: options, and parameters that no option has the name of.
+    assigned : sequence of str
+        Parameters as ``name=value``.
+    table : mapping
+        Parameters in the table of the file.
+
+    Raises
+    ------
+    ParameterError
+        If a name is unknown, a parameter is given twice, or cannot have its value.
+    """
+    own = parameters(kind)
+    for name in {**filed, **flags}:
+        if name not in options and name not in own:
+            word = name.replace("_", "-")
+            raise ParameterError(f"{kind.name} has no option {word!r}; {nearest(name, [*own, *options])}")
+    flagged, top = ({name: value for name, value in each.items() if name not in options} for each in (flags, filed))
+    return merged(
+        kind,
+        command=[*values(kind, flagged, Source.FLAG), *assignments(kind, assigned, options=options)],
+        file=[*values(kind, top, Source.TOP), *values(kind, table, Source.TABLE)],
+    )
+
+
+def values(kind: Named, named: Mapping[str, Any], source: Source) -> Iterator[Given]:
     """Yield parameters given as plain values; dashes and underscores in names are equivalent."""
     known = parameters(kind)
     for word, value in named.items():
@@ -48,12 +104,12 @@ def values(kind: type[Pattern], named: Mapping[str, Any], source: Source) -> Ite
         yield Given(name=name, value=value_of(kind, name, value), said=_said(name, value, source))
 
 
-def assignments(kind: type[Pattern], texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[Given]:
+def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[Given]:
     """Yield parameters given as ``name=value``, or raise ParameterError whose message begins with what was typed.
 
     Parameters
     ----------
-    kind : type of Pattern
+    kind : Pattern, or what else has a name and parameters
     texts : sequence of str
     options : iterable of str
         Names that are options of the command instead, so that the message can say so.
@@ -71,7 +127,7 @@ def assignments(kind: type[Pattern], texts: Sequence[str], *, options: Iterable[
         yield Given(name=name, value=value, said=said)
 
 
-def merged(kind: type[Pattern], *, command: Iterable[Given], file: Iterable[Given]) -> dict[str, Any]:
+def merged(kind: Named, *, command: Iterable[Given], file: Iterable[Given]) -> dict[str, Any]:
     """Return the parameters by name; the command line wins over the file.
 
     A parameter that replaces another (`replaces`) drops the other one if only the file gives it; giving both in one

@@ -1,0 +1,54 @@
+"""TOML files of options: read, and written in rows."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from infill.errors import FormatError
+
+
+def read_toml(path: Path, *, example: str) -> dict[str, Any]:
+    """Return what a TOML file holds, with dashes in the names of options turned into underscores.
+
+    Parameters
+    ----------
+    path : Path
+    example : str
+        A line as the file should have, for the message.
+
+    Raises
+    ------
+    FormatError
+        If the file is missing or not TOML.
+    """
+    try:
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise FormatError(f"there is no config file {path}; check the name") from None
+    except OSError as error:
+        raise FormatError(f"cannot read {path}: {error.strerror}; check the file") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise FormatError(f"{path} is not TOML: {error}; write lines such as {example}") from error
+    return {name.replace("-", "_"): value for name, value in content.items()}
+
+
+def toml_rows(values: Mapping[str, Any]) -> list[str]:
+    """Return one line of TOML for each value that is not None.
+
+    >>> toml_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
+    ['cell = 5.0', 'size = [60, 40]', 'frame = true']
+    """
+    return [f"{name} = {_toml(value)}" for name, value in values.items() if value is not None]
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (tuple, list)):
+        return f"[{', '.join(map(_toml, value))}]"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return repr(value)
