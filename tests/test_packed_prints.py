@@ -11,9 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_binary_gcode import made, parts
+from test_binary_gcode import HEAD, block, made, parts
 from test_command_line import one_line_error, run
-from test_command_line_posix import calls_of, interrupted, limited
 
 from infill import FormatError, ParameterError, motion, refill
 from infill.gcode.binary import encoded, stored
@@ -204,6 +203,8 @@ def test_a_name_that_stands_twice_is_refused(archive: Path) -> None:
 @POSIX
 def test_ctrl_c_leaves_the_old_archive(archive: Path) -> None:
     """Late in its work, and while it writes."""
+    from test_command_line_posix import calls_of, interrupted
+
     old = archive.read_bytes()
     copy = archive.with_name("copy.3mf")
     copy.write_bytes(old)
@@ -217,6 +218,8 @@ def test_ctrl_c_leaves_the_old_archive(archive: Path) -> None:
 
 @POSIX
 def test_a_full_disk_leaves_the_old_archive(archive: Path) -> None:
+    from test_command_line_posix import limited
+
     old = archive.read_bytes()
     done = limited(["refill", str(archive)], len(ONE) - 10)
     assert (done.returncode, done.stderr.count("\n")) == (1, 1)
@@ -250,8 +253,6 @@ def test_motion_reads_binary_gcode(binary: Path, tmp_path: Path) -> None:
 
 
 def test_binary_gcode_tells_its_machine_outside_the_text(tmp_path: Path) -> None:
-    from test_binary_gcode import HEAD, block
-
     settings = b"gcode_flavor=marlin2\nmachine_max_jerk_x=3\nmachine_max_jerk_y=3\n"
     pieces = [
         HEAD,
