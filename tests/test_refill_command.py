@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 from slicers import missing_prusa
@@ -40,6 +41,12 @@ def gcode(tmp_path: Path) -> Path:
 
 def log_of(path: Path) -> Path:
     return path.with_name(f"{path.name}.refill.log")
+
+
+def logged(result: Any, log: Path) -> None:
+    """The log holds the line that the command said, which names the log."""
+    assert result.stderr.endswith(f" (log: {log})\n")
+    assert log.read_text(encoding="utf-8") == result.stderr.replace(f" (log: {log})", "")
 
 
 def names(folder: Path) -> list[str]:
@@ -220,7 +227,7 @@ def test_a_mistake_is_one_line_and_a_log(words: list[str], says: str, gcode: Pat
     result = run("refill", gcode, *words)
     one_line_error(result, re.escape(says))
     assert gcode.read_bytes() == PRINT
-    assert log_of(gcode).read_text(encoding="utf-8") == result.stderr
+    logged(result, log_of(gcode))
     assert names(gcode.parent) == sorted([gcode.name, log_of(gcode).name])
 
 
@@ -229,7 +236,42 @@ def test_what_is_no_print_is_one_line_and_a_log(gcode: Path) -> None:
     result = run("refill", gcode)
     one_line_error(result, "the file is a picture; give the G-code that a slicer wrote, as text")
     assert gcode.read_bytes() == PICTURE
-    assert log_of(gcode).read_text(encoding="utf-8") == result.stderr
+    logged(result, log_of(gcode))
+
+
+def test_the_log_lies_beside_what_the_slicer_is_about_to_write(
+    gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the user looks, not among the temporary files; a run that succeeds removes it there."""
+    target = tmp_path / "exported" / "part.gcode"
+    target.parent.mkdir()
+    monkeypatch.setenv("SLIC3R_PP_OUTPUT_NAME", str(target))
+    result = run("refill", gcode, "--layers", "ten")
+    one_line_error(result, "layers is 'ten'")
+    logged(result, log_of(target))
+    assert names(gcode.parent) == ["exported", gcode.name]
+    assert run("refill", gcode).exit_code == 0
+    assert names(target.parent) == []
+
+
+@pytest.mark.parametrize("name", ["part.gcode", "{0}/no such folder/part.gcode", "/", ""])
+def test_the_log_lies_beside_the_file_where_the_slicer_names_no_folder(
+    name: str, gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name on a printer that is uploaded to says nothing of a folder here."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("SLIC3R_PP_OUTPUT_NAME", name.format(tmp_path))
+    logged(run("refill", gcode, "--layers", "ten"), log_of(gcode))
+    assert names(tmp_path) == sorted([gcode.name, log_of(gcode).name])
+
+
+def test_the_log_lies_beside_the_file_where_it_cannot_lie_beside_the_other(
+    gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    target = tmp_path / "part.gcode"
+    log_of(target).mkdir()
+    monkeypatch.setenv("SLIC3R_PP_OUTPUT_NAME", str(target))
+    logged(run("refill", gcode, "--layers", "ten"), log_of(gcode))
 
 
 def test_a_run_that_succeeds_removes_the_log_of_one_that_failed(gcode: Path) -> None:

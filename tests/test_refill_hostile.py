@@ -84,12 +84,12 @@ def test_what_is_no_print_is_refused_in_a_line(data: bytes, tmp_path: Path) -> N
     assert path.read_bytes() == data
 
 
-def test_a_3mf_file_named_gcode(tmp_path: Path) -> None:
+def test_a_3mf_file_that_was_not_sliced(tmp_path: Path) -> None:
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
-        archive.writestr("Metadata/plate_1.gcode", PRINT)
+        archive.writestr("3D/3dmodel.model", "<model/>")
     path = put(tmp_path, packed.getvalue())
-    with pytest.raises(FormatError):
+    with pytest.raises(FormatError, match="the archive holds no G-code"):
         refill(path)
     assert path.read_bytes() == packed.getvalue()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -142,10 +143,15 @@ def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
     sliced, smooth, bare = (tmp_path / f"{name}.gcode" for name in ("sliced", "smooth", "bare"))
     sliced.write_bytes(written(Dialect(layers=5)))
     bare.write_bytes(written(Dialect(slicer="cura", layers=5)).replace(b";TYPE:FILL", b";TYPE:SKIN"))
+    archive = tmp_path / "sliced.gcode.3mf"
+    with zipfile.ZipFile(archive, "w") as plates:
+        for number in (1, 2):
+            plates.write(sliced, f"Metadata/plate_{number}.gcode")
     every = {"layers": (2, 3), "max_deviation": 0.1, "smooth_radius": 1.0, "part": "box", "density": "same"}
     results = {
         "kept": refill(sliced, output=smooth),
         "already": refill(smooth),
+        "two plates": refill(archive, dry_run=True),
         "every option": refill(sliced, dry_run=True, **every),
         "another pattern": refill(sliced, dry_run=True, pattern="honeycomb", density=0.2),
         "no infill": refill(bare, dry_run=True),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,6 +13,7 @@ import typer
 from infill.cli.completing import placement_assignments
 from infill.cli.console import print_json, progress_bar, reports_errors, say, table
 from infill.errors import InfillError
+from patterns.errors import PatternError
 
 if TYPE_CHECKING:
     from infill.inspection.layer_speeds import LayerSpeeds
@@ -22,7 +24,11 @@ PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 @reports_errors
 def refill(
     gcode: Annotated[
-        Path, typer.Argument(metavar="PRINT.gcode", help="What a slicer wrote; replaced in place without -o.")
+        Path,
+        typer.Argument(
+            metavar="PRINT.gcode",
+            help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf; replaced in place without -o.",
+        ),
     ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="G-code to write instead.", rich_help_panel=FILES)
@@ -155,18 +161,28 @@ def _write_preview(before: dict[str, LayerSpeeds], path: Path, preview: Path) ->
 
 @contextlib.contextmanager
 def _logged(gcode: Path, *, in_place: bool) -> Iterator[None]:
-    """Put an error into a log beside the file too: some slicers show nothing of what a script prints."""
-    log = gcode.with_name(f"{gcode.name}.refill.log")
+    """Put an error into a log too, and name the log in it: some slicers show nothing of what a script prints."""
+    logs = _logs(gcode) if in_place else []
     try:
         yield
-    except InfillError as error:
-        if in_place and gcode.is_file():
+    except (InfillError, PatternError) as error:
+        for log in logs if gcode.is_file() else []:
             with contextlib.suppress(OSError):
                 log.write_text(f"error: {error}\n", encoding="utf-8")
+                error.args = (f"{error} (log: {log})",)
+                break
         raise
-    if in_place:
+    for log in logs:
         with contextlib.suppress(OSError):
             log.unlink(missing_ok=True)
+
+
+def _logs(gcode: Path) -> list[Path]:
+    """Return where a log may lie: beside what the slicer is about to write, if it says so, else beside the file."""
+    given = Path(os.environ.get("SLIC3R_PP_OUTPUT_NAME", ""))
+    # For an upload it is a name on the printer; without a folder it would lie wherever the slicer was started.
+    places = [given, gcode] if given.is_absolute() and given.parent.is_dir() else [gcode]
+    return [place.with_name(f"{place.name}.refill.log") for place in places if place.name]
 
 
 def _summary(report: dict[str, Any], name: str, path: str) -> str:
@@ -175,6 +191,8 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
         return table({"nothing to do": "it was refilled before"}, title=name)
     sections, filament, seconds = report["sections"], report["filament"], report["time"]
     rows = {"infill": f"{sections['replaced']} of {sections['all']} sections in {report['print']['layers']} layers"}
+    if plates := report["print"]["plates"]:
+        rows["plates"] = ", ".join(map(str, plates))
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
     if sections["replaced"]:

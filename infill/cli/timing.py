@@ -33,7 +33,9 @@ COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
 
 @reports_errors
 def motion(
-    file: Annotated[Path, typer.Argument(metavar="A.gcode", help="G-code, as a slicer wrote it.")],
+    file: Annotated[
+        Path, typer.Argument(metavar="A.gcode", help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf.")
+    ],
     other: Annotated[
         Path | None, typer.Argument(metavar="[B.gcode]", help="A second one, to compare with the first.")
     ] = None,
@@ -56,6 +58,10 @@ def motion(
     minimum_cruise_ratio: Annotated[
         float | None, typer.Option(help="Klipper's, from 0 to less than 1.", rich_help_panel=MACHINE)
     ] = None,
+    plate: Annotated[
+        int | None,
+        typer.Option(help="Which plate of an archive, .gcode.3mf. (default: the first)", rich_help_panel=FILES),
+    ] = None,
     plot: Annotated[
         Path | None,
         typer.Option(help="Picture to write of a layer, coloured by speed: FILE.png.", rich_help_panel=FILES),
@@ -76,6 +82,7 @@ def motion(
         "junction_deviation": junction_deviation,
         "square_corner_velocity": square_corner_velocity,
         "minimum_cruise_ratio": minimum_cruise_ratio,
+        "plate": plate,
     }
     if plot is None and layer is not None:
         raise typer.BadParameter("a layer is for a picture; name one with --plot")
@@ -121,7 +128,8 @@ def _summary(path: Path, found: Motion) -> str:
         f"{name.replace('_', ' ')} {_plain(found.limits[name])} {UNITS.get(name, '')}".rstrip() + f" ({source})"
         for name, source in found.sources.items()
     )
-    rows = {
+    rows = {} if found.plate is None else {"plate": _plate(found)}
+    rows |= {
         "time": _clock(found.seconds),
         "slicer": found.slicer or "unknown",
         "its estimate": "none" if found.estimate is None else _clock(found.estimate),
@@ -132,6 +140,12 @@ def _summary(path: Path, found: Motion) -> str:
         "limits": limits,
     }
     return table(rows, title=str(path))
+
+
+def _plate(found: Motion) -> str:
+    if len(found.plates) == 1:
+        return f"{found.plate}, the only one"
+    return f"{found.plate} of {', '.join(map(str, found.plates))}; --plate chooses"
 
 
 def _plain(value: float | Sequence[float]) -> str:

@@ -1,115 +1,65 @@
-"""The file of a print: text, or binary G-code with text inside."""
+"""Writing a print: in the form in which it was given."""
 
 from __future__ import annotations
 
 import contextlib
 import os
-import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
-from infill.errors import FormatError, GeometryError
-from infill.formats.whole_files import told
+from infill.errors import GeometryError
 from infill.gcode.estimates import Change, estimates, told_anew
+from infill.inspection.sliced_file import SlicedFile
 
 AT_ONCE = 1 << 20  # bytes
-MAGIC = b"GCDE"  # what binary G-code begins with
 
 
-@dataclass(frozen=True, kw_only=True)
-class Given:
-    """A print that was opened.
+def write_print(
+    given: SlicedFile, file: BinaryIO, texts: Mapping[int | None, Iterable[bytes]], metadata: Mapping[str, str]
+) -> None:
+    """Write a print anew.
 
     Parameters
     ----------
-    text : binary file
-        Its G-code as text.
-    binary : binary file, optional
-        The file itself, if it is binary G-code.
-    settings : mapping
-        Of the slicer, if they stand outside the text.
-    metadata : tuple of (name, value)
-        Of the print, likewise.
+    given : SlicedFile
+    file : binary file
+        To write to.
+    texts : mapping from part to iterable of bytes
+        The new text of each part that changes, in pieces.
+    metadata : mapping
+        New values of what binary G-code tells outside its text.
     """
+    given.file.seek(0)
+    if given.form == "archive":
+        from infill.gcode.bambu_archive import rewritten_archive
 
-    text: BinaryIO
-    binary: BinaryIO | None = None
-    settings: Mapping[str, str] = field(default_factory=dict)
-    metadata: tuple[tuple[bytes, bytes], ...] = ()
+        rewritten_archive(given.file, file, {plate: text for plate, text in texts.items() if plate is not None})
+    elif given.form == "binary":
+        from infill.gcode.binary import rewritten
+
+        rewritten(given.file, file, texts[None], metadata)
+    else:
+        file.writelines(texts[None])
 
 
-@contextlib.contextmanager
-def opened(source: Path, folder: Path | None) -> Iterator[Given]:
-    """Open a print; text that is packed is unpacked to a file without a name in `folder`.
+def retold(metadata: Iterable[tuple[bytes, bytes]], change: Change, said: float) -> dict[str, str]:
+    """Return the values of metadata that tell time or filament as they hold after a change.
 
-    Raises
-    ------
-    FormatError
-        If it cannot be read. What is raised while it is open gets the name of the file.
+    Parameters
+    ----------
+    metadata : iterable of (name, value)
+    change : Change
+    said : float
+        Seconds that the print was said to take.
     """
-    try:
-        file = source.open("rb")
-    except OSError as error:
-        said = error.strerror or str(error)
-        raise FormatError(f"cannot read {source}: {said[:1].lower()}{said[1:]}") from error
-    try:
-        with file:
-            head = file.read(len(MAGIC))
-            file.seek(0)
-            if head != MAGIC:
-                yield Given(text=file)
-                return
-            from infill.gcode.binary import Kind, blocks, metadata, text_pieces
-
-            with scratch(folder) as text:
-                for piece in text_pieces(file):
-                    text.write(piece)
-                file.seek(0)
-                settings: dict[str, str] = {}
-                values: dict[str, str] = {}
-                for block in blocks(file):
-                    if block.kind == Kind.SLICER_METADATA:
-                        settings.update(metadata(block))
-                    elif block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
-                        values.update(metadata(block))
-                yield Given(
-                    text=text,
-                    binary=file,
-                    settings=settings,
-                    metadata=tuple((_bytes(name), _bytes(value)) for name, value in values.items()),
-                )
-    except FormatError as error:
-        raise FormatError(f"{source}: {error}") from error
-
-
-def _bytes(text: str) -> bytes:
-    return text.encode("utf-8", "surrogateescape")
-
-
-@contextlib.contextmanager
-def scratch(folder: Path | None) -> Iterator[BinaryIO]:
-    """Yield a file without a name, in the folder where the result will be, so that the same disk holds both."""
-    with told(folder or Path("a temporary file")), tempfile.TemporaryFile(dir=folder) as file:
-        yield file
-
-
-def write_print(given: Given, file: BinaryIO, text: Iterable[bytes], change: Change, said: float) -> None:
-    """Write new text in the form of the print that was given."""
-    if given.binary is None:
-        file.writelines(text)
-        return
-    from infill.gcode.binary import rewritten
-
-    changes = {}
-    for name, value in given.metadata:
+    anew = {}
+    for name, value in metadata:
         line = b"; %s = %s" % (name, value)
         if any(estimates(line)):
-            anew = told_anew(line, 0.0, change, said).partition(b" = ")[2]
-            changes[name.decode("utf-8", "surrogateescape")] = anew.decode("utf-8", "surrogateescape")
-    given.binary.seek(0)
-    rewritten(given.binary, file, text, changes)
+            new = told_anew(line, 0.0, change, said).partition(b" = ")[2]
+            anew[name.decode("utf-8", "surrogateescape")] = new.decode("utf-8", "surrogateescape")
+    return anew
 
 
 def pieces(draft: BinaryIO, first: int, last: int) -> Iterator[bytes]:

@@ -8,20 +8,22 @@ Step 4. Tell time and filament anew, and put the new file in the place of the ol
 
 from __future__ import annotations
 
+import contextlib
 import io
 import math
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from infill.errors import FormatError
-from infill.filling.prints import Given, copy_mode, opened, pieces, scratch, write_print
+from infill.filling.prints import copy_mode, pieces, retold, write_print
 from infill.filling.request import AUTO, KEEP, Request
-from infill.formats.whole_files import check_target, told, whole_file
+from infill.formats.whole_files import check_target, scratch, told, whole_file
 from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
+from infill.inspection.sliced_file import SlicedText, opened
 from infill.kernels.threads import in_order, thread_count
 from infill.version import __version__
 
@@ -80,8 +82,8 @@ def refill(
     Parameters
     ----------
     gcode : path, or iterable of str
-        What PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio or Cura wrote, as text or as binary G-code; or its
-        lines, with or without line ends.
+        What PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio or Cura wrote: text, binary G-code, or an archive
+        (.gcode.3mf), of which every plate is refilled; or its lines, with or without line ends.
     output : path, optional
         Where to write; without it, the file itself is replaced.
     pattern : str
@@ -139,23 +141,37 @@ def refill(
     if not dry_run:
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent
-    with opened(source, folder) as given, scratch(folder) as draft:
-        done = _refilled(given, draft, request, progress)
-        nothing = done.tally is None or not done.tally.replaced
-        if dry_run or (nothing and output is None):
-            return RefillResult(report=done.report, path=None)
-        if nothing:  # a copy
+    with opened(source) as given, contextlib.ExitStack() as drafts:
+        done: dict[int | None, _Done] = {}
+        for number, plate in enumerate(given.parts):
+            draft = drafts.enter_context(scratch(folder))
+            shown = _shared(progress, number, len(given.parts))
+            with given.text(plate, folder) as text:
+                done[plate] = _refilled(text, draft, request, shown)
+        report = _report(request, list(done.values()), given.plates)
+        new = {name: each for name, each in done.items() if each.tally is not None and each.tally.replaced}
+        if dry_run or (not new and output is None):
+            return RefillResult(report=report, path=None)
+        if not new:  # a copy
             if not _same(source, target):
                 with whole_file(target) as file, source.open("rb") as old:
                     copy_mode(source, file)
                     shutil.copyfileobj(old, file)
-            return RefillResult(report=done.report, path=target)
+            return RefillResult(report=report, path=target)
         if progress is not None:
             progress("writing", 0.95)
         with whole_file(target) as file:
             copy_mode(source, file)
-            write_print(given, file, done.text(draft), done.change, done.said)
-    return RefillResult(report=done.report, path=target)
+            metadata = {name: value for each in new.values() for name, value in each.metadata.items()}
+            write_print(given, file, {name: each.text() for name, each in new.items()}, metadata)
+    return RefillResult(report=report, path=target)
+
+
+def _shared(progress: Progress | None, number: int, count: int) -> Progress | None:
+    """Return what to tell of the progress of one of several prints."""
+    if progress is None or count == 1:
+        return progress
+    return lambda stage, share: progress(stage, (number + share) / count)
 
 
 def _same(source: Path, target: Path) -> bool:
@@ -165,13 +181,13 @@ def _same(source: Path, target: Path) -> bool:
 def _refilled_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
     """Refill lines of text."""
     text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
-    given = Given(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
-    draft = io.BytesIO()
-    done = _refilled(given, draft, request, progress)
+    given = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
+    done = _refilled(given, io.BytesIO(), request, progress)
     if done.tally is not None and done.tally.replaced:
-        text = b"".join(done.text(draft)).decode("utf-8", "surrogateescape")
+        text = b"".join(done.text()).decode("utf-8", "surrogateescape")
     # Not splitlines: comments may hold what it takes for the end of a line.
-    return RefillResult(report=done.report, path=None, lines=tuple(f"{line}\n" for line in text.split("\n")[:-1]))
+    report = _report(request, [done])
+    return RefillResult(report=report, path=None, lines=tuple(f"{line}\n" for line in text.split("\n")[:-1]))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,45 +196,61 @@ class _Done:
 
     Parameters
     ----------
-    report : dict
-    tally : Tally, optional
+    found : Survey
+    draft : binary file
+    tally, rules : Tally and Rules, optional
         None if nothing was done.
     edits : tuple of (place, length, text)
         What to exchange in the draft, in order.
-    change : Change
-    said : float
-        Seconds that the print was said to take.
+    metadata : dict
+        New values of what stands outside the text.
     """
 
-    report: dict[str, Any]
+    found: Survey
+    draft: BinaryIO
     tally: Tally | None = None
+    rules: Rules | None = None
     edits: tuple[tuple[int, int, bytes], ...] = ()
-    change: Change = field(default_factory=Change)
-    said: float = 0.0
+    metadata: dict[str, str] = field(default_factory=dict)
 
-    def text(self, draft: BinaryIO) -> Iterator[bytes]:
+    def text(self) -> Iterator[bytes]:
         """Yield the draft with its edits, in pieces."""
         done = 0
         for where, length, text in self.edits:
-            yield from pieces(draft, done, where)
+            yield from pieces(self.draft, done, where)
             yield text
             done = where + length
-        yield from pieces(draft, done, draft.seek(0, os.SEEK_END))
+        yield from pieces(self.draft, done, self.draft.seek(0, os.SEEK_END))
 
 
-def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
+def _report(request: Request, parts: Sequence[_Done], plates: Sequence[int] = ()) -> dict[str, Any]:
+    """Return one report of all prints of a file; those that were refilled before count only where all of them were."""
+    from infill.filling.tally import Tally
+    from infill.filling.telling import report_of_refill
+    from infill.gcode.survey import joined
+
+    found = joined([each.found for each in parts])
+    tallies = [each.tally for each in parts if each.tally is not None]
+    rules = max((each.rules for each in parts if each.rules), key=lambda rules: rules.rounding.deviation, default=None)
+    whole = Tally()
+    for tally in tallies:
+        whole.add(tally)
+    done = whole if tallies else None
+    return report_of_refill(request, found, done, already=found.stamped, rules=rules, plates=plates)
+
+
+def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
     from infill.filling.placement import family_of
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
     from infill.filling.support import largest_deviation, samples
-    from infill.filling.telling import report_of_refill
     from infill.gcode.survey import survey
 
     found = survey(given.text)
-    found = replace(found, settings={**found.settings, **given.settings})
+    found = replace(found, settings={**found.settings, **given.settings}, slicer=found.slicer or given.slicer)
     if found.stamped:
-        return _Done(report=report_of_refill(request, found, None, already=True))
+        return _Done(found=found, draft=draft)
     if progress is not None:
         progress("looking at layers", 0.0)
     some = samples(found)
@@ -232,7 +264,6 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
     tally = _drafted(given.text, draft, found, rules, plan, progress)
-    report = report_of_refill(request, found, tally, already=False, rules=rules)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
@@ -241,7 +272,8 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
     if tally.replaced:
         edits = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
         edits.append(_stamp(draft, tally))
-    return _Done(report=report, tally=tally, edits=tuple(sorted(edits)), change=change, said=said)
+    metadata = retold(given.metadata, change, said)
+    return _Done(found=found, draft=draft, tally=tally, rules=rules, edits=tuple(sorted(edits)), metadata=metadata)
 
 
 def _section(found: Survey) -> float:

@@ -137,7 +137,7 @@ class Tally:
         _add(self.change, tools, after - before)
 
     def add(self, other: Tally) -> None:
-        """Add what was done in a batch."""
+        """Add what was done in a batch, or in another print."""
         self.layers += other.layers
         self.sections += other.sections
         self.replaced += other.replaced

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from infill.filling.placement import placement
@@ -18,7 +19,13 @@ FORM = 1
 
 
 def report_of_refill(
-    request: Request, found: Survey, tally: Tally | None, *, already: bool, rules: Rules | None = None
+    request: Request,
+    found: Survey,
+    tally: Tally | None,
+    *,
+    already: bool,
+    rules: Rules | None = None,
+    plates: Sequence[int] = (),
 ) -> dict[str, Any]:
     """Return the report of one run: plain numbers, strings, lists and dicts."""
     report: dict[str, Any] = {
@@ -34,7 +41,12 @@ def report_of_refill(
             "layers": list(request.layers) if request.layers else None,
             "part": request.part,
         },
-        "print": {"slicer": found.slicer, "bytes": found.size, "already_refilled": already},
+        "print": {
+            "slicer": found.slicer,
+            "bytes": found.size,
+            "plates": list(plates),
+            "already_refilled": already,
+        },
         "problems": [],
     }
     if tally is None or rules is None:

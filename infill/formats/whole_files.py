@@ -7,6 +7,7 @@ import errno
 import os
 import secrets
 import shutil
+import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import BinaryIO
@@ -97,6 +98,19 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     """Yield one file to write to, as `whole_files` does."""
     with whole_files([path]) as files, told(Path(path)):
         yield files[0]
+
+
+@contextlib.contextmanager
+def scratch(folder: Path | None) -> Iterator[BinaryIO]:
+    """Yield a file without a name, in the folder where the result will be, so that the same disk holds both.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    with told(folder or Path("a temporary file")), tempfile.TemporaryFile(dir=folder) as file:
+        yield file
 
 
 def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:

@@ -139,7 +139,14 @@ def _opened(new: zipfile.ZipFile, like: zipfile.ZipInfo) -> BinaryIO:
 
 def _archive(file: BinaryIO) -> zipfile.ZipFile:
     with _readable():
-        return zipfile.ZipFile(file)
+        archive = zipfile.ZipFile(file)
+    names = archive.namelist()
+    if any(info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) for info in archive.infolist()):
+        raise FormatError(f"the archive is not compressed as slicers do it; {AGAIN}")
+    if len(set(names)) < len(names):  # readers do not agree on which of them counts
+        twice = next(name for number, name in enumerate(names) if name in names[:number])
+        raise FormatError(f"the archive holds {twice!r} twice; {AGAIN}")
+    return archive
 
 
 def _chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
@@ -150,8 +157,11 @@ def _chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
 
 @contextmanager
 def _readable() -> Iterator[None]:
-    """Say one line where the zip itself is at fault; RuntimeError is what an encrypted one ends in."""
+    """Say one line where the zip itself is at fault.
+
+    RuntimeError is what an encrypted one ends in, ValueError a name that is no text, OSError a place before its begin.
+    """
     try:
         yield
-    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError) as trouble:
-        raise FormatError(f"the archive cannot be read ({trouble}); {AGAIN}") from None
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OSError) as trouble:
+        raise FormatError(f"the archive cannot be read ({str(trouble) or 'it ends early'}); {AGAIN}") from None

@@ -105,7 +105,9 @@ class FoundLimits:
         return replace(self, limits=limits, sources=sources)
 
 
-def found_limits(head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = None) -> FoundLimits:
+def found_limits(
+    head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = None, settings: Mapping[str, str] | None = None
+) -> FoundLimits:
     """Return the limits that the beginning and the end of a file tell.
 
     Parameters
@@ -113,6 +115,8 @@ def found_limits(head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = Non
     head, tail : bytes
     fixed : mapping, optional
         Fields of `Limits` that are known better.
+    settings : mapping, optional
+        What the slicer tells elsewhere.
 
     Raises
     ------
@@ -120,7 +124,7 @@ def found_limits(head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = Non
         If a limit that was given is out of range.
     """
     fixed = dict(fixed or {})
-    settings: dict[str, str] = {}
+    settings = dict(settings or {})
     for text in (head, tail):
         settings |= {name.decode(): value.decode("latin-1").strip() for name, value in _SETTING.findall(text)}
     flavour = settings.get("gcode_flavor", "")

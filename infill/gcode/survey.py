@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import os
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 from infill.errors import FormatError
@@ -128,6 +129,15 @@ def survey(file: BinaryIO, windows: int = 6) -> Survey:
         resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in found),
         windows=tuple(dict.fromkeys(found)),
     )
+
+
+def joined(surveys: Sequence[Survey]) -> Survey:
+    """Return what is known of several prints as one: their bytes, and the settings that they share."""
+    first = surveys[0]
+    shared = set.intersection(*(set(each.settings.items()) for each in surveys))
+    settings = {name: value for name, value in first.settings.items() if (name, value) in shared}
+    stamped = all(each.stamped for each in surveys)
+    return replace(first, size=sum(each.size for each in surveys), settings=settings, stamped=stamped)
 
 
 def _check(head: bytes, size: int) -> None:

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, BinaryIO, Final
 
 import numpy as np
@@ -61,9 +60,12 @@ class Timeline:
 
     Parameters
     ----------
-    path : Path
+    file : binary file
+        G-code as text, which can be read from any place.
     fixed : mapping, optional
         Fields of `Limits` that hold instead of what the file says.
+    settings : mapping, optional
+        What the slicer tells outside the text.
 
     Raises
     ------
@@ -71,15 +73,16 @@ class Timeline:
         If the file is none of plain G-code.
     """
 
-    def __init__(self, path: Path, fixed: Mapping[str, Any] | None = None) -> None:
-        self.path = path
+    def __init__(
+        self, file: BinaryIO, fixed: Mapping[str, Any] | None = None, settings: Mapping[str, str] | None = None
+    ) -> None:
+        self._file = file
         self.features: list[bytes] = [b""]
         self.layers = 0
         self.pause = 0.0  # seconds of dwelling since the last move
         self._stopped = False
-        with _opened(path) as file:
-            head, tail = _ends(file, path)
-        self.found: FoundLimits = found_limits(head, tail, fixed)
+        head, tail = _ends(file)
+        self.found: FoundLimits = found_limits(head, tail, fixed, settings)
         self._limits: list[Limits] = [self.found.limits]
 
     def __iter__(self) -> Iterator[tuple[Steps, Plan]]:
@@ -95,21 +98,21 @@ class Timeline:
                 yield part(waiting[0], slice(settled)), plan
                 waiting = [part(waiting[0], slice(settled, None))]
         if not moved:
-            raise FormatError(f"{self.path.name} has no moves; give a file of G-code that a slicer wrote")
+            raise FormatError("the file has no moves; give a file of G-code that a slicer wrote")
         settled, plan, _ = settle(waiting[0].moves, self._limits, entry, ends=True)
         yield waiting[0], plan
 
     def _steps(self) -> Iterator[Steps]:
         state, feature = State(), 0
-        with _opened(self.path) as file:
-            for data in _batches(file):
-                table = read(data, state)
-                state = table.after
-                if state.inches:
-                    raise FormatError(f"{self.path.name} is in inches (G20); slice it in millimetres")
-                setting, stop, pause = self._obeyed(table)
-                which, layer, feature = self._tagged(table, feature)
-                yield self._moves(table, setting, stop, pause, which, layer)
+        self._file.seek(0)
+        for data in _batches(self._file):
+            table = read(data, state)
+            state = table.after
+            if state.inches:
+                raise FormatError("the file is in inches (G20); slice it in millimetres")
+            setting, stop, pause = self._obeyed(table)
+            which, layer, feature = self._tagged(table, feature)
+            yield self._moves(table, setting, stop, pause, which, layer)
 
     def _obeyed(self, table: Table) -> tuple[NDArray[np.intp], NDArray[np.bool_], Floats]:
         """Follow the commands; return by line the setting in force, whether it stops the machine, and for how long."""
@@ -189,28 +192,16 @@ class Timeline:
         return Steps(moves=moves, start=first, feature=feature[line], layer=layer[line], pause=dwelt)
 
 
-def _opened(path: Path) -> BinaryIO:
-    try:
-        return path.open("rb")
-    except OSError as error:
-        raise FormatError(f"{path} cannot be read: {error.strerror or error}") from None
-
-
-def _ends(file: BinaryIO, path: Path) -> tuple[bytes, bytes]:
+def _ends(file: BinaryIO) -> tuple[bytes, bytes]:
     """Return the beginning and the end of a file, or raise FormatError if it is not plain G-code."""
-    head = file.read(ENDS)
     size = file.seek(0, 2)
+    file.seek(0)
+    head = file.read(ENDS)
     file.seek(max(size - ENDS, 0))
     if not head.strip():
-        raise FormatError(f"{path.name} is empty; give a file of G-code")
-    if head.startswith(b"GCDE"):
-        raise FormatError(
-            f"{path.name} is binary G-code; export it again with binary G-code off, or convert it with bgcode"
-        )
-    if head.startswith(b"PK"):
-        raise FormatError(f"{path.name} is a 3MF or another zip; give the G-code in it, such as Metadata/plate_1.gcode")
+        raise FormatError("the file is empty; give a file of G-code")
     if b"\0" in head:
-        raise FormatError(f"{path.name} is not text; give a file of G-code that a slicer wrote")
+        raise FormatError("the file is not text; give a file of G-code that a slicer wrote")
     return head, file.read()
 
 

@@ -15,8 +15,9 @@ from infill.gcode.columns import chained, part
 from infill.gcode.dialect import role_of
 from infill.gcode.planner import Plan
 from infill.gcode.stream import LAYER_TAG, batches
-from infill.gcode.timeline import Steps, Timeline
-from infill.inspection.printing_time import given_limits
+from infill.gcode.timeline import Steps
+from infill.inspection.printing_time import given_limits, timeline_of
+from infill.inspection.sliced_file import opened
 
 Floats = NDArray[np.float64]
 PIECE: Final = 0.4  # mm
@@ -45,7 +46,12 @@ class LayerSpeeds:
     role: NDArray[np.str_]
 
 
-def layer_speeds(path: str | os.PathLike[str], layer: int, **given: Any) -> LayerSpeeds:  # noqa: ANN401
+def layer_speeds(
+    path: str | os.PathLike[str],
+    layer: int,
+    plate: int | None = None,
+    **given: Any,  # noqa: ANN401
+) -> LayerSpeeds:
     """Plan a file as `motion` does and return the moves of one layer.
 
     Parameters
@@ -53,22 +59,24 @@ def layer_speeds(path: str | os.PathLike[str], layer: int, **given: Any) -> Laye
     path : path
     layer : int
         Counted from 1.
+    plate : int, optional
+        Which plate of an archive; without it, the first that has G-code.
     **given
         As for `motion`.
 
     Raises
     ------
     FormatError
-        If the file is not plain G-code.
+        If the file is no G-code.
     ParameterError
-        If the file has no such layer.
+        If the file has no such layer, or no such plate.
     """
-    timeline = Timeline(Path(path), given_limits(**given))
     found = []
-    for steps, plan in timeline:
-        first, last = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
-        some = slice(int(first), int(last))
-        found.append(_pieces(part(steps, some), part(plan, some), timeline.features))
+    with opened(Path(path)) as file, timeline_of(file, file.part(plate), given_limits(**given)) as timeline:
+        for steps, plan in timeline:
+            first, last = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
+            some = slice(int(first), int(last))
+            found.append(_pieces(part(steps, some), part(plan, some), timeline.features))
     pieces = chained(found)
     if not len(pieces.speed):
         raise ParameterError(f"layer is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
@@ -108,7 +116,7 @@ def _speed(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) 
     return np.asarray(np.sqrt(np.minimum(np.minimum(rising, falling), peak**2)))
 
 
-def middle_layer(path: str | os.PathLike[str]) -> int:
-    """Return the number of the layer in the middle of a print, counted from 1."""
-    with open(path, "rb") as file:
-        return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(file)) // 2)
+def middle_layer(path: str | os.PathLike[str], plate: int | None = None) -> int:
+    """Return the number of the layer in the middle of a print, counted from 1; of an archive, that of one plate."""
+    with opened(Path(path)) as file, file.text(file.part(plate)) as given:
+        return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(given.text)) // 2)

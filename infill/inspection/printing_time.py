@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import USED, FoundLimits
 from infill.gcode.limits import Limits, Model
 from infill.gcode.timeline import Timeline
+from infill.inspection.sliced_file import SlicedFile, opened
 from infill.inspection.strokes import Strokes
 
 
@@ -79,6 +82,10 @@ class Motion:
         The limits in force at the end, as far as the model uses them, by name; lists are x, y, z, e.
     sources : dict
         Where each of these comes from: "settings" or "commands" of the file, "given" here, or "assumed".
+    plate : int or None
+        Which plate of an archive it is; None for any other file.
+    plates : tuple of int
+        Those that the archive has.
     """
 
     seconds: float
@@ -92,6 +99,8 @@ class Motion:
     features: tuple[FeatureMotion, ...]
     limits: dict[str, Any]
     sources: dict[str, str]
+    plate: int | None = None
+    plates: tuple[int, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and strings: what ``--json`` prints."""
@@ -117,6 +126,7 @@ def motion(
     junction_deviation: float | None = None,
     square_corner_velocity: float | None = None,
     minimum_cruise_ratio: float | None = None,
+    plate: int | None = None,
 ) -> Motion:
     """Plan every move of a file of G-code as a printer's firmware does, and sum up by feature.
 
@@ -126,7 +136,7 @@ def motion(
     Parameters
     ----------
     path : path
-        Plain G-code.
+        G-code as text, binary G-code, or an archive of plates (.gcode.3mf).
     model : {"jerk", "vector-jerk", "junction", "klipper"}, optional
         What bounds the speed at corners. By default what the file was sliced for, or what the limits given here mean.
     acceleration : float, optional
@@ -139,13 +149,15 @@ def motion(
         mm/s
     minimum_cruise_ratio : float, optional
         From 0 to less than 1.
+    plate : int, optional
+        Which plate of an archive; without it, the first that has G-code.
 
     Raises
     ------
     FormatError
-        If the file is not plain G-code, or has no moves.
+        If the file is no G-code, is damaged, or has no moves.
     ParameterError
-        If a limit is out of range.
+        If a limit is out of range, or there is no such plate.
     """
     fixed = given_limits(
         model=model,
@@ -155,10 +167,12 @@ def motion(
         square_corner_velocity=square_corner_velocity,
         minimum_cruise_ratio=minimum_cruise_ratio,
     )
-    timeline = Timeline(Path(path), fixed)
     strokes = Strokes()
-    for steps, plan in timeline:
-        strokes.add(steps, plan)
+    with opened(Path(path)) as file:
+        plate = file.part(plate)
+        with timeline_of(file, plate, fixed) as timeline:
+            for steps, plan in timeline:
+                strokes.add(steps, plan)
     strokes.finish(timeline.pause)
     found = timeline.found
     area = math.pi / 4 * found.filament_diameter**2
@@ -175,7 +189,28 @@ def motion(
         features=tuple(each for each in features if each.seconds > 0),
         limits=_told(found),
         sources=dict(found.sources),
+        plate=plate,
+        plates=file.plates,
     )
+
+
+@contextlib.contextmanager
+def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -> Iterator[Timeline]:
+    """Yield the moves of a print, with what its file tells outside the text.
+
+    Parameters
+    ----------
+    file : SlicedFile
+    plate : int or None
+        One of its `parts`.
+    fixed : mapping
+        As `given_limits` returns it.
+    """
+    with file.text(plate) as given:
+        told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
+        timeline = Timeline(given.text, fixed, {**given.settings, **told})
+        timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
+        yield timeline
 
 
 def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
