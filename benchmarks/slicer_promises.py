@@ -158,46 +158,31 @@ def promises() -> list[Promise]:
                 show="{:.3f}",
             )
         )
-    found += [
-        Promise(
-            text="keep, every pattern: time over the slicer's own, same slicing, slowest of all runs",
-            limit="at most 1 % more",
-            mode="keep",
-            chosen={},
-            measure=lambda own, other: -saved(own, other),
-            collect=max,
-            reached=lambda value: value <= 0.01,
-            show="{:+.1%}",
-        ),
-        Promise(
-            text="keep, every pattern: time over the slicer's own, equal filament, slowest of all runs",
-            limit="at most 1 % more",
-            mode=SAME,
-            chosen={},
-            measure=lambda own, other: -saved(own, other),
-            collect=max,
-            reached=lambda value: value <= 0.01,
-            show="{:+.1%}",
-        ),
-        Promise(
-            text="keep, density solved again: filament off the slicer's own, farthest of all runs",
-            limit="within 1 %",
-            mode=SAME,
-            chosen={},
-            measure=lambda own, other: abs(filament(own, other)),
-            collect=max,
-            reached=lambda value: value <= 0.01,
-        ),
-        Promise(
-            text="ours, every pattern: filament off the slicer's own, farthest of all runs",
-            limit="within 1 %",
-            mode="ours",
-            chosen={},
-            measure=lambda own, other: abs(filament(own, other)),
-            collect=max,
-            reached=lambda value: value <= 0.01,
-        ),
-    ]
+    for mode, sliced in (("keep", "same slicing"), (SAME, "equal filament")):
+        found.append(
+            Promise(
+                text=f"keep, every pattern: time over the slicer's own, {sliced}, slowest of all runs",
+                limit="at most 1 % more",
+                mode=mode,
+                chosen={},
+                measure=lambda own, other: -saved(own, other),
+                collect=max,
+                reached=lambda value: value <= 0.01,
+                show="{:+.1%}",
+            )
+        )
+    for mode, what in ((SAME, "keep, density solved again"), ("ours", "ours, every pattern")):
+        found.append(
+            Promise(
+                text=f"{what}: filament off the slicer's own, farthest of all runs",
+                limit="within 1 %",
+                mode=mode,
+                chosen={},
+                measure=lambda own, other: abs(filament(own, other)),
+                collect=max,
+                reached=lambda value: value <= 0.01,
+            )
+        )
     honeycomb = {"slicer": "prusa", "pattern": "honeycomb"}
     found += [
         Promise(

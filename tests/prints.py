@@ -7,7 +7,6 @@ into a fast one.
 from __future__ import annotations
 
 import os
-import subprocess
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,9 +14,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from tests.slicers import cura_definitions, missing_cura
-
-SECONDS = 300  # to slice at most
+from tests.slicers import cura_definitions, missing_cura, run_slicer
 
 PRINT: Mapping[str, object] = {
     "printer_technology": "FFF",
@@ -158,7 +155,7 @@ def prusa_print(meshes: Path | list[Path], gcode: Path, settings: Mapping[str, o
         ini.write_text("".join(f"{name} = {value}\n" for name, value in {**PRINT, **(settings or {})}.items()))
         merge = ["--merge"] if len(named) > 1 else []
         command = ["prusa-slicer", "--datadir", folder, "--load", str(ini), "--export-gcode", *merge]
-        _run([*command, "--center", "125,105", "-o", str(Path(gcode).resolve()), *map(str, named)], folder)
+        run_slicer([*command, "--center", "125,105", "-o", str(Path(gcode).resolve()), *map(str, named)], folder)
     return Path(gcode)
 
 
@@ -175,22 +172,7 @@ def cura_print(mesh: Path, gcode: Path, settings: Mapping[str, object] | None = 
         moved.export(Path(folder, "mesh.stl"))
         command = ["CuraEngine", "slice", "-j", str(definitions / "fdmprinter.def.json"), *words, "-e0", *words]
         search = f"{definitions}:{definitions.parent / 'extruders'}"
-        _run([*command, "-o", str(Path(gcode).resolve()), "-l", "mesh.stl"], folder, CURA_ENGINE_SEARCH_PATH=search)
+        run_slicer(
+            [*command, "-o", str(Path(gcode).resolve()), "-l", "mesh.stl"], folder, CURA_ENGINE_SEARCH_PATH=search
+        )
     return Path(gcode)
-
-
-def _run(command: list[str], folder: str, **variables: str) -> None:
-    environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    done = subprocess.run(
-        command,
-        cwd=folder,
-        env={**environment, "LC_ALL": "C", **variables},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        encoding="utf-8",
-        errors="replace",
-        timeout=SECONDS,
-        check=False,
-    )
-    if done.returncode:
-        raise RuntimeError(f"{command[0]} ended with {done.returncode}: {done.stdout[-500:]}")

@@ -12,12 +12,13 @@ import re
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 LAYER_HEIGHT = 0.3  # mm
 FILAMENT_DIAMETER = 1.75  # mm
-SECONDS = 300  # to slice at most; the slowest of our designs takes 10
+SECONDS = 300  # to slice at most; most take 10 or less
 
 PRUSA_SETTINGS = {
     "layer_height": LAYER_HEIGHT,
@@ -89,7 +90,7 @@ def cura_definitions() -> Path | None:
 def prusa_info(path: Path) -> dict[str, Any]:
     """Return what `prusa-slicer --info` reads: volume (mm³), manifold, parts, and what it had to repair."""
     with tempfile.TemporaryDirectory() as folder:
-        output = _run(folder, path, "prusa-slicer", "--datadir", "data", "--info", "mesh.stl")
+        output = _run_on(path, folder, "prusa-slicer", "--datadir", "data", "--info", "mesh.stl")
     said = dict(re.findall(r"^(\w+) *= *(\S+)", output, re.MULTILINE))
     return {
         "volume": float(said["volume"]),
@@ -103,9 +104,9 @@ def prusa_slice(path: Path) -> dict[str, Any]:
     """Return layers, extruded_mm3 and messages (warnings and errors) of slicing with PrusaSlicer."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "print.ini").write_text("".join(f"{name} = {value}\n" for name, value in PRUSA_SETTINGS.items()))
-        output = _run(
-            folder,
+        output = _run_on(
             path,
+            folder,
             "prusa-slicer",
             "--datadir",
             "data",
@@ -131,9 +132,9 @@ def cura_slice(path: Path) -> dict[str, Any]:
     assert definitions is not None, missing_cura()
     settings = [word for name, value in CURA_SETTINGS.items() for word in ("-s", f"{name}={value}")]
     with tempfile.TemporaryDirectory() as folder:
-        output = _run(
-            folder,
+        output = _run_on(
             path,
+            folder,
             "CuraEngine",
             "slice",
             "-v",
@@ -155,9 +156,22 @@ def cura_slice(path: Path) -> dict[str, Any]:
     }
 
 
-def _run(folder: str, mesh: Path, *command: str, **variables: str) -> str:
-    """Run a command beside a mesh.stl and return all it says; raise if it fails."""
-    shutil.copyfile(mesh, Path(folder, "mesh.stl"))  # so that no word of our own path is taken for a message
+def run_slicer(command: Sequence[str], folder: str | os.PathLike[str], **variables: str) -> str:
+    """Run a slicer in a folder, without a display, and return all it says.
+
+    Parameters
+    ----------
+    command : sequence of str
+    folder : path
+        Where it runs.
+    **variables
+        Of its environment.
+
+    Raises
+    ------
+    RuntimeError
+        If it fails.
+    """
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     done = subprocess.run(
         command,
@@ -173,6 +187,12 @@ def _run(folder: str, mesh: Path, *command: str, **variables: str) -> str:
     if done.returncode:
         raise RuntimeError(f"{command[0]} ended with {done.returncode}: {done.stdout[-500:]}")
     return done.stdout
+
+
+def _run_on(mesh: Path, folder: str, *command: str, **variables: str) -> str:
+    """Run a slicer beside a copy of a mesh, mesh.stl, so that no word of our own path is taken for a message."""
+    shutil.copyfile(mesh, Path(folder, "mesh.stl"))
+    return run_slicer(command, folder, **variables)
 
 
 def _only(pattern: str, text: str) -> str:

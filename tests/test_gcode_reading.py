@@ -15,11 +15,12 @@ from hypothesis import strategies as st
 
 from infill import FormatError
 from infill.gcode import stream
+from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
 from infill.gcode.numbers import MOST_DIGITS, read_numbers, write_words
 from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
 from infill.gcode.stream import batches
 from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey
-from infill.gcode.table import ARC, BLANK, COMMENT, MOVE, ODD, OTHER, State, Table, read
+from infill.gcode.table import State, Table, read
 
 NUMBER = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
 EIGHTHS = st.integers(-4000, 4000)  # of which every sum is exact, so that nothing here needs a tolerance

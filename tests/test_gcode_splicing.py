@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from infill.gcode.bodies import Body, Ways, bodies, composed, exchanged, unlawful, ways_of
 from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
+from infill.gcode.lines import MOVE
 from infill.gcode.sections import FILAMENT_UNIT, Strokes, Tags, marked, strokes
 from infill.gcode.splicing import Redrawn, Spliced, differing, spliced, unlike
-from infill.gcode.table import MOVE, State, Table, read
+from infill.gcode.table import State, Table, read
 
 Floats = NDArray[np.float64]
 

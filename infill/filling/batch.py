@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.measuring import Drawing
 from infill.filling.surroundings import Beads, beads
 from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
-from infill.gcode.table import Table
+from infill.gcode.stream import batches
+from infill.gcode.table import State, Table, read
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -51,6 +55,11 @@ class Batch:
         return np.maximum(self.table.f[self.infill.opens] / 60, LEAST_SPEED)
 
     @cached_property
+    def drawing(self) -> Drawing:
+        """The infill."""
+        return Drawing(points=self.infill.points, first=self.infill.first, layer=self.layer)
+
+    @cached_property
     def others(self) -> Beads:
         """Everything but the infill."""
         return beads(self.table, self.marks, self.infill)
@@ -71,3 +80,12 @@ def batch_of(table: Table, tags: Tags) -> Batch:
     """Return the batch of a table, beginning with what tags said before it."""
     marks = marked(table, tags)
     return Batch(table=table, marks=marks, infill=strokes(table, marks))
+
+
+def read_batches(file: BinaryIO) -> Iterator[Batch]:
+    """Yield a print in batches, from where the file stands to its end."""
+    state, tags = State(), Tags()
+    for text in batches(file):
+        batch = batch_of(read(text, state), tags)
+        yield batch
+        state, tags = batch.table.after, batch.marks.after

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.batch import LEAST_SPEED, Batch
+from infill.filling.contact import Contact
 from infill.filling.covering import total_length
 from infill.filling.keeping import lengths, redrawn, rounded_strokes
 from infill.filling.measuring import Below, Drawing, measured
@@ -29,164 +30,198 @@ Flags = NDArray[np.bool_]
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 
 
-class Refiller:
-    """Refills a print, one batch of whole layers after another.
+@dataclass(frozen=True, kw_only=True)
+class Refilled:
+    """A batch after its refill.
 
     Parameters
     ----------
-    rules : Rules
-    plan : Plan, optional
-        Paths of our own; without it, the slicer's are kept.
-
-    Attributes
-    ----------
+    text : bytes
     tally : Tally
-        What was done so far.
+        What was done in this batch; nothing of what holds its infill up.
+    infill : Drawing
+        Its infill now.
     """
 
-    def __init__(self, rules: Rules, plan: Plan | None = None) -> None:
-        self.tally = Tally()
-        self._rules = rules
-        self._plan = plan
-        self._memory = Memory()
-        self._below: Below | None = None
+    text: bytes
+    tally: Tally
+    infill: Drawing
 
-    def refill(self, batch: Batch) -> bytes:
-        """Return the new text of a batch."""
-        table, marks, infill, tally = batch.table, batch.marks, batch.infill, self.tally
-        tally.layers += int(marks.layer[-1] - (marks.layer[0] - marks.tagged[0])) if len(marks.layer) else 0
-        tools = _tools(table)
-        tally.use(tools, table.extruded)
-        self._memory.ways = ways_of(table, self._memory.ways)
-        sections = np.unique(marks.section[marks.is_role(SPARSE) & (table.extruded > 0)])
-        tally.sections += len(sections)
-        if not len(infill):
-            tally.keep("no plain moves", len(sections))
-            return table.data
-        before = self._seconds(infill.points, infill.first, batch.speed, batch.acceleration(self._rules.acceleration))
-        if self._plan is not None:
-            return self._replaced(batch, self._plan, before, tools)
-        tally.keep("no plain moves", len(np.setdiff1d(sections, batch.section)))
-        return self._kept(batch, before, tools)
 
-    def _kept(self, batch: Batch, before: Floats, tools: Places) -> bytes:
-        """Return the text of a batch with the slicer's paths, rounded."""
-        infill, rules, tally = batch.infill, self._rules, self.tally
-        new = rounded_strokes(batch, rules.rounding, acceleration=rules.acceleration)
-        after = self._seconds(new.points, new.first, batch.speed, batch.acceleration(rules.acceleration))
-        reasons = {**unchanged(batch, rules), "no faster": after > before * SLOWER}
-        anew = redrawn(infill, new, ~_any_of(reasons, len(infill)), rules.rounding)
-        done = spliced(batch.table, infill, anew)
-        wrong = unlike(batch.table, infill, anew, done)
-        if wrong:
-            tally.keep(f"a check failed: {wrong}", len(np.unique(batch.section)))
-            return self._as_it_was(batch, before)
-        changed = np.zeros(len(infill), dtype=bool)
-        changed[anew.which] = True
-        touched = np.unique(batch.section[changed])
-        tally.replaced += len(touched)
-        for reason, which in reasons.items():
-            tally.keep(reason, len(np.setdiff1d(np.unique(batch.section[which]), touched)))
-        self._count(
-            batch,
-            before,
-            changed,
-            Amounts(
-                seconds=float(after[changed].sum()),
-                length=float(lengths(new.points, new.first)[changed].sum()),
-                filament=float(anew.filament.sum()),
-            ),
+def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> Refilled:
+    """Refill a batch.
+
+    Parameters
+    ----------
+    batch : Batch
+    rules : Rules
+    plan : Plan, optional
+        Paths of our own; without it, the slicer's are kept, and batches may come in any order.
+    memory : Memory
+        What the batch before left for this one, if there is a plan.
+    """
+    table, marks = batch.table, batch.marks
+    tools = _tools(table)
+    tally = Tally(layers=int(marks.layer[-1] - (marks.layer[0] - marks.tagged[0])) if len(marks.layer) else 0)
+    tally.use(tools, table.extruded)
+    sections = np.unique(marks.section[marks.is_role(SPARSE) & (table.extruded > 0)])
+    tally.sections = len(sections)
+    if plan is not None:
+        memory.ways = ways_of(table, memory.ways)
+    if not len(batch.infill):
+        tally.keep("no plain moves", len(sections))
+        return _as_it_was(batch, tally, np.empty(0))
+    acceleration = batch.acceleration(rules.acceleration)
+    before = path_seconds(batch.infill.points, batch.infill.first, batch.speed, acceleration, rules.limits)
+    if plan is not None:
+        return _replaced(batch, rules, plan, memory, tally, before, tools)
+    tally.keep("no plain moves", len(np.setdiff1d(sections, batch.section)))
+    return _kept(batch, rules, tally, before, tools)
+
+
+def measured_contact(
+    batch: Batch, done: Refilled, last: Below | None, stride: int
+) -> tuple[Contact, Contact, Below | None]:
+    """Return what holds the infill of a batch up, before and after, and what the next batch needs of it.
+
+    Parameters
+    ----------
+    batch : Batch
+    done : Refilled
+    last : Below, optional
+        What this function returned for the batch before.
+    stride : int
+        Every so-many-th layer is measured.
+    """
+    return measured(
+        batch.drawing,
+        done.infill,
+        batch.others,
+        np.unique(batch.marks.layer),
+        line_width=batch.line_width,
+        stride=stride,
+        last=last,
+    )
+
+
+def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Places) -> Refilled:
+    """Return a batch with the slicer's paths, rounded."""
+    infill, acceleration = batch.infill, batch.acceleration(rules.acceleration)
+    new = rounded_strokes(batch, rules.rounding, acceleration=rules.acceleration)
+    after = path_seconds(new.points, new.first, batch.speed, acceleration, rules.limits)
+    reasons = {**unchanged(batch, rules), "no faster": after > before * SLOWER}
+    anew = redrawn(infill, new, ~_any_of(reasons, len(infill)), rules.rounding)
+    done = spliced(batch.table, infill, anew)
+    wrong = unlike(batch.table, infill, anew, done)
+    if wrong:
+        tally.keep(f"a check failed: {wrong}", len(np.unique(batch.section)))
+        return _as_it_was(batch, tally, before)
+    changed = np.zeros(len(infill), dtype=bool)
+    changed[anew.which] = True
+    touched = np.unique(batch.section[changed])
+    tally.replaced = len(touched)
+    for reason, which in reasons.items():
+        tally.keep(reason, len(np.setdiff1d(np.unique(batch.section[which]), touched)))
+    length = lengths(new.points, new.first)
+    _count(
+        tally,
+        batch,
+        before,
+        changed,
+        Amounts(
+            seconds=float(after[changed].sum()),
+            length=float(length[changed].sum()),
+            filament=float(anew.filament.sum()),
+        ),
+    )
+    tally.save(tools[infill.opens[anew.which]], infill.filament[anew.which], anew.filament)
+    tally.round(new.radius[np.repeat(changed, np.diff(infill.first))])
+    old_paths, new_paths = parted(infill.points, infill.first), parted(new.points, new.first)
+    points, first = packed([new_paths[k] if changed[k] else old_paths[k] for k in range(len(infill))], like=(2,))
+    return Refilled(text=done.text, tally=tally, infill=Drawing(points=points, first=first, layer=batch.layer))
+
+
+def _replaced(
+    batch: Batch, rules: Rules, plan: Plan, memory: Memory, tally: Tally, before: Floats, tools: Places
+) -> Refilled:
+    """Return a batch with paths of our own."""
+    table, infill = batch.table, batch.infill
+    found, odd = fresh_sections(batch, plan, memory, rules.acceleration)
+    reasons = unchanged(batch, rules)
+    for reason, which in reasons.items():
+        tally.keep(reason, len(np.unique(batch.section[which])))
+    for reason, number in odd.items():
+        tally.keep(reason, number)
+    fixed = _any_of(reasons, len(infill))
+    wanted = [each for each in found if not fixed[each.body.strokes].any()]
+    fresh = _unhurried(batch, rules, [each for each in wanted if not outside(each)])
+    tally.keep("a path would leave its region", len(wanted) - len(fresh))
+    if not fresh:
+        return _as_it_was(batch, tally, before)
+    texts, filament = [], []
+    for each in fresh:
+        text, pushed = composed(table, each.body, each.paths, each.rate, memory.ways, retractions(each))
+        texts.append(text)
+        filament.append(pushed)
+    done = exchanged(table, [each.body for each in fresh], texts)
+    other = read(done.text, table.before)
+    wrong = differing(table, other, done) or unlawful(other, done, [each.body for each in fresh], texts)
+    if wrong:
+        tally.keep(f"a check failed: {wrong}", len(fresh))
+        return _as_it_was(batch, tally, before)
+    tally.replaced = len(fresh)
+    changed = np.zeros(len(infill), dtype=bool)
+    for each in fresh:
+        changed[each.body.strokes] = True
+        tally.round(each.radii)
+    _count(
+        tally,
+        batch,
+        before,
+        changed,
+        Amounts(
+            seconds=sum(_seconds(each, rules) for each in fresh),
+            length=sum(total_length(each.paths) for each in fresh),
+            filament=sum(filament),
+        ),
+    )
+    opens = np.array([each.body.first for each in fresh])
+    tally.save(tools[opens], np.array([each.body.filament for each in fresh]), np.array(filament))
+    old_paths, kept = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
+    paths = [old_paths[k] for k in kept] + [path for each in fresh for path in each.paths]
+    layer = [batch.layer[kept], *(np.full(len(each.paths), each.body.layer) for each in fresh)]
+    points, first = packed(paths, like=(2,))
+    drawn = Drawing(points=points, first=first, layer=np.concatenate(layer))
+    return Refilled(text=done.text, tally=tally, infill=drawn)
+
+
+def _as_it_was(batch: Batch, tally: Tally, before: Floats) -> Refilled:
+    """Return a batch as it was."""
+    _count(tally, batch, before, np.zeros(len(batch.infill), dtype=bool), Amounts())
+    return Refilled(text=batch.table.data, tally=tally, infill=batch.drawing)
+
+
+def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amounts) -> None:
+    """Say what the infill of a batch took, and what it takes now that some strokes were changed for new paths."""
+    infill = batch.infill
+
+    def amounts(some: Flags) -> Amounts:
+        return Amounts(
+            seconds=float(before[some].sum()),
+            length=float(infill.length[some].sum()),
+            filament=float(infill.filament[some].sum()),
         )
-        tally.save(tools[infill.opens[anew.which]], infill.filament[anew.which], anew.filament)
-        tally.round(new.radius[np.repeat(changed, np.diff(infill.first))])
-        old_paths, new_paths = parted(infill.points, infill.first), parted(new.points, new.first)
-        paths = [new_paths[k] if changed[k] else old_paths[k] for k in range(len(infill))]
-        self._measure(batch, paths, batch.layer)
-        return done.text
 
-    def _replaced(self, batch: Batch, plan: Plan, before: Floats, tools: Places) -> bytes:
-        """Return the text of a batch with paths of our own."""
-        table, infill, rules, tally = batch.table, batch.infill, self._rules, self.tally
-        found, odd = fresh_sections(batch, plan, self._memory, rules.acceleration)
-        reasons = unchanged(batch, rules)
-        for reason, which in reasons.items():
-            tally.keep(reason, len(np.unique(batch.section[which])))
-        for reason, number in odd.items():
-            tally.keep(reason, number)
-        fixed = _any_of(reasons, len(infill))
-        wanted = [each for each in found if not fixed[each.body.strokes].any()]
-        fresh = _unhurried(batch, rules, [each for each in wanted if not outside(each)])
-        tally.keep("a path would leave its region", len(wanted) - len(fresh))
-        if not fresh:
-            return self._as_it_was(batch, before)
-        texts, filament = [], []
-        for each in fresh:
-            text, pushed = composed(table, each.body, each.paths, each.rate, self._memory.ways, retractions(each))
-            texts.append(text)
-            filament.append(pushed)
-        done = exchanged(table, [each.body for each in fresh], texts)
-        other = read(done.text, table.before)
-        wrong = differing(table, other, done) or unlawful(other, done, [each.body for each in fresh], texts)
-        if wrong:
-            tally.keep(f"a check failed: {wrong}", len(fresh))
-            return self._as_it_was(batch, before)
-        tally.replaced += len(fresh)
-        changed = np.zeros(len(infill), dtype=bool)
-        for each in fresh:
-            changed[each.body.strokes] = True
-            tally.round(each.radii)
-        seconds = sum(self._seconds_of(each) for each in fresh)
-        length = sum(total_length(each.paths) for each in fresh)
-        self._count(batch, before, changed, Amounts(seconds=seconds, length=length, filament=sum(filament)))
-        first = np.array([each.body.first for each in fresh])
-        tally.save(tools[first], np.array([each.body.filament for each in fresh]), np.array(filament))
-        old_paths, kept = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
-        layer = [batch.layer[kept], *(np.full(len(each.paths), each.body.layer) for each in fresh)]
-        paths = [old_paths[k] for k in kept] + [path for each in fresh for path in each.paths]
-        self._measure(batch, paths, np.concatenate(layer))
-        return done.text
+    tally.infill = amounts(np.ones(len(infill), dtype=bool))
+    tally.infill_after = amounts(~changed) + new
 
-    def _as_it_was(self, batch: Batch, before: Floats) -> bytes:
-        """Return a batch as it was."""
-        self._count(batch, before, np.zeros(len(batch.infill), dtype=bool), Amounts())
-        return batch.table.data
 
-    def _count(self, batch: Batch, before: Floats, changed: Flags, new: Amounts) -> None:
-        """Add what the infill of a batch took, and what it takes now that some strokes were changed for new paths."""
-        infill = batch.infill
-
-        def amounts(some: Flags) -> Amounts:
-            return Amounts(
-                seconds=float(before[some].sum()),
-                length=float(infill.length[some].sum()),
-                filament=float(infill.filament[some].sum()),
-            )
-
-        self.tally.infill += amounts(np.ones(len(infill), dtype=bool))
-        self.tally.infill_after += amounts(~changed) + new
-
-    def _measure(self, batch: Batch, paths: list[Floats], layer: Places) -> None:
-        """Add what some layers of a batch are held up by, before and with these paths."""
-        points, first = packed(paths, like=(2,))
-        before, after, self._below = measured(
-            Drawing(points=batch.infill.points, first=batch.infill.first, layer=batch.layer),
-            Drawing(points=points, first=first, layer=layer),
-            batch.others,
-            np.unique(batch.marks.layer),
-            line_width=batch.line_width,
-            stride=self._rules.stride,
-            last=self._below,
-        )
-        self.tally.measure(before, after)
-
-    def _seconds_of(self, fresh: Fresh) -> float:
-        """Return how long new paths take."""
-        points, first = packed(fresh.paths, like=(2,))
-        speed = np.full(len(fresh.paths), max(fresh.body.feed / 60, LEAST_SPEED))
-        return float(self._seconds(points, first, speed, np.full(len(fresh.paths), fresh.acceleration)).sum())
-
-    def _seconds(self, points: Floats, first: Places, speed: Floats, acceleration: Floats) -> Floats:
-        return path_seconds(points, first, speed, acceleration, self._rules.limits)
+def _seconds(fresh: Fresh, rules: Rules) -> float:
+    """Return how long new paths take."""
+    points, first = packed(fresh.paths, like=(2,))
+    speed, acceleration = max(fresh.body.feed / 60, LEAST_SPEED), fresh.acceleration
+    number = len(fresh.paths)
+    return float(path_seconds(points, first, np.full(number, speed), np.full(number, acceleration), rules.limits).sum())
 
 
 def _unhurried(batch: Batch, rules: Rules, fresh: list[Fresh]) -> list[Fresh]:

@@ -22,16 +22,21 @@ from infill.filling.prints import Given, copy_mode, opened, pieces, scratch, wri
 from infill.filling.request import AUTO, KEEP, Request
 from infill.formats.whole_files import check_target, told, whole_file
 from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
+from infill.kernels.threads import in_order, thread_count
 from infill.version import __version__
 
 if TYPE_CHECKING:
-    from infill.filling.layers import Refiller
+    from infill.filling.batch import Batch
+    from infill.filling.layers import Refilled
+    from infill.filling.planning import Plan
+    from infill.filling.rules import Rules
     from infill.filling.tally import Tally
     from infill.gcode.survey import Survey
 
 Progress = Callable[[str, float], None]
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
+MOST_THREADS = 3  # more of them would only take memory: one reads what all the others draw
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -203,7 +208,6 @@ class _Done:
 
 def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
-    from infill.filling.layers import Refiller
     from infill.filling.placement import family_of
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
@@ -227,7 +231,7 @@ def _refilled(given: Given, draft: BinaryIO, request: Request, progress: Progres
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
-    tally = _drafted(given.text, draft, found, Refiller(rules, plan), progress)
+    tally = _drafted(given.text, draft, found, rules, plan, progress)
     report = report_of_refill(request, found, tally, already=False, rules=rules)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
@@ -266,30 +270,40 @@ def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
     return place, 0, text
 
 
-def _drafted(file: BinaryIO, draft: BinaryIO, found: Survey, refiller: Refiller, progress: Progress | None) -> Tally:
+def _drafted(
+    file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, plan: Plan | None, progress: Progress | None
+) -> Tally:
     """Write the new text to a draft."""
-    from infill.filling.batch import batch_of
-    from infill.gcode.sections import Tags
-    from infill.gcode.stream import batches
-    from infill.gcode.table import State, read
+    from infill.filling.batch import read_batches
+    from infill.filling.layers import measured_contact, refilled
+    from infill.filling.replacing import Memory
+    from infill.filling.tally import Tally
 
     file.seek(0)
-    state, tags, tally = State(), Tags(), refiller.tally
+    tally, memory, below, tags = Tally(), Memory(), None, None
     done = shown = 0
+
+    def work(batch: Batch) -> Refilled:
+        return refilled(batch, rules, plan, memory)
+
+    # Our own paths continue those of the layer below, so that batches come one after another.
+    threads = min(thread_count(), MOST_THREADS) if plan is None else 1
     with told(Path("a temporary file")):
-        for text in batches(file):
-            batch = batch_of(read(text, state), tags)
-            new = refiller.refill(batch)
-            for first, last in estimates(new):
-                tally.lines.append((draft.tell() + first, new[first:last], tally.saved))
-            draft.write(new)
-            state, tags = batch.table.after, batch.marks.after
-            done += len(text)
+        for batch, new in in_order(work, read_batches(file), threads=threads):
+            before, after, below = measured_contact(batch, new, below, rules.stride)
+            tally.add(new.tally)
+            tally.before += before
+            tally.after += after
+            for first, last in estimates(new.text):
+                tally.lines.append((draft.tell() + first, new.text[first:last], tally.saved))
+            draft.write(new.text)
+            tags = batch.marks.after
+            done += len(batch.table.data)
             if progress is not None and done >= shown:
                 progress("drawing infill", done / max(found.size, 1))
                 shown = done + SHOWN
         draft.flush()
-    if not tags.layer:
+    if tags is None or not tags.layer:
         raise FormatError(
             "the file has no marked layers; give the G-code of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio "
             "or Cura, with its comments"

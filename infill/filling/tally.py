@@ -136,10 +136,23 @@ class Tally:
         """Add what sections took before and take now, mm, by tool."""
         _add(self.change, tools, after - before)
 
-    def measure(self, before: Contact, after: Contact) -> None:
-        """Add what holds some infill up."""
-        self.before += before
-        self.after += after
+    def add(self, other: Tally) -> None:
+        """Add what was done in a batch."""
+        self.layers += other.layers
+        self.sections += other.sections
+        self.replaced += other.replaced
+        for reason, sections in other.kept.items():
+            self.keep(reason, sections)
+        self.infill += other.infill
+        self.infill_after += other.infill_after
+        for mine, more in ((self.filament, other.filament), (self.change, other.change)):
+            for tool, filament in more.items():
+                mine[tool] = mine.get(tool, 0.0) + filament
+        self.corners += other.corners
+        self.radii.counts += other.radii.counts
+        self.lines += other.lines
+        self.before += other.before
+        self.after += other.after
 
 
 def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:

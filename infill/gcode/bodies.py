@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.gcode.lines import ARC, MOVE, ODD
 from infill.gcode.numbers import write_words
 from infill.gcode.sections import FILAMENT_UNIT, Marks, Strokes
 from infill.gcode.splicing import Spliced
-from infill.gcode.table import ARC, MOVE, ODD, Table
+from infill.gcode.table import Table
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

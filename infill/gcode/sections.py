@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.dialect import UNTAGGED, role_of, tag_of
-from infill.gcode.table import BLANK, COMMENT, MOVE, NAN, Table
+from infill.gcode.lines import BLANK, COMMENT, MOVE
+from infill.gcode.table import NAN, Table
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

@@ -13,9 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.gcode.lines import MOVE
 from infill.gcode.numbers import write_words
 from infill.gcode.sections import FILAMENT_UNIT, Strokes
-from infill.gcode.table import MOVE, Table, read
+from infill.gcode.table import Table, read
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

@@ -1,34 +1,23 @@
-"""Lines of G-code as arrays: what each line is, and where the machine stands after it.
+"""Lines of G-code as arrays: where the machine stands after each of them.
 
-Moves are read many at a time with NumPy; the rare lines that change how moves are meant (G90, M82, G92 …) are read one
-by one, and cut the batch into stretches in which nothing changes. Units and offsets are those of the file: a position
-is what the words say, as the machine is told.
+Moves are followed many at a time with NumPy; the rare lines that change how moves are meant (G90, M82, G92 …) are taken
+one by one, and cut the batch into stretches in which nothing changes. Units and offsets are those of the file: a
+position is what the words say, as the machine is told.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.numbers import MOST_DIGITS, SEMICOLON, SPACE, TAB, read_numbers
+from infill.gcode.lines import Command, Lines, lines_of
 
 Floats = NDArray[np.float64]
-
-# What a line is. Only the first two are ever drawn; ODD is a line that could not be read for certain.
-OTHER, MOVE, ARC, COMMENT, BLANK, ODD = range(6)
 NAN = float("nan")
 AXES = "XYZ"
-WORDS = "XYZEFIJ"
-_LETTERS = np.full(256, -1, dtype=np.int8)
-for _place, _letter in enumerate(WORDS):
-    _LETTERS[ord(_letter)] = _LETTERS[ord(_letter.lower())] = _place
-_COMMAND = re.compile(rb"\s*(?:[Nn]\d+\s*)?([A-Za-z])(\d{1,6}(?:\.\d{1,3})?)")
-_WORD = re.compile(rb"([A-Za-z])([-+]?(?:\d+\.?\d*|\.\d+))?")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,25 +54,6 @@ class State:
     relative_e: bool = False
     inches: bool = False
     tool: int = 0
-
-
-@dataclass(frozen=True, kw_only=True)
-class Command:
-    """One line that is neither a move nor a comment.
-
-    Parameters
-    ----------
-    line : int
-        Its number in the table.
-    code : str
-        Such as "M204" or "T0"; for a line that does not begin with one, its first word.
-    words : dict
-        The numbers by letter, None where a letter has no number; read only for codes that take such words.
-    """
-
-    line: int
-    code: str
-    words: dict[str, float | None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -174,155 +144,22 @@ def read(data: bytes, state: State) -> Table:
     >>> table.kind.tolist(), table.y.tolist(), table.extruded.tolist()
     ([0, 1, 1], [nan, 2.0, 3.0], [0.0, 0.5, 0.0])
     """
-    text = np.frombuffer(data if data.endswith(b"\n") else data + b"\n", dtype=np.uint8)
-    start = np.concatenate([[0], np.flatnonzero(text == ord("\n")) + 1])
-    start[-1] = len(data)
-    lines = len(start) - 1 if len(data) else 0
-    start = start[: lines + 1]
-    kind, code, begin, numbered = _kinds(text, start)
-    values, given = _words(text, start, kind, begin)
-    commands = tuple(_commands(data, start, kind))
-    return _replayed(data, start, kind, code, numbered, values, given, commands, state)
+    lines = lines_of(data)
+    return _replayed(data, lines, state)
 
 
-def _kinds(
-    text: NDArray[np.uint8], start: NDArray[np.int64]
-) -> tuple[NDArray[np.uint8], NDArray[np.int8], NDArray[np.int64], NDArray[np.bool_]]:
-    """Return the kind of every line, its code, where its words begin, and whether it has a line number."""
-    first = start[:-1].copy()
-    last = len(text) - 1
-
-    def byte(offset: int = 0) -> NDArray[np.uint8]:
-        return text[np.minimum(first + offset, last)]
-
-    blank = byte() <= SPACE
-    for _ in range(8):  # indented lines are rare; deeper ones are odd
-        inner = (byte() == SPACE) | (byte() == TAB)  # a line end is neither, and the text ends with one
-        if not inner.any():
-            break
-        first += inner
-    numbered = (byte() | 0x20) == ord("n")
-    if numbered.any():
-        numbered &= _is_digit(byte(1))
-        first += numbered
-        for _ in range(10):
-            first += numbered & _is_digit(byte())
-        for _ in range(8):
-            inner = numbered & ((byte() == SPACE) | (byte() == TAB))
-            if not inner.any():
-                break
-            first += inner
-    head = byte()
-    kind = np.full(len(first), OTHER, dtype=np.uint8)
-    kind[head == SEMICOLON] = COMMENT
-    kind[(head == ord("\n")) | (head == ord("\r"))] = BLANK
-    kind[blank & ((head == SPACE) | (head == TAB))] = ODD
-    one, two = byte(1), byte(2)
-    padded = (one == ord("0")) & _is_digit(two)  # G01
-    digit = np.where(padded, two, one)
-    ends = np.where(padded, byte(3), two)
-    plain = ((head | 0x20) == ord("g")) & (digit >= ord("0")) & (digit <= ord("3")) & ~_is_digit(ends)
-    plain &= ends != ord(".")
-    code = np.where(plain, digit.astype(np.int16) - ord("0"), -1).astype(np.int8)
-    kind[plain & (digit <= ord("1"))] = MOVE
-    kind[plain & (digit >= ord("2"))] = ARC
-    return kind, code, first + 2 + padded, numbered
-
-
-def _is_digit(byte: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    return (byte >= ord("0")) & (byte <= ord("9"))
-
-
-def _words(
-    text: NDArray[np.uint8], start: NDArray[np.int64], kind: NDArray[np.uint8], begin: NDArray[np.int64]
-) -> tuple[Floats, NDArray[np.bool_]]:
-    """Return the numbers of the words X Y Z E F I J of moves and arcs, NaN where there is none; mark ODD lines."""
-    lines = len(kind)
-    values = np.full((lines, len(WORDS)), np.nan)
-    moving = (kind == MOVE) | (kind == ARC)
-    if not moving.any():
-        return values, np.zeros(values.shape, dtype=bool)
-    marks = np.flatnonzero((text == SEMICOLON) | (text == ord("(")) | (text == ord("*")))
-    ends = start[1:].copy()  # of the words: where a comment or a checksum begins
-    if len(marks):
-        of, earliest = np.unique(np.searchsorted(start, marks, side="right") - 1, return_index=True)
-        ends[of] = marks[earliest]
-    begin = np.minimum(begin, ends)
-    # Words begin at a letter; everything in between is digits, signs, points and spaces, or the line is odd.
-    other = np.flatnonzero(((text | 0x20) >= ord("a")) | (text == ord("=")) | (text == ord('"')) | (text == ord(":")))
-    of = np.searchsorted(start, other, side="right") - 1
-    inside = (of < lines) & (other >= begin[np.minimum(of, lines - 1)]) & (other < ends[np.minimum(of, lines - 1)])
-    place, line = other[inside], of[inside]
-    some = moving[line]
-    place, line = place[some], line[some]
-    word = _LETTERS[text[place]]
-    after = place + 1
-    spaced = text[np.minimum(after, len(text) - 1)] == SPACE
-    number, good = read_numbers(text, after + spaced)
-    known = word >= 0
-    strange = np.zeros(lines, dtype=bool)
-    strange[line[~known | ~good]] = True
-    line, word, number = line[known], word[known], number[known]
-    flat = line * len(WORDS) + word
-    values.ravel()[flat] = number
-    if np.bincount(line, minlength=1).sum() != np.count_nonzero(_present(flat, values.size)):
-        again = np.bincount(flat, minlength=values.size).reshape(values.shape)
-        strange |= (again > 1).any(axis=1)
-    kind[moving & strange] = ODD
-    values[kind == ODD] = np.nan
-    return values, ~np.isnan(values)
-
-
-def _present(flat: NDArray[np.int64], size: int) -> NDArray[np.bool_]:
-    there = np.zeros(size, dtype=bool)
-    there[flat] = True
-    return there
-
-
-def _commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
-    for line in np.flatnonzero((kind == OTHER) | (kind == ODD)).tolist():
-        text = data[start[line] : min(start[line + 1], start[line] + 4096)]
-        found = _COMMAND.match(text)
-        if found is None:
-            word = text.split(None, 1)
-            yield Command(line=line, code=word[0].decode("latin-1") if word else "", words={})
-            continue
-        letter, number = found[1].decode().upper(), found[2].decode()
-        code = letter + (number if "." in number else str(int(number)))
-        words = {} if letter == "T" else _numbers(text[found.end() :].split(b";", 1)[0])
-        yield Command(line=line, code=code, words=words)
-
-
-def _numbers(text: bytes) -> dict[str, float | None]:
-    """Return the numbers of a command by letter."""
-    return {
-        found[1].decode().upper(): float(found[2]) if found[2] and len(found[2]) <= MOST_DIGITS else None
-        for found in _WORD.finditer(text)
-    }
-
-
-def _replayed(
-    data: bytes,
-    start: NDArray[np.int64],
-    kind: NDArray[np.uint8],
-    code: NDArray[np.int8],
-    numbered: NDArray[np.bool_],
-    values: Floats,
-    given: NDArray[np.bool_],
-    commands: tuple[Command, ...],
-    before: State,
-) -> Table:
+def _replayed(data: bytes, lines: Lines, before: State) -> Table:
     """Follow the moves from `before`, stretch by stretch between commands that change how they are meant."""
-    lines = len(kind)
-    where = {name: np.empty(lines) for name in ("x", "y", "z", "e")}
-    extruded = np.zeros(lines)
-    relative_e = np.zeros(lines, dtype=bool)
+    values, commands, count = lines.values, lines.commands, len(lines)
+    where = {name: np.empty(count) for name in ("x", "y", "z", "e")}
+    extruded = np.zeros(count)
+    relative_e = np.zeros(count, dtype=bool)
     feed = _held(values[:, 4], before.f)
     state, first = before, 0
     for command in (*commands, None):
         if command is not None and not _changes_moves(command):
             continue
-        last = lines if command is None else command.line
+        last = count if command is None else command.line
         state = _stretch(slice(first, last), values, where, extruded, state)
         relative_e[first:last] = state.relative_e or state.relative
         if command is not None:
@@ -331,18 +168,18 @@ def _replayed(
                 where[name][last] = getattr(state, name)
             relative_e[last] = state.relative_e or state.relative
             first = last + 1
-    after = replace(state, f=float(feed[-1]) if lines else before.f)
+    after = replace(state, f=float(feed[-1]) if count else before.f)
     after = replace(after, **_retraction(before, extruded, commands))
     return Table(
         data=data,
-        start=start,
-        kind=kind,
-        code=code,
-        numbered=numbered,
+        start=lines.start,
+        kind=lines.kind,
+        code=lines.code,
+        numbered=lines.numbered,
         **where,
         f=feed,
         extruded=extruded,
-        given=given,
+        given=lines.given,
         i=values[:, 5],
         j=values[:, 6],
         relative_e=relative_e,

@@ -20,8 +20,9 @@ from infill.gcode.columns import chained, part
 from infill.gcode.dialect import tag_of
 from infill.gcode.found_limits import FoundLimits, found_limits
 from infill.gcode.limits import LIMITING_CODES, Limits
+from infill.gcode.lines import ARC, COMMENT, MOVE
 from infill.gcode.planner import Plan, settle
-from infill.gcode.table import ARC, COMMENT, MOVE, State, Table, read
+from infill.gcode.table import State, Table, read
 
 BATCH: Final = 1 << 22  # bytes
 ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+from collections import deque
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
 from functools import cache, partial
-from typing import Any
+from typing import Any, TypeVar
 
 from infill.checks import whole
 from infill.machine import usable_cores
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 VARIABLE = "NUMBA_NUM_THREADS"
 MOST = 256  # threads: more cost more than they gain
@@ -62,3 +66,34 @@ def together(*works: Callable[[], Any], threads: int) -> list[Any]:
 @cache
 def _pool(threads: int, process: int) -> ThreadPoolExecutor:  # noqa: ARG001 - a forked process has no threads yet
     return ThreadPoolExecutor(threads - 1, thread_name_prefix="infill")
+
+
+def in_order(work: Callable[[Item], Result], items: Iterable[Item], *, threads: int) -> Generator[tuple[Item, Result]]:
+    """Yield each item with the result of its work; the next ones are worked on meanwhile.
+
+    Items are taken as they are needed, one more than there are threads, so that few are in memory at a time. An error
+    of the work is raised where its result would be yielded. With one thread, work is done in order.
+
+    Parameters
+    ----------
+    work : callable
+    items : iterable
+        Taken in the thread that asks for the results.
+    threads : int, 1 or more
+
+    >>> list(in_order(abs, [-3, 2], threads=2))
+    [(-3, 3), (2, 2)]
+    """
+    waiting: deque[tuple[Item, Future[Result]]] = deque()
+    with ThreadPoolExecutor(threads, thread_name_prefix="infill") as pool:
+        try:
+            for item in items:
+                waiting.append((item, pool.submit(work, item)))
+                if len(waiting) > threads:
+                    done, result = waiting.popleft()
+                    yield done, result.result()
+            while waiting:
+                done, result = waiting.popleft()
+                yield done, result.result()
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
