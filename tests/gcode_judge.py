@@ -696,8 +696,10 @@ def _inside(a: Section, b: Section, was: Replay, now: Replay, habit: Habits, *, 
     free = FREE if strict else FREE | PAIRED
     kept = [[line for line in part.lines if line.kind not in free] for part in (a, b)]
     absolute = was.before.absolute_e
-    if absolute:  # G92 E may be added where it is needed
+    if absolute and strict:  # G92 E may be added where it is needed
         kept[1] = _without_new_origins(*kept)
+    elif absolute:  # and other paths go on counting, or count anew: what they push and where they end is judged as well
+        kept = [[line for line in part if not re.fullmatch(rb"G92 E-?[\d.]+", line.command)] for part in kept]
     if len(kept[0]) != len(kept[1]) or not all(map(_same_but_for_times, *kept)):
         yield from _differences(*kept)
     else:

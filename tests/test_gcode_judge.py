@@ -309,6 +309,16 @@ def test_filament_may_be_set_back_where_it_is_absolute() -> None:
     assert judge(old, b"\n".join(lines), deviation=0.01) == []
 
 
+def test_a_counter_that_is_no_longer_set_is_found() -> None:
+    """Other paths need not set it where the old ones did; but what they push, and what they leave, must be right."""
+    old = written(Dialect(slicer="cura", absolute=True, layers=5))
+    head, tail = old.rsplit(b"\nG92 E0\n", 1)
+    assert b";TYPE:FILL" in head
+    assert judge(old, old) == []
+    assert judge(old, head + b"\n" + tail) != []
+    assert judge(old, head + b"\nG92 E1\n" + tail) != []
+
+
 def test_times_may_be_told_anew_and_nothing_else() -> None:
     old = written(FULL)
     new = re.sub(rb"M73 P\d+ R\d+", b"M73 P7 R3", halves(old))
