@@ -16,7 +16,7 @@ from infill.filling.contact import Contact, Samples, contact, merged, sampled
 from infill.filling.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
 from infill.filling.curves import GENTLE, MOST_BULGE, recut
 from infill.filling.regions import STEP, region_of
-from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, beside, bounded_deviation
+from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, bounded_deviation, walls_of
 from infill.filling.timing import neutral_limits, path_seconds
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
@@ -394,17 +394,28 @@ clouds = st.lists(coordinates, min_size=1, max_size=40).map(np.array)
 @given(points=clouds, walls=clouds, distance=st.floats(0.1, 3))
 def test_what_lies_beside_walls_is_found(points: np.ndarray, walls: np.ndarray, distance: float) -> None:
     apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1)).min(axis=1)
-    some, near = beside(points, walls, distance)
-    assert sorted(some) == np.flatnonzero(apart < distance).tolist()
-    assert near == pytest.approx(apart[some])
+    near = walls_of(walls).near(points, np.zeros(len(points), dtype=int), distance)
+    assert near == pytest.approx(np.where(apart < distance, apart, np.inf))
+
+
+@given(points=clouds, walls=clouds, distance=st.floats(0.1, 5), data=st.data())
+def test_each_point_sees_the_walls_of_its_layer(
+    points: np.ndarray, walls: np.ndarray, distance: float, data: st.DataObject
+) -> None:
+    numbers = st.integers(3, 6)
+    layer, of = (np.array(data.draw(st.lists(numbers, min_size=len(x), max_size=len(x)))) for x in (points, walls))
+    near = walls_of(walls, of).near(points, layer, distance)
+    apart = np.hypot(*(points[:, None] - walls).transpose(2, 0, 1))
+    apart = np.where(layer[:, None] == of, apart, np.inf).min(axis=1)
+    assert near == pytest.approx(np.where(apart < distance, apart, np.inf))
 
 
 def test_a_wall_far_away_takes_no_memory() -> None:
     walls = np.array([[0.0, 0.0], [1e7, -1e7], [3e300, 0.0]])
-    some, near = beside(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), walls, 0.5)
-    assert some.tolist() == [0]
-    assert near == pytest.approx([0.3])
-    assert len(beside(np.empty((0, 2)), walls, 0.5)[0]) == len(beside(walls, np.empty((0, 2)), 0.5)[0]) == 0
+    near = walls_of(walls).near(np.array([[0.3, 0.0], [5.0, 0.0], [-2e8, 1e9]]), np.zeros(3, dtype=int), 0.5)
+    assert near == pytest.approx([0.3, np.inf, np.inf])
+    assert len(walls_of(walls).near(np.empty((0, 2)), np.empty(0, dtype=int), 0.5)) == 0
+    assert walls_of(np.empty((0, 2))).near(walls, np.zeros(3, dtype=int), 0.5).tolist() == [np.inf] * 3
 
 
 @given(
@@ -416,12 +427,15 @@ def test_corners_beside_walls_hardly_move(turn: float, side: float, near: float,
     middle = path[1] + near * np.array([math.cos(side), math.sin(side)])
     direction = np.array([-math.sin(side), math.cos(side)])
     walls = middle + np.linspace(-4, 4, 801)[:, None] * direction  # a straight one, at `near`
-    allowed = bounded_deviation(path, np.array([1]), walls, deviation=deviation, line_width=WIDTH)[0]
-    if near > BESIDE * WIDTH + 0.001:
-        assert allowed == deviation
-        return
+    found, layer = walls_of(walls), np.zeros(1, dtype=int)
+    apart = found.near(path[1:2], layer, BESIDE * WIDTH)
     if near > BESIDE * WIDTH:
+        assert apart == [np.inf]
         return
+    if not np.isfinite(apart[0]):
+        assert near > BESIDE * WIDTH - 0.001  # points on the wall are 0.01 mm apart
+        return
+    allowed = bounded_deviation(path, np.array([1]), apart, found, layer, deviation=deviation, line_width=WIDTH)[0]
     assert 0 < allowed <= min(deviation, ANCHORED * WIDTH) + EXACT
     inward = (path[0] - path[1]) / 5 + (path[2] - path[1]) / 5
     towards = float(inward @ (middle - path[1])) / near / np.hypot(*inward)  # of each mm that the corner moves

@@ -13,9 +13,9 @@ import shapely
 from infill import FormatError, OutputError, ParameterError, refill
 from infill.filling.batch import Batch
 from infill.filling.families.catalogue import FAMILIES
-from infill.filling.keeping import Rounding
 from infill.filling.measuring import Drawing, measured
 from infill.filling.planning import planned
+from infill.filling.rounding import Rounding
 from infill.filling.support import AIM, LEAST_SHARE, largest_deviation, samples
 from infill.filling.surroundings import Beads
 from infill.gcode.survey import survey

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from infill.filling.covering import cover, total_length
 from infill.filling.families.protocol import TOUCH
-from infill.filling.keeping import smoothed_paths
 from infill.filling.planning import Plan
+from infill.filling.rounding import rounded_paths
+from infill.filling.surroundings import Walls
 from infill.gcode.splicing import UNIT
 
 if TYPE_CHECKING:
@@ -94,8 +95,8 @@ class Place:
     Parameters
     ----------
     plan : Plan
-    walls : (K, 2) float64, mm
-        Points on the other beads of the layer.
+    walls : Walls
+        The other beads of the layer, as layer 0.
     z : float, mm
     layer : int
     speed, acceleration : float
@@ -103,7 +104,7 @@ class Place:
     """
 
     plan: Plan
-    walls: Floats
+    walls: Walls
     z: float
     layer: int
     speed: float
@@ -181,7 +182,7 @@ def _covered(area: Polygon, cell: float, place: Place) -> Fitted:
     corners = shapely.points(np.concatenate(strands))
     hard = np.zeros(len(corners), dtype=bool)
     for _ in range(AGAIN):
-        done, radii = smoothed_paths(
+        done, radii = rounded_paths(
             strands,
             walls=place.walls,
             acceleration=place.acceleration,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from infill.filling.batch import LEAST_SPEED, Batch
 from infill.filling.contact import Contact
 from infill.filling.covering import total_length
-from infill.filling.keeping import lengths, redrawn, rounded_strokes
+from infill.filling.keeping import lengths, redrawn, stroke_corners
 from infill.filling.measuring import Below, Drawing, measured
 from infill.filling.planning import Plan
 from infill.filling.replacing import Fresh, Memory, fresh_sections, outside, retractions
@@ -107,7 +107,7 @@ def measured_contact(
 def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Places) -> Refilled:
     """Return a batch with the slicer's paths, rounded."""
     infill, acceleration = batch.infill, batch.acceleration(rules.acceleration)
-    new = rounded_strokes(batch, rules.rounding, acceleration=rules.acceleration)
+    new = stroke_corners(batch, rules.rounding.corner, acceleration=rules.acceleration).rounded(rules.rounding)
     after = path_seconds(new.points, new.first, batch.speed, acceleration, rules.limits)
     reasons = {**unchanged(batch, rules), "no faster": after > before * SLOWER}
     anew = redrawn(infill, new, ~_any_of(reasons, len(infill)), rules.rounding)

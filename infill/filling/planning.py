@@ -14,9 +14,10 @@ from infill.filling.contact import sampled
 from infill.filling.covering import solve_cell, total_length
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import Family
-from infill.filling.keeping import Rounding, smoothed_paths
 from infill.filling.regions import STEP, region_of
+from infill.filling.rounding import Rounding, rounded_paths
 from infill.filling.support import filled
+from infill.filling.surroundings import walls_of
 from infill.ragged import picked
 
 if TYPE_CHECKING:
@@ -106,10 +107,10 @@ def planned(
         rounding=rounding,
         density=None if density is None else density / spacing,
     )
-    around = np.concatenate(walls)  # of all layers at once: where they differ, a few more corners stay sharp
+    around = walls_of(np.concatenate(walls))  # of all layers at once: where they differ, a few more corners stay sharp
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
-        done, _ = smoothed_paths(
+        done, _ = rounded_paths(
             [path for path in paths if len(path) > 1],
             walls=around,
             acceleration=acceleration,

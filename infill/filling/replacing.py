@@ -16,6 +16,7 @@ from infill.filling.fitting import INSIDE, Column, Fitted, Place, column, fitted
 from infill.filling.planning import Plan
 from infill.filling.regions import STEP, Region, region_of
 from infill.filling.sharing import Group, grouped, lengths_of, unsure
+from infill.filling.surroundings import Walls, walls_of
 from infill.gcode.bodies import Body, Ways, bodies
 from infill.gcode.splicing import UNIT
 from infill.ragged import picked
@@ -101,6 +102,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
         if region is not memory.region:
             memory.drawn.clear()
         memory.region = region
+        around = walls_of(walls)
         groups, lost = grouped(region, batch.infill, some, batch.section)
         here = {body.section: body for body in found if body.layer == number}
         held = lengths_of(groups)
@@ -111,7 +113,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
             members = [here[each] for each in group.areas if each in here]
             reason = unsure(group, members, lost)
             if not reason:
-                done = _filled(group, members, region, walls, plan, memory, commanded)
+                done = _filled(group, members, region, around, plan, memory, commanded)
                 fresh += done
                 reason = "" if done else "no path fits"
             if reason:
@@ -123,7 +125,7 @@ def _filled(
     group: Group,
     members: Sequence[Body],
     region: Region,
-    walls: Floats,
+    walls: Walls,
     plan: Plan,
     memory: Memory,
     acceleration: Floats,

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.batch import Batch
-from infill.filling.keeping import Rounding
 from infill.filling.measuring import MEASURED
 from infill.filling.request import SAME, Request
+from infill.filling.rounding import Rounding
 from infill.filling.timing import neutral_limits
 from infill.gcode.limits import Limits
 from infill.gcode.splicing import UNIT

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from infill.filling.batch import Batch, batch_of
-from infill.filling.contact import Contact, contact, merged
-from infill.filling.keeping import Rounding, rounded_strokes
+from infill.filling.contact import Contact, Samples, contact, merged
+from infill.filling.corners import Rounded
+from infill.filling.keeping import stroke_corners
 from infill.filling.measuring import Drawing
-from infill.gcode.sections import Tags
+from infill.filling.rounding import Corners, Rounding
+from infill.gcode.sections import Strokes, Tags
 from infill.gcode.survey import Survey
 from infill.gcode.table import read
 
@@ -67,37 +69,52 @@ def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: f
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    hard = _measured(some, None, acceleration)
+    tried = [_Tried.of(batch, rounding, acceleration) for batch in some]
+    hard = sum((each.contact(each.batch.infill) for each in tried), Contact())
     candidates = [rounding.deviation, *(deviation for deviation in DEVIATIONS if deviation < rounding.deviation)]
 
     def enough(place: int) -> bool:
-        done = _measured(some, replace(rounding, deviation=candidates[place]), acceleration)
+        now = replace(rounding, deviation=candidates[place])
+        done = sum((each.contact(each.corners.rounded(now)) for each in tried), Contact())
         return min(kept_shares(hard, done)) >= AIM
 
     if enough(0):
         return candidates[0]
-    low, high, tried = 1, len(candidates), set()
+    low, high, known = 1, len(candidates), set()
     while low < high:
         middle = (low + high) // 2
-        tried.add(middle)
+        known.add(middle)
         if enough(middle):
             high = middle
         else:
             low = middle + 1
     # Support does not always fall evenly: a step or two further may still do.
     for place in (high - 2, high - 1):
-        if place > 0 and place not in tried and enough(place):
+        if place > 0 and place not in known and enough(place):
             return candidates[place]
     return candidates[high] if high < len(candidates) else 0.0
 
 
-def _measured(some: Sequence[Batch], rounding: Rounding | None, acceleration: float) -> Contact:
-    """Return the contact of the layers that were read, rounded or as they are."""
-    total = Contact()
-    for batch in some:
-        new = batch.infill if rounding is None else rounded_strokes(batch, rounding, acceleration=acceleration)
-        infill = Drawing(points=new.points, first=new.first, layer=batch.layer)
-        for number in filled(batch):
-            below = merged(infill.of(number - 1), batch.others.samples_of(number - 1))
-            total += contact(infill.of(number), below, batch.line_width)
-    return total
+@dataclass(frozen=True, kw_only=True)
+class _Tried:
+    """Layers that are looked at, with all that does not change with the deviation."""
+
+    batch: Batch
+    corners: Corners
+    walls: dict[int, Samples]
+
+    @classmethod
+    def of(cls, batch: Batch, rounding: Rounding, acceleration: float) -> _Tried:
+        return cls(
+            batch=batch,
+            corners=stroke_corners(batch, rounding.corner, acceleration=acceleration),
+            walls={number: batch.others.samples_of(number - 1) for number in filled(batch)},
+        )
+
+    def contact(self, infill: Strokes | Rounded) -> Contact:
+        """Return the contact of the layers with some infill."""
+        drawn = Drawing(points=infill.points, first=infill.first, layer=self.batch.layer)
+        total = Contact()
+        for number, walls in self.walls.items():
+            total += contact(drawn.of(number), merged(drawn.of(number - 1), walls), self.batch.line_width)
+        return total

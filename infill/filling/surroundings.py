@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +14,9 @@ from infill.filling.contact import Samples, sampled
 from infill.gcode.sections import Marks, Strokes
 from infill.gcode.table import Table
 
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
@@ -19,7 +24,9 @@ STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 ANCHORED = 1 / 3  # line widths that a corner beside a bead may move away from it
 TOWARDS = 0.02  # mm that it may move towards it
-MOST_SQUARES = 4096  # to a side of a plane of squares: 2.4 m of them
+LARGEST_DISTANCE = 5.0  # mm, of a search
+FARTHEST = 1e5  # mm: no machine is larger
+MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,7 +43,13 @@ class Beads:
     ends: Floats
     layer: Places
 
-    def of(self, number: int, step: float = STEP) -> Floats:
+    def walls(self, layers: Places) -> Walls:
+        """Return the beads of some layers, ready for searches."""
+        some = np.flatnonzero(np.isin(self.layer, layers))
+        points = sampled(self.ends[some].reshape(-1, 2), np.arange(len(some) + 1) * 2, STEP)
+        return walls_of(points.points, self.layer[some][points.path])
+
+    def of(self, number: int, step: float) -> Floats:
         """Return points on the beads of a layer, at most `step` apart: (N, 2) float64, mm."""
         return self.samples_of(number, step).points
 
@@ -60,59 +73,131 @@ def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
     return Beads(ends=ends[known], layer=marks.layer[line][known])
 
 
-def beside(points: Floats, walls: Floats, distance: float) -> tuple[Places, Floats]:
-    """Return which points lie within `distance` of other beads, and how near.
+@dataclass(frozen=True, kw_only=True)
+class Walls:
+    """Points on the other beads of some layers, laid side by side, so that one search serves all layers.
 
     Parameters
     ----------
-    points : (N, 2) float64, mm
-    walls : (K, 2) float64, mm
-        Points on the other beads.
-    distance : float, mm
+    points : (K, 2) float64, mm
+        Moved along x by `pitch` for each layer.
+    layers : (L,) int, ascending
+    pitch : float, mm
+    low, high : (2,) float64, mm
+        The box that holds them, before they were moved.
     """
-    from scipy.spatial import cKDTree
 
-    if not len(points) or not len(walls):
-        return np.empty(0, dtype=np.intp), np.empty(0)
-    some = _around(points, walls, distance)
-    near, _ = cKDTree(walls).query(points[some], distance_upper_bound=distance)
-    found = np.isfinite(near)
-    return some[found], near[found]
+    points: Floats
+    layers: Places
+    pitch: float
+    low: Floats
+    high: Floats
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """For searches."""
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.points)
+
+    def near(self, points: Floats, layer: Places, distance: float) -> Floats:
+        """Return how near the other beads of its layer come to each point, mm; infinite from `distance` on.
+
+        Parameters
+        ----------
+        points : (N, 2) float64, mm
+        layer : (N,) int
+        distance : float, mm
+            Up to `LARGEST_DISTANCE`.
+        """
+        found = np.full(len(points), np.inf)
+        if not len(self.points) or not len(points):
+            return found
+        slot = np.minimum(np.searchsorted(self.layers, layer), len(self.layers) - 1)
+        with np.errstate(invalid="ignore"):
+            # Axis by axis: NumPy is slow along the short axis of an array.
+            known = self.layers[slot] == layer
+            for axis in (0, 1):
+                known &= points[:, axis] > self.low[axis] - distance
+                known &= points[:, axis] < self.high[axis] + distance
+        some = np.flatnonzero(known)
+        moved = _moved(points[some], slot[some], self.pitch)
+        close = _around(moved, self.points, distance)
+        found[some[close]] = self.tree.query(moved[close], distance_upper_bound=distance)[0]
+        return found
+
+
+def walls_of(points: Floats, layer: Places | None = None) -> Walls:
+    """Return points on other beads, ready for searches.
+
+    Parameters
+    ----------
+    points : (K, 2) float64, mm
+    layer : (K,) int, optional
+        Without it, all are of layer 0.
+    """
+    layer = np.zeros(len(points), dtype=np.intp) if layer is None else layer
+    real = (np.abs(points[:, 0]) < FARTHEST) & (np.abs(points[:, 1]) < FARTHEST)
+    points, layer = points[real], layer[real]
+    layers, slot = np.unique(layer, return_inverse=True)
+    low = np.array([points[:, axis].min(initial=FARTHEST) for axis in (0, 1)])
+    high = np.array([points[:, axis].max(initial=-FARTHEST) for axis in (0, 1)])
+    pitch = float(high[0] - low[0]) + 4 * LARGEST_DISTANCE
+    return Walls(points=_moved(points, slot, pitch), layers=layers, pitch=pitch, low=low, high=high)
+
+
+def _moved(points: Floats, slot: Places, pitch: float) -> Floats:
+    """Return points where their layer is laid."""
+    return np.stack([points[:, 0] + slot * pitch, points[:, 1]], axis=1)
 
 
 def _around(points: Floats, walls: Floats, distance: float) -> Places:
     """Return the points that are worth a closer look: those in squares around a wall, as wide as the distance."""
-    # Axis by axis: NumPy is slow along the short axis of an array.
-    low = np.array([min(walls[:, k].min(), points[:, k].min()) for k in (0, 1)]) - 2 * distance
-    high = np.array([max(walls[:, k].max(), points[:, k].max()) for k in (0, 1)])
-    if ((high - low) / distance).max() > MOST_SQUARES:
+    low = np.array([walls[:, k].min() for k in (0, 1)]) - 2 * distance
+    size = np.array([walls[:, k].max() for k in (0, 1)]) - low
+    squares = (size / distance).astype(np.intp) + 4
+    if squares[0] * squares[1] > MOST_SQUARES:
         return np.arange(len(points))
-    square = ((walls - low) / distance).astype(np.intp)
-    own = ((points - low) / distance).astype(np.intp)
-    taken = np.zeros(((high - low) / distance).astype(np.intp) + 3, dtype=bool)
-    for right in (-1, 0, 1):
-        for up in (-1, 0, 1):
-            taken[square[:, 0] + right, square[:, 1] + up] = True
-    return np.flatnonzero(taken[own[:, 0], own[:, 1]])
+    at = ((walls[:, 0] - low[0]) / distance).astype(np.intp), ((walls[:, 1] - low[1]) / distance).astype(np.intp)
+    taken = np.zeros(squares, dtype=bool)
+    taken[at] = True
+    taken[1:] |= taken[:-1].copy()
+    taken[:-1] |= taken[1:].copy()
+    taken[:, 1:] |= taken[:, :-1].copy()
+    taken[:, :-1] |= taken[:, 1:].copy()
+    own = ((points[:, 0] - low[0]) / distance).astype(np.intp), ((points[:, 1] - low[1]) / distance).astype(np.intp)
+    return np.flatnonzero(taken[own])
 
 
-def bounded_deviation(points: Floats, corners: Places, walls: Floats, *, deviation: float, line_width: float) -> Floats:
-    """Return how far some corners of paths may move, mm: `deviation`, less where one lies beside another bead.
+def bounded_deviation(
+    points: Floats,
+    corners: Places,
+    near: Floats,
+    walls: Walls,
+    layer: Places,
+    *,
+    deviation: float,
+    line_width: float,
+) -> Floats:
+    """Return how far some corners of paths that lie beside other beads may move, mm: `deviation` or less.
 
     A corner beside a bead anchors the infill there: it moves away by a third of the line width at most. One that
     would be cut towards the bead, as on a path around a boss, stays.
-    """
-    from scipy.spatial import cKDTree
 
-    allowed = np.full(len(corners), deviation)
-    some, near = beside(points[corners], walls, BESIDE * line_width)
-    if not len(some):
-        return allowed
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    corners : (C,) int
+        Inner points, nearer than `BESIDE` line widths to another bead.
+    near : (C,) float64, mm
+        How near.
+    walls : Walls
+    layer : (C,) int
+    deviation, line_width : float, mm
+    """
     least = min(deviation, ANCHORED * line_width)
-    allowed[some] = least
-    then, _ = cKDTree(walls).query(points[corners[some]] + _inward(points, corners[some]) * least)
-    allowed[some[then < near - TOWARDS]] = min(deviation, TOWARDS)
-    return allowed
+    then = walls.near(points[corners] + _inward(points, corners) * least, layer, BESIDE * line_width)
+    return np.where(then < near - TOWARDS, min(deviation, TOWARDS), least)
 
 
 def _inward(points: Floats, here: Places) -> Floats:

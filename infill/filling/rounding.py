@@ -1,0 +1,188 @@
+"""Paths with round corners: curves cut anew, corners as round as other beads beside them allow."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.corners import Machine, Rounded, rounded
+from infill.filling.curves import MOST_BULGE, Recut, recut
+from infill.filling.surroundings import BESIDE, TOWARDS, Walls, bounded_deviation
+from infill.gcode.splicing import UNIT
+from infill.ragged import packed, parted
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rounding:
+    """How corners are rounded.
+
+    Parameters
+    ----------
+    deviation : float, mm
+        How far an arc may lie from its corner.
+    radius : float, mm
+        Its largest radius.
+    corner : float
+        See `Machine`.
+    same_filament : bool
+        Widen the beads so that each stroke keeps its filament, up to 8 %.
+    """
+
+    deviation: float = math.inf
+    radius: float = math.inf
+    corner: float = 9.0
+    same_filament: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Corners:
+    """Some paths with their curves cut anew, and what is known of the corners that are left.
+
+    Parameters
+    ----------
+    curves : Recut
+    old : int
+        Number of points before.
+    machine : Machine
+    inner : (C,) int
+        The points of `curves` that are corners.
+    beside : (B,) int
+        Those of them that lie beside other beads.
+    near : (B,) float64, mm
+        How near.
+    layer : (B,) int
+    walls : Walls
+        The other beads.
+    hard : (H,) int
+        Points of `curves` that stay as they are.
+    line_width : float, mm
+    """
+
+    curves: Recut
+    old: int
+    machine: Machine
+    inner: Places
+    beside: Places
+    near: Floats
+    layer: Places
+    walls: Walls
+    hard: Places
+    line_width: float
+
+    def rounded(self, rounding: Rounding) -> Rounded:
+        """Return the paths with round corners."""
+        points, first = self.curves.points, self.curves.first
+        deviation = np.zeros(len(points))
+        deviation[self.inner] = rounding.deviation
+        deviation[self.beside] = bounded_deviation(
+            points,
+            self.beside,
+            self.near,
+            self.walls,
+            self.layer,
+            deviation=rounding.deviation,
+            line_width=self.line_width,
+        )
+        deviation[self.hard] = 0.0
+        done = rounded(points, first, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT)
+        radius = np.full(self.old, np.inf)
+        kept = np.flatnonzero(~self.curves.curved)
+        radius[self.curves.source[kept]] = done.radius[kept]
+        return Rounded(points=done.points, first=done.first, source=self.curves.source[done.source], radius=radius)
+
+
+def corners_of(
+    points: Floats,
+    first: Places,
+    *,
+    walls: Walls,
+    layer: Places,
+    acceleration: Floats,
+    speed: Floats,
+    corner: float,
+    line_width: float,
+    hard: NDArray[np.bool_] | None = None,
+) -> Corners:
+    """Cut the curves of some paths anew, and find their corners.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    first : (M + 1,) int
+        Where each path begins.
+    walls : Walls
+        What corners may lie beside.
+    layer : (M,) int
+        Of each path.
+    acceleration, speed : (M,) float64
+        mm/s² and mm/s.
+    corner : float
+        See `Machine`.
+    line_width : float, mm
+    hard : (N,) bool, optional
+        Points that stay as they are.
+    """
+
+    def machine(begins: Places) -> Machine:
+        count = np.diff(begins)
+        return Machine(acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=corner)
+
+    of = np.repeat(layer, np.diff(first))
+    near = walls.near(points, of, BESIDE * line_width)
+    bulge = np.where(np.isfinite(near), TOWARDS, MOST_BULGE)
+    if hard is not None:
+        bulge[hard] = 0.0
+    curves = recut(points, first, machine(first), bulge)
+    inner = ~curves.curved
+    inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
+    corners = np.flatnonzero(inner)
+    # Corners of their own beside other beads hardly move.
+    beside = corners[np.isfinite(near[curves.source[corners]])]
+    return Corners(
+        curves=curves,
+        old=len(points),
+        machine=machine(curves.first),
+        inner=corners,
+        beside=beside,
+        near=near[curves.source[beside]],
+        layer=of[curves.source[beside]],
+        walls=walls,
+        hard=np.empty(0, dtype=np.intp) if hard is None else np.flatnonzero(hard[curves.source]),
+        line_width=line_width,
+    )
+
+
+def rounded_paths(
+    paths: Sequence[Floats],
+    *,
+    walls: Walls,
+    acceleration: float,
+    speed: float,
+    rounding: Rounding,
+    line_width: float,
+    hard: NDArray[np.bool_] | None = None,
+) -> tuple[list[Floats], Floats]:
+    """Return paths of layer 0 with round corners, and the radii of their arcs, mm; see `corners_of`."""
+    if not len(paths):
+        return [], np.empty(0)
+    points, first = packed(paths)
+    corners = corners_of(
+        points,
+        first,
+        walls=walls,
+        layer=np.zeros(len(paths), dtype=np.intp),
+        acceleration=np.full(len(paths), acceleration),
+        speed=np.full(len(paths), speed),
+        corner=rounding.corner,
+        line_width=line_width,
+        hard=hard,
+    )
+    done = corners.rounded(rounding)
+    return parted(done.points, done.first), done.radius
