@@ -14,6 +14,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from lines import DISC, least_spacing, length_of
 from test_command_line import one_line_error, run
+from test_parameters import offered
 
 from infill import FormatError, ParameterError, refill
 from infill.filling.covering import cover, solve_cell
@@ -340,8 +341,9 @@ def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
         ),
         (["--pattern", "honeycomb", "--set", "flats=9"], "flats of honeycomb is 9; it must be a number from 0.25 to 4"),
         (["--pattern", "gyroid", "--set", "angle=1", "--set", "angle=2"], "differ; give angle once"),
+        (["--pattern", "gyroid", "--set", "an\ngle=3"], "--set an gle=3: gyroid has no parameter 'an\\ngle'"),
         (["--config", "none.toml"], "there is no config file none.toml; check the name"),
-        (["--config", "."], "cannot read .: Is a directory; check the file"),
+        (["--config", "."], "cannot read .: "),
     ],
 )
 def test_a_mistake_is_one_line_and_the_print_stays(words: list[str], says: str, gcode: Path) -> None:
@@ -391,6 +393,13 @@ def test_python_gives_parameters_by_name(gcode: Path) -> None:
             refill(gcode, dry_run=True, pattern="concentric-heart", **given_)
     with pytest.raises(ParameterError, match="keep has no parameter 'angle'"):
         refill(gcode, dry_run=True, angle=1.0)
+
+
+def test_a_shell_completes_the_parameters_of_the_pattern() -> None:
+    assert offered("infill refill a.gcode --pattern honeycomb --set ") == {"cell=", "angle=", "phase=", "flats="}
+    assert offered("infill refill a.gcode --pattern concentric-heart --set m") == {"middle="}
+    assert offered("infill refill a.gcode --pattern tile.svg --set a") == {"angle="}
+    assert not offered("infill refill a.gcode --set ") - {""}  # keep has none
 
 
 # --- the page -----------------------------------------------------------------------------------------------------

@@ -43,11 +43,7 @@ class Sized(Plain):
     """A pattern that follows the region: how large its cells are, which is all that can be asked for."""
 
     cell: float | None = parameter(
-        None,
-        "size of the pattern: the distance between its lines, its period, or the width of a drawing; it then decides "
-        "the filament",
-        low=0.1,
-        high=1000,
+        None, "distance between lines, period, or width of a drawing, in place of a density", low=0.1, high=1000
     )
 
 
