@@ -696,8 +696,10 @@ def _inside(a: Section, b: Section, was: Replay, now: Replay, habit: Habits, *, 
     free = FREE if strict else FREE | PAIRED
     kept = [[line for line in part.lines if line.kind not in free] for part in (a, b)]
     absolute = was.before.absolute_e
-    if absolute:  # G92 E may be added where it is needed
+    if absolute and strict:  # G92 E may be added where it is needed
         kept[1] = _without_new_origins(*kept)
+    elif absolute:  # and other paths go on counting, or count anew: what they push and where they end is judged as well
+        kept = [[line for line in part if not re.fullmatch(rb"G92 E-?[\d.]+", line.command)] for part in kept]
     if len(kept[0]) != len(kept[1]) or not all(map(_same_but_for_times, *kept)):
         yield from _differences(*kept)
     else:
@@ -904,8 +906,14 @@ def region(others: list[Move], old: list[Move], height: float):
     points = shapely.points(np.vstack(lines_of(old)))
     signed = shapely.distance(points, room.boundary) * np.where(shapely.contains(room, points), -1, 1)
     reach = float(np.clip(signed.max(), -width / 2, width / 2))
-    grown = shapely.buffer(room, reach, join_style="mitre", mitre_limit=2.0)
-    return shapely.union(grown, own), shapely.difference(paths, grown).length / paths.length
+    wide = grown(room, reach)
+    return shapely.union(wide, own), shapely.difference(paths, wide).length / paths.length
+
+
+def grown(room, reach: float):
+    """Return a region that is larger by `reach` mm all round, with its corners; a mitred outline may touch itself."""
+    outline = shapely.buffer(room, reach, join_style="mitre", mitre_limit=2.0)
+    return shapely.make_valid(outline, method="structure")
 
 
 def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviation: float | None) -> Iterator[str]:
@@ -933,15 +941,15 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
         step = level - max((z for z in below if z < level - NEAR), default=0.0)
         # Round about a section alone: other objects of the layer are too far to bound it.
         room, _ = region(layers.get(part.layer, []), beads, step)
-        grown = shapely.buffer(room, OUTSIDE)
-        shapely.prepare(grown)
+        near = shapely.buffer(room, OUTSIDE)
+        shapely.prepare(near)
         over_walls = shapely.buffer(room, beads[0].width or 0.45)  # a travel along a wall does no harm
         ends = {tuple(round(v, 3) for v in m.end) for m in old.moved()}
         for m in fresh:
             line = shapely.linestrings(m.points)
-            if shapely.covers(grown, line):
+            if shapely.covers(near, line):
                 continue
-            out = shapely.difference(line, grown if m.pushed else over_walls)
+            out = shapely.difference(line, near if m.pushed else over_walls)
             far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room), default=0.0)
             if m.pushed and far < OUTSIDE + NEAR:
                 continue

@@ -7,12 +7,14 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
+import shapely
 from hypothesis import given
 from slicers import missing_prusa
 
 from tests.gcode_corpus import CORPUS, Made, prints
-from tests.gcode_judge import changed, infilled, judge, pushed, replayed
+from tests.gcode_judge import OUTSIDE, changed, grown, infilled, judge, pushed, replayed
 from tests.handmade_prints import Dialect, written
 from tests.plain_refill import chamfered
 from tests.prints import box, prusa_print
@@ -307,6 +309,16 @@ def test_filament_may_be_set_back_where_it_is_absolute() -> None:
     assert judge(old, b"\n".join(lines), deviation=0.01) == []
 
 
+def test_a_counter_that_is_no_longer_set_is_found() -> None:
+    """Other paths need not set it where the old ones did; but what they push, and what they leave, must be right."""
+    old = written(Dialect(slicer="cura", absolute=True, layers=5))
+    head, tail = old.rsplit(b"\nG92 E0\n", 1)
+    assert b";TYPE:FILL" in head
+    assert judge(old, old) == []
+    assert judge(old, head + b"\n" + tail) != []
+    assert judge(old, head + b"\nG92 E1\n" + tail) != []
+
+
 def test_times_may_be_told_anew_and_nothing_else() -> None:
     old = written(FULL)
     new = re.sub(rb"M73 P\d+ R\d+", b"M73 P7 R3", halves(old))
@@ -344,6 +356,46 @@ def test_the_region_is_what_other_beads_leave_free(sliced: bytes) -> None:
         spur = [b"G1 X%.3f Y%.3f E%.5f" % (*p, d * per_mm) for p, d in ((place, there), ((x, y), back))]
         found = judge(sliced, b"\n".join([*lines[: i + 1], *spur, *lines[i + 1 :]]), filament=(0.5, 5))
         assert [line.split(":")[0] for line in found] == ([] if lawful else ["move outside"] * 2), found
+
+
+# Free room in a layer of a printed part, larger by half a line: to the last bit, its mitred outline touches itself.
+TOUCHES_ITSELF = [
+    (142.26544337254614, 95.19364142408011),
+    (137.65634949186332, 97.31119468282847),
+    (139.71481139092506, 96.67751576125883),
+    (139.6851965552224, 96.63327124862063),
+    (139.66800007304806, 96.54718130534),
+    (139.68505779012276, 96.46106375996492),
+    (139.73377282365044, 96.3880292281212),
+    (139.80672875137938, 96.3391965552224),
+    (139.89281869465998, 96.32200007304807),
+    (139.9789362400351, 96.33905779012275),
+    (140.0519707718788, 96.38777282365042),
+    (140.67297077187882, 97.00777282365043),
+]
+
+
+def test_a_region_whose_outline_touches_itself_still_ends_where_it_should() -> None:
+    """What is 0.01 mm beyond it is let pass, and what is 0.03 mm beyond is found, on every side."""
+    room, reach = shapely.Polygon(TOUCHES_ITSELF), 0.225
+    found = grown(room, reach)
+    assert found.is_valid
+    own = shapely.buffer(room.boundary, 1e-6)
+    assert shapely.union(found, own).area == pytest.approx(found.area, rel=1e-12)
+    # Mitred corners go up to twice as far; between them, where a side is nearest, the region ends at its reach.
+    near = shapely.buffer(found, OUTSIDE)
+    middles = [(np.array(a) + b) / 2 for a, b in zip(TOUCHES_ITSELF, np.roll(TOUCHES_ITSELF, -1, axis=0), strict=True)]
+    sides = np.diff([*TOUCHES_ITSELF, TOUCHES_ITSELF[0]], axis=0)
+    outward = np.stack([sides[:, 1], -sides[:, 0]], axis=-1) / np.hypot(*sides.T)[:, None]
+    outward *= 1 if room.exterior.is_ccw else -1
+    tried = 0
+    for beyond, passes in ((0.01, True), (0.03, False)):
+        for middle, way in zip(middles, outward, strict=True):
+            point = shapely.Point(middle + way * (reach + beyond))
+            if room.distance(point) > reach + beyond - 1e-9:  # not nearer to another side
+                assert near.covers(point) == passes
+                tried += 1
+    assert tried >= 8
 
 
 def test_it_reads_no_code_of_ours() -> None:

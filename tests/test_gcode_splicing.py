@@ -378,6 +378,9 @@ def sections(draw: st.DrawFn) -> tuple[bytes, int]:
             if draw(st.booleans()):
                 lines += [f"G1 {pushed(-0.8)} F2100", "G1 Z.6 F600", f"G1 X0 Y{row} F9000", "G1 Z.2 F600"]
                 lines += [f"G1 {pushed(0.8)} F2100"]
+                if absolute and draw(st.booleans()):  # as PrusaSlicer does after every retraction
+                    lines.append("G92 E0")
+                    counter = 0.0
             else:
                 lines += [f"G1 X0 Y{row} F9000"]
             for line in draw(st.lists(st.sampled_from(["; kept", "M106 S9", "M73 P1", "M204 S500", ""]), max_size=2)):
@@ -478,7 +481,9 @@ ODDITIES = {
     "G1 X1 X2\n": "a line that cannot be read",
     "G2 X10 Y10 I1 J0 E.1\n": "arcs",
     "N5 G1 X10\n": "line numbers",
-    "G92 E0\n": "a G92 command in between",
+    "G92 X10\n": "a G92 command in between",
+    "G92 X10 E0\n": "a G92 command in between",
+    "G92\n": "lines at different heights",  # which sets all axes to 0
     "G4 P5\n": "a G4 command in between",
     "T1\n": "a T1 command in between",
     "M83\n": "a M83 command in between",
@@ -514,6 +519,7 @@ def test_an_odd_section_is_told(middle: str) -> None:
         "G1 X10 Y5 E.2\n",
         "G1 Z.4\nG1 X0 Y10\nG1 Z.2\n",
         "SET_VELOCITY_LIMIT ACCEL=5\n",
+        "G92 E0\n",
     ],
 )
 def test_a_plain_section_is_found(middle: str) -> None:
@@ -543,6 +549,24 @@ def test_every_section_has_its_own_body() -> None:
     assert odd == {"a G4 command in between": 1}
     assert [body.first for body in found] == [4, 4 + 2 * 12 + 1]
     assert len({body.section for body in found}) == 2
+
+
+@pytest.mark.parametrize("resets", [0, 1, 3])
+def test_a_counter_that_is_set_on_the_way_is_set_once_in_the_end(resets: int) -> None:
+    """To what the lines behind expect. Where filament is relative, such lines stay, and set nothing."""
+    path = np.array([[0.0, 0.0], [5.0, 0.0]])
+    middle, counter = "G92 E0\n" * resets, 0.0 if resets else 0.8
+    text = f"M82\nG1 Z.2\n;TYPE:FILL\nG1 F1800\nG1 X10 Y0 E.4\nG1 X10 Y10 E.8\n{middle}G1 X0 Y10 F9000\nG1 F1800\n"
+    text += f"G1 X0 Y0 E{counter + 0.4:.1f}\nG1 X5 Y0 E{counter + 0.6:.1f}\n;TYPE:Perimeter\n"
+    table, body = one_body(text.encode())
+    assert body.filament == pytest.approx(1.4)
+    new, pushed = composed(table, body, [path], body.rate, Ways(), [False, False])
+    assert pushed == pytest.approx(0.2)
+    assert new.count(b"G92") == 1
+    assert b"\nG92 E%.1f\n" % (counter + 0.6) in new
+    table, body = one_body(square(middle))
+    new, _ = composed(table, body, [path], body.rate, Ways(), [False, False])
+    assert new.count(b"G92 E0\n") == new.count(b"G92") == resets
 
 
 def test_a_temperature_that_is_set_by_g10_is_kept_and_a_retraction_is_not() -> None:

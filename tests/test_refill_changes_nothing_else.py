@@ -164,7 +164,7 @@ def test_nothing_else_changes_in_any_dialect(
         assert pattern != "keep"
         return
     assert judge(data, new, filament=(0.7, 1.01) if pattern == "keep" else (0.5, 1.3)) == []  # of regions of some mm
-    if re.search(rb"^M82", new, re.MULTILINE):
+    if pattern == "keep" and re.search(rb"^M82", new, re.MULTILINE):  # other paths set the counter once a section
         assert new.count(b"G92 E") >= data.count(b"G92 E")
 
 

@@ -51,7 +51,7 @@ def refill(
         typer.Option(
             "--set",
             metavar="NAME=VALUE",
-            help="A parameter of the pattern, such as angle=30 (degrees) or phase=1,2 (mm); may be given again. "
+            help="A parameter of the pattern, such as angle=30 (degrees) or cell=5 (mm); may be given again. "
             "docs/refill.md lists them all.",
             autocompletion=placement_assignments,
             rich_help_panel=PATHS,

@@ -82,7 +82,7 @@ def cover(
     1
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
-    _check(cell, line_width)
+    check_cell(cell, line_width)
     paths = _joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max)
     return order(paths, start)
 
@@ -213,7 +213,7 @@ def _joined(
     return join(pieces, outline, line_width=line_width, anchor=anchor, anchor_max=anchor_max)
 
 
-def _check(cell: float, line_width: float) -> None:
+def check_cell(cell: float, line_width: float) -> None:
     """Raise ParameterError for a cell that beads do not fit into."""
     least = TOUCH * positive("line width", line_width, "mm")
     if positive("cell", cell, "mm") < least * (1 - 1e-9):

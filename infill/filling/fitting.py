@@ -136,12 +136,14 @@ class Fitted:
 def fitted(stack: Column, place: Place) -> Fitted:
     """Return paths in the area of a column, at its cell, or at one that gives them the length they should have.
 
+    Where the cell was asked for, it is that one.
+
     The length jumps with the cell in small areas: the nearest of a few is taken.
     """
     wanted = stack.length
     best = _covered(stack.area, stack.cell, place)
     # What varies with the height has one cell everywhere, or its layers would not fit one another.
-    if not place.plan.family.prismatic or wanted <= LEAST_LENGTH:
+    if place.plan.fixed or not place.plan.family.prismatic or wanted <= LEAST_LENGTH:
         return best
     error = best.length / wanted - 1
     if abs(error) <= (OFF if stack.fresh else FAR_OFF):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Plain:
-    """A pattern without parameters: it follows the region, or is the slicer's own.
+    """A pattern without parameters: the slicer's own.
 
     Parameters
     ----------
@@ -39,7 +39,16 @@ class Plain:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Placed(Plain):
+class Sized(Plain):
+    """A pattern that follows the region: how large its cells are, which is all that can be asked for."""
+
+    cell: float | None = parameter(
+        None, "distance between lines, period, or width of a drawing, in place of a density", low=0.1, high=1000
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Placed(Sized):
     """A pattern that covers the bed, wherever the parts stand on it; angles in radians."""
 
     angle: float = angle_parameter()
@@ -69,7 +78,7 @@ class Flat(Placed):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Centred(Plain):
+class Centred(Sized):
     """Outlines about a point."""
 
     angle: float = angle_parameter()
@@ -91,7 +100,7 @@ class Centred(Plain):
 
 KINDS: Mapping[str, type[Plain]] = {
     "keep": Plain,
-    "concentric": Plain,
+    "concentric": Sized,
     "concentric-heart": Centred,
     "honeycomb": Flat,
 }

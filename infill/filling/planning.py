@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.filling.batch import Batch
 from infill.filling.contact import sampled
-from infill.filling.covering import solve_cell, total_length
+from infill.filling.covering import check_cell, solve_cell, total_length
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import Family
 from infill.filling.regions import INFILL_STEP, STEP, region_of
@@ -42,6 +42,8 @@ class Plan:
     rounding : Rounding
     density : float, optional
         mm of line per mm², if it was asked for; else every section keeps its filament.
+    fixed : bool
+        The cell was asked for: it is the same everywhere, and decides the filament.
     """
 
     family: Family
@@ -49,6 +51,7 @@ class Plan:
     line_width: float
     rounding: Rounding
     density: float | None
+    fixed: bool = False
 
     @property
     def radius(self) -> float:
@@ -61,7 +64,13 @@ class Plan:
 
 
 def planned(
-    family: Family, some: Sequence[Batch], rounding: Rounding, *, density: float | None, acceleration: float
+    family: Family,
+    some: Sequence[Batch],
+    rounding: Rounding,
+    *,
+    density: float | None,
+    acceleration: float,
+    cell: float | None = None,
 ) -> Plan | None:
     """Choose the cell, so that the layers that were looked at take the filament that they should; None without infill.
 
@@ -74,6 +83,8 @@ def planned(
         Share of the volume; without it, the filament of the slicer's own infill.
     acceleration : float, mm/s²
         Where the print commands none.
+    cell : float, optional
+        mm; with it, whatever filament it takes.
     """
     import shapely
 
@@ -107,6 +118,9 @@ def planned(
         rounding=rounding,
         density=None if density is None else density / spacing,
     )
+    if cell is not None:
+        check_cell(cell, width)
+        return replace(plan, cell=cell, fixed=True)
     around = walls_of(np.concatenate(walls))  # of all layers at once: where they differ, a few more corners stay sharp
 
     def measure(paths: Sequence[Floats], cell: float) -> float:

@@ -259,7 +259,7 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     if request.pattern != KEEP:
         share = None if isinstance(request.density, str | None) else float(request.density)
         family = family_of(request.pattern, request.parameters)
-        plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration)
+        plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell)
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))

@@ -156,7 +156,9 @@ def _filled(
     pushed = sum(each.rate * total_length(each.paths) for each in fresh)
     if not pushed:
         return []
-    if plan.density is None:
+    if plan.fixed:
+        wanted = pushed
+    elif plan.density is None:
         wanted = sum(body.filament for body in members)
     else:
         wanted = members[0].rate * plan.density * sum(area.area for area in areas)

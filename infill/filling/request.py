@@ -89,11 +89,19 @@ class Request:
                 placement(self.pattern, self.parameters)
             except PatternError as error:
                 raise ParameterError(str(error)) from None
+            if self.cell is not None and self.density is not None:
+                raise ParameterError("density and cell are both given, and each decides the other; leave one out")
 
     @property
     def radius(self) -> float:
         """The largest radius, mm."""
         return math.inf if isinstance(self.smooth_radius, str) else float(self.smooth_radius)
+
+    @property
+    def cell(self) -> float | None:
+        """The size of the pattern, mm, if it was asked for."""
+        cell = self.parameters.get("cell")
+        return None if cell is None else float(cell)
 
     @property
     def deviation(self) -> float:

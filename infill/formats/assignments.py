@@ -116,7 +116,7 @@ def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = (
     """
     flags = {name: f"--{name.replace('_', '-')}" for name in options}
     for text in texts:
-        said = f"--set {text}"
+        said = f"--set {' '.join(text.splitlines())}"
         try:
             name, value = assigned(kind, text)
         except PatternError as error:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.lines import ARC, MOVE, ODD
+from infill.gcode.lines import ARC, MOVE, ODD, Command
 from infill.gcode.numbers import write_words
 from infill.gcode.sections import FILAMENT_UNIT, Marks, Strokes
 from infill.gcode.splicing import Spliced
@@ -68,7 +68,7 @@ def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dic
     odd: dict[str, int] = {}
     opens, closes = infill.opens, infill.closes
     section = marks.section[opens]
-    commands = {command.line: command.code for command in table.commands}
+    commands = {command.line: command for command in table.commands}
     for number in np.unique(section):
         some = np.flatnonzero(section == number)
         reason = _oddness(table, marks, infill, some, int(opens[some[0]]), int(closes[some[-1]]), commands)
@@ -105,7 +105,7 @@ def _oddness(
     some: Places,
     first: int,
     last: int,
-    commands: dict[int, str],
+    commands: dict[int, Command],
 ) -> str:
     """Say why a section cannot be drawn anew; nothing if it can."""
     inside = slice(first, last + 1)
@@ -124,14 +124,24 @@ def _oddness(
     if np.isnan(table.z[first]) or np.ptp(table.z[infill.opens[some]]) > 0:
         return "lines at different heights"
     for line in range(first, last + 1):
-        code = commands.get(line)
-        if code is not None and code not in HARMLESS and code not in HARMLESS_WORDS:
-            return f"a {code or 'strange'} command in between"
+        command = commands.get(line)
+        if command is not None and not _harmless(command):
+            return f"a {command.code or 'strange'} command in between"
     # Everything that extrudes between its first and last move must be a stroke.
     drawn = np.flatnonzero(table.extruded[inside] > 0) + first
     moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
     own = np.isin(moving, infill.moves)  # where a stroke begins, another may end
     return "" if own.all() and (marks.section[inside] == marks.section[first]).all() else "extrusion of another kind"
+
+
+def _harmless(command: Command) -> bool:
+    """Return whether a command may stand between moves that are drawn anew."""
+    return command.code in HARMLESS or command.code in HARMLESS_WORDS or _sets_counter(command)
+
+
+def _sets_counter(command: Command) -> bool:
+    """Return whether a command sets the counter of filament, and nothing else."""
+    return command.code == "G92" and set(command.words) == {"E"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -324,21 +334,27 @@ def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: by
 
 
 def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
-    """Return the lines of a body that are no moves, in their order, with the share of the filament before each."""
+    """Return the lines of a body that are no moves, in their order, with the share of the filament before each.
+
+    Without retractions by firmware, which new paths have of their own, and without those that set a counter which goes
+    on from path to path: slicers set it after every retraction, new text once, in the end.
+    """
     inside = slice(body.first, body.last + 1)
     moved = table.given[inside, 0] | table.given[inside, 1]
     pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
     share = pushed / max(float(pushed[-1]), 1e-12)
     kept = np.flatnonzero(table.kind[inside] != MOVE)
-    retractions = {
+    counted = not table.relative_e[body.first]
+    left_out = {
         command.line
         for command in table.commands
-        if command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words)
+        if (command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words))
+        or (counted and _sets_counter(command))
     }
     return [
         (float(share[place]), table.text(body.first + place, body.first + place + 1))
         for place in kept.tolist()
-        if body.first + place not in retractions
+        if body.first + place not in left_out
     ]
 
 
