@@ -476,7 +476,7 @@ AREAS = {
 def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     """Within 0.5 % of the area, and 0.05 mm of the outline: its corners are rounded by 0.5 mm, 0.21 mm from there."""
     area = AREAS[name]
-    found = region_of(dense(area.boundary, STEP), filled(area, kept))
+    found = region_of(walls_of(dense(area.boundary, STEP)), filled(area, kept))
     wanted = area.buffer(-kept, quad_segs=32)
     assert found.distance == pytest.approx(kept, abs=0.01)
     whole = shapely.MultiPolygon(list(found.polygons))
@@ -492,28 +492,32 @@ def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
 
 def test_what_holds_no_infill_is_no_region() -> None:
     walls = dense(AREAS["two islands"].boundary, STEP)
-    found = region_of(walls, filled(SQUARE, 0.36))
+    found = region_of(walls_of(walls), filled(SQUARE, 0.36))
     assert len(found.polygons) == 1
     assert SQUARE.covers(found.polygons[0])
-    assert region_of(np.empty((0, 2)), walls).polygons == region_of(walls, np.empty((0, 2))).polygons == ()
+    assert (
+        region_of(walls_of(np.empty((0, 2))), walls).polygons
+        == region_of(walls_of(walls), np.empty((0, 2))).polygons
+        == ()
+    )
 
 
 @pytest.mark.parametrize("far", [1e4, 1e9, 1e300])
 def test_infill_far_away_takes_no_memory(far: float) -> None:
     lost = np.concatenate([filled(SQUARE, 0.36), [[far, far]]])
-    assert region_of(dense(SQUARE.boundary, STEP), lost).polygons == ()
+    assert region_of(walls_of(dense(SQUARE.boundary, STEP)), lost).polygons == ()
 
 
 def test_a_region_is_taken_again_only_where_it_fits() -> None:
     walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
-    before = region_of(walls, infill)
-    assert region_of(walls, infill, before) is before
+    before = region_of(walls_of(walls), infill)
+    assert region_of(walls_of(walls), infill, before) is before
     # The next layer's samples lie elsewhere on the same walls.
     moved = dense(shapely.segmentize(SQUARE.boundary, 0.13), STEP)
-    assert region_of(moved, filled(SQUARE, 0.36), before) is before
+    assert region_of(walls_of(moved), filled(SQUARE, 0.36), before) is before
     for other in (shapely.box(100, 80, 120, 100.2), SQUARE.buffer(0.1, join_style="mitre"), AREAS["hole"]):
-        assert region_of(dense(other.boundary, STEP), filled(other, 0.36), before) is not before
-    assert region_of(walls, filled(SQUARE, 0.42), before) is not before
+        assert region_of(walls_of(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
+    assert region_of(walls_of(walls), filled(SQUARE, 0.42), before) is not before
 
 
 # --- time ------------------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -107,7 +108,7 @@ def solve_cell(
     Parameters
     ----------
     regions : sequence of (region, z, layer)
-        mm. Layers that repeat need be given only once.
+        mm. One and the same region is drawn once, if the family repeats in every layer.
     family : Family
     length : float
         mm, of all regions together.
@@ -123,19 +124,20 @@ def solve_cell(
         If `length` is not above 0, or beads would have to overlap.
     """
     wanted = positive("length", length, "mm")
-    outlines = [(each if isinstance(each, Outline) else outline_of(each), z, layer) for each, z, layer in regions]
+    own = {id(each): each if isinstance(each, Outline) else outline_of(each) for each, _, _ in regions}
+    places = Counter((id(each), *((0.0, 0) if family.prismatic else (z, layer))) for each, z, layer in regions)
     least = TOUCH * line_width
-    area = sum(outline.region.area for outline, _, _ in outlines)
-    if not outlines or wanted * least > area:
+    area = sum(own[region].region.area * number for (region, _, _), number in places.items())
+    if not places or wanted * least > area:
         raise ParameterError(
             f"{wanted:g} mm of beads {least:g} mm apart do not fit into {area:g} mm²; ask for a lower density"
         )
 
     def ratio(cell: float) -> float:
         length = 0.0
-        for outline, z, layer in outlines:
-            paths = _joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max)
-            length += total_length(paths) if measure is None else measure(paths, cell)
+        for (region, z, layer), number in places.items():
+            paths = _joined(own[region], family, cell, line_width, z, layer, radius, anchor, anchor_max)
+            length += number * (total_length(paths) if measure is None else measure(paths, cell))
         return length / wanted
 
     found: list[tuple[float, float]] = []

@@ -14,7 +14,7 @@ from infill.filling.contact import sampled
 from infill.filling.covering import check_cell, solve_cell, total_length
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import Family
-from infill.filling.regions import INFILL_STEP, STEP, region_of
+from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.rounding import Rounding, rounded_paths
 from infill.filling.support import filled
 from infill.filling.surroundings import walls_of
@@ -90,6 +90,8 @@ def planned(
 
     regions: list[tuple[MultiPolygon, float, int]] = []
     walls, length, width, spacing = [], 0.0, 0.0, 1.0
+    region: Region | None = None
+    area = shapely.MultiPolygon()
     for batch in some:
         width = batch.line_width
         for number in filled(batch):
@@ -97,11 +99,14 @@ def planned(
             opens = batch.infill.opens[chosen]
             beside = batch.others.of(number, STEP)
             places, first = picked(batch.infill.first, chosen)
-            region = region_of(beside, sampled(batch.infill.points[places], first, INFILL_STEP).points)
+            drawn = sampled(batch.infill.points[places], first, INFILL_STEP).points
+            before = region
+            region = region_of(walls_of(beside), drawn, before)
             if not region.polygons:
                 continue
-            walls.append(beside)
-            area = shapely.MultiPolygon(list(region.polygons))
+            if region is not before:
+                walls.append(beside)
+                area = shapely.MultiPolygon(list(region.polygons))
             regions.append((area, float(batch.table.z[opens[0]]), number))
             spacing = _spacing(width, float(np.median(batch.marks.height[opens])))
             length += float(batch.infill.length[chosen].sum()) if density is None else density * area.area / spacing
@@ -121,12 +126,14 @@ def planned(
     if cell is not None:
         check_cell(cell, width)
         return replace(plan, cell=cell, fixed=True)
-    around = walls_of(np.concatenate(walls))  # of all layers at once: where they differ, a few more corners stay sharp
+    everywhere = walls_of(
+        np.concatenate(walls)
+    )  # of all layers at once: where they differ, a few more corners stay sharp
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
         done, _ = rounded_paths(
             [path for path in paths if len(path) > 1],
-            walls=around,
+            walls=everywhere,
             acceleration=acceleration,
             speed=USUAL_SPEED,
             rounding=plan.rounding_of(cell),

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], None]
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
-MOST_THREADS = 3  # more of them would only take memory: one reads what all the others draw
+MOST_THREADS = 4  # more of them would only take memory: one reads what all the others draw
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,13 +10,16 @@ A layer whose beads agree with the region of the layer before it has that region
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.surroundings import Walls
+
 if TYPE_CHECKING:
-    from shapely import Polygon
+    from shapely import MultiPolygon, Polygon
 
 Floats = NDArray[np.float64]
 
@@ -27,6 +30,7 @@ REACH = 1.2  # mm: distances above this do not matter
 ALONG_WALLS = 0.7  # mm: infill nearer than this to another bead runs along it
 SHARE_BESIDE = 0.1  # of the points beside walls that may lie nearer than d0: where infill is anchored in skins
 LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
+AROUND = 0.1  # mm
 SAME_WITHIN = 0.02  # mm
 LEAST_AREA = 0.5  # mm²
 STRAIGHTENED = 0.5  # mm: narrower dents in an outline, such as between the ends of lines, are left out
@@ -49,26 +53,39 @@ class Region:
     polygons: tuple[Polygon, ...]
     distance: float
 
+    @cached_property
+    def outline(self) -> Floats:
+        """The points of its outlines, (N, 2), mm."""
+        import shapely
 
-def region_of(walls: Floats, infill: Floats, before: Region | None = None) -> Region:
+        return np.asarray(shapely.get_coordinates(np.array(self.polygons, dtype=object)))
+
+    @cached_property
+    def around(self) -> Polygon | MultiPolygon:
+        """The region and what is very near, ready for questions."""
+        import shapely
+
+        whole = shapely.union_all([polygon.buffer(AROUND) for polygon in self.polygons])
+        shapely.prepare(whole)
+        return whole
+
+
+def region_of(walls: Walls, infill: Floats, before: Region | None = None) -> Region:
     """Return the region of a layer.
 
     Parameters
     ----------
-    walls : (N, 2) float64, mm
-        Points on the other beads of the layer, at most `STEP` apart.
+    walls : Walls
+        The other beads of the layer, points at most `STEP` apart, as layer 0.
     infill : (M, 2) float64, mm
         Points on the slicer's infill.
     before : Region, optional
         Of the layer before; returned if it fits.
     """
-    from scipy.spatial import cKDTree
-
-    if not len(walls) or not len(infill):
+    if not len(walls.points) or not len(infill):
         return Region(polygons=(), distance=USUAL_DISTANCE)
-    tree = cKDTree(walls)
-    distance = _kept_distance(tree.query(infill, distance_upper_bound=ALONG_WALLS)[0])
-    if before is not None and _fits(before, tree, walls, infill, distance):
+    distance = _kept_distance(walls.near(infill, 0, ALONG_WALLS))
+    if before is not None and _fits(before, walls, infill, distance):
         return before
     low, high = infill.min(axis=0) - REACH, infill.max(axis=0) + REACH
     wide, deep = ((high - low) / NODES).tolist()
@@ -76,8 +93,7 @@ def region_of(walls: Floats, infill: Floats, before: Region | None = None) -> Re
         return Region(polygons=(), distance=distance)
     x, y = (np.arange(low[axis], high[axis] + NODES, NODES) for axis in (0, 1))
     nodes = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
-    near, _ = tree.query(nodes.reshape(-1, 2), distance_upper_bound=REACH)
-    field = np.minimum(near, REACH).reshape(nodes.shape[:2])
+    field = np.minimum(walls.near(nodes.reshape(-1, 2), 0, REACH), REACH).reshape(nodes.shape[:2])
     # Points stand half a step to either side of the nearest place on their bead.
     field = np.sqrt(np.maximum(field**2 - (STEP / 4) ** 2, 0.0))
     return Region(polygons=_outlines(field, x[0], y[0], distance, infill), distance=distance)
@@ -91,25 +107,22 @@ def _kept_distance(near: Floats) -> float:
     return float(np.quantile(beside, SHARE_BESIDE))
 
 
-def _fits(region: Region, tree: object, walls: Floats, infill: Floats, distance: float) -> bool:
+def _fits(region: Region, walls: Walls, infill: Floats, distance: float) -> bool:
     """Return whether the region of another layer is that of this one too."""
     import shapely
 
     if not region.polygons or abs(region.distance - distance) > SAME_WITHIN:
         return False
-    outline = shapely.get_coordinates(np.array(region.polygons, dtype=object))
-    near, _ = tree.query(outline, distance_upper_bound=REACH)  # type: ignore[attr-defined]
+    near = walls.near(region.outline, 0, REACH)
     # At corners, an outline keeps further away.
     if near.min() < region.distance - SAME_WITHIN / 2 or near.max() > region.distance + STRAIGHTENED:
         return False
     if abs(float(np.median(near)) - region.distance) > SAME_WITHIN / 2:
         return False
-    whole = shapely.union_all([polygon.buffer(0.1) for polygon in region.polygons])
-    shapely.prepare(whole)
     # A hole that begins in this layer may be far from every outline.
-    if shapely.contains_xy(whole, walls[:, 0], walls[:, 1]).any():
+    if shapely.contains_xy(region.around, walls.points[:, 0], walls.points[:, 1]).any():
         return False
-    inside = shapely.contains_xy(whole, infill[:, 0], infill[:, 1])
+    inside = shapely.contains_xy(region.around, infill[:, 0], infill[:, 1])
     return bool(inside.mean() > 0.99)
 
 

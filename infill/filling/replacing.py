@@ -96,13 +96,12 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
     fresh: list[Fresh] = []
     for number in np.unique(batch.layer).tolist():
         some = np.flatnonzero(batch.layer == number)
-        walls = batch.others.of(number, STEP)
+        walls = walls_of(batch.others.of(number, STEP))
         places, first = picked(batch.infill.first, some)
         region = region_of(walls, sampled(batch.infill.points[places], first, INFILL_STEP).points, memory.region)
         if region is not memory.region:
             memory.drawn.clear()
         memory.region = region
-        around = walls_of(walls)
         groups, lost = grouped(region, batch.infill, some, batch.section)
         here = {body.section: body for body in found if body.layer == number}
         held = lengths_of(groups)
@@ -113,7 +112,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
             members = [here[each] for each in group.areas if each in here]
             reason = unsure(group, members, lost)
             if not reason:
-                done = _filled(group, members, region, around, plan, memory, commanded)
+                done = _filled(group, members, region, walls, plan, memory, commanded)
                 fresh += done
                 reason = "" if done else "no path fits"
             if reason:

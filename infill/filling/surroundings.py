@@ -25,6 +25,7 @@ BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead t
 ANCHORED = 1 / 3  # line widths that a corner beside a bead may move away from it
 TOWARDS = 0.02  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
+FEW = 500  # points: with so few, nothing is gained by looking where walls are
 FARTHEST = 1e5  # mm: no machine is larger
 MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
 
@@ -100,19 +101,20 @@ class Walls:
 
         return cKDTree(self.points)
 
-    def near(self, points: Floats, layer: Places, distance: float) -> Floats:
+    def near(self, points: Floats, layer: Places | int, distance: float) -> Floats:
         """Return how near the other beads of its layer come to each point, mm; infinite from `distance` on.
 
         Parameters
         ----------
         points : (N, 2) float64, mm
-        layer : (N,) int
+        layer : (N,) int, or one for all
         distance : float, mm
             Up to `LARGEST_DISTANCE`.
         """
         found = np.full(len(points), np.inf)
         if not len(self.points) or not len(points):
             return found
+        layer = np.broadcast_to(layer, len(points))
         slot = np.minimum(np.searchsorted(self.layers, layer), len(self.layers) - 1)
         with np.errstate(invalid="ignore"):
             # Axis by axis: NumPy is slow along the short axis of an array.
@@ -122,7 +124,7 @@ class Walls:
                 known &= points[:, axis] < self.high[axis] + distance
         some = np.flatnonzero(known)
         moved = _moved(points[some], slot[some], self.pitch)
-        close = _around(moved, self.points, distance)
+        close = _around(moved, self.points, distance) if len(some) > FEW else np.arange(len(some))
         found[some[close]] = self.tree.query(moved[close], distance_upper_bound=distance)[0]
         return found
 

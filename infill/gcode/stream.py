@@ -8,7 +8,7 @@ from typing import BinaryIO
 
 from infill.errors import FormatError
 
-BATCH = 1 << 20  # bytes of text taken at a time, up to the next layer
+BATCH = 1 << 19  # bytes of text taken at a time, up to the next layer
 LONGEST_LINE = 8 << 20  # bytes; no slicer comes near
 LARGEST_LAYER = 64 << 20  # bytes; a larger one is cut between two lines
 LAYER_TAG = re.compile(rb"^(?:;LAYER_CHANGE|; CHANGE_LAYER|;LAYER:)", re.MULTILINE)
