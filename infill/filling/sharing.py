@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.contact import sampled
-from infill.filling.regions import INFILL_STEP, Region
+from infill.filling.regions import Region
 from infill.gcode.bodies import ALIKE, Body
 from infill.gcode.sections import Strokes
 from infill.ragged import picked
@@ -18,6 +18,7 @@ Places = NDArray[np.intp]
 
 SHARED = 0.02  # of an area's infill may be another section's
 LOST = 0.1  # of a section's infill may lie outside every area that was found
+STEP = 0.5  # mm between the points on infill that are looked up
 AROUND = 0.1  # mm around an area that belong to it
 
 
@@ -59,7 +60,7 @@ def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> t
     lost: set[int] = set()
     for place, number in enumerate(numbers):
         places, first = picked(infill.first, some[section[some] == number])
-        drawn = sampled(infill.points[places], first, INFILL_STEP)
+        drawn = sampled(infill.points[places], first, STEP)
         inside = np.array([shapely.contains_xy(area, drawn.points[:, 0], drawn.points[:, 1]) for area in grown])
         held[place] = inside @ drawn.weight if len(grown) else 0.0
         if not len(grown) or inside.any(axis=0).mean() < 1 - LOST:
