@@ -16,7 +16,7 @@ from infill.filling.contact import Contact, Samples, contact, merged, sampled
 from infill.filling.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
 from infill.filling.curves import GENTLE, MOST_BULGE, recut
 from infill.filling.regions import STEP, region_of
-from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, bounded_deviation, walls_of
+from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, Around, bounded_deviation, walls_of
 from infill.filling.timing import neutral_limits, path_seconds
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
@@ -448,6 +448,10 @@ def test_corners_beside_walls_hardly_move(turn: float, side: float, near: float,
 # --- regions ---------------------------------------------------------------------------------------------------
 
 
+def beads_at(points: np.ndarray) -> Around:
+    return Around(points=points, skin=np.zeros(len(points), dtype=bool))
+
+
 def dense(geometry: shapely.Geometry, step: float) -> np.ndarray:
     """Return points on lines, at most `step` apart."""
     return shapely.get_coordinates(shapely.segmentize(geometry, step))
@@ -476,7 +480,7 @@ AREAS = {
 def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     """Within 0.5 % of the area, and 0.05 mm of the outline: its corners are rounded by 0.5 mm, 0.21 mm from there."""
     area = AREAS[name]
-    found = region_of(walls_of(dense(area.boundary, STEP)), filled(area, kept))
+    found = region_of(beads_at(dense(area.boundary, STEP)), filled(area, kept))
     wanted = area.buffer(-kept, quad_segs=32)
     assert found.distance == pytest.approx(kept, abs=0.01)
     whole = shapely.MultiPolygon(list(found.polygons))
@@ -492,12 +496,12 @@ def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
 
 def test_what_holds_no_infill_is_no_region() -> None:
     walls = dense(AREAS["two islands"].boundary, STEP)
-    found = region_of(walls_of(walls), filled(SQUARE, 0.36))
+    found = region_of(beads_at(walls), filled(SQUARE, 0.36))
     assert len(found.polygons) == 1
     assert SQUARE.covers(found.polygons[0])
     assert (
-        region_of(walls_of(np.empty((0, 2))), walls).polygons
-        == region_of(walls_of(walls), np.empty((0, 2))).polygons
+        region_of(beads_at(np.empty((0, 2))), walls).polygons
+        == region_of(beads_at(walls), np.empty((0, 2))).polygons
         == ()
     )
 
@@ -505,19 +509,39 @@ def test_what_holds_no_infill_is_no_region() -> None:
 @pytest.mark.parametrize("far", [1e4, 1e9, 1e300])
 def test_infill_far_away_takes_no_memory(far: float) -> None:
     lost = np.concatenate([filled(SQUARE, 0.36), [[far, far]]])
-    assert region_of(walls_of(dense(SQUARE.boundary, STEP)), lost).polygons == ()
+    assert region_of(beads_at(dense(SQUARE.boundary, STEP)), lost).polygons == ()
+
+
+@pytest.mark.parametrize("further", [0.0, 0.04])
+def test_a_region_keeps_from_skins_what_the_slicer_does(further: float) -> None:
+    """A square of which a half is solid infill: lines that end one beside the other, joined by turn and turn about."""
+    y = np.arange(80.2, 100, 0.45)
+    ends = np.stack([np.full(len(y), 100.2), 110 + 0.2 * (np.arange(len(y)) % 2)], axis=1)
+    rows = np.stack([np.where(np.arange(len(y)) % 2, ends.T, ends.T[::-1]).T.ravel(), np.repeat(y, 2)], axis=1)
+    skin = dense(shapely.LineString(rows), STEP)
+    walls = dense(SQUARE.boundary, STEP)
+    around = Around(points=np.concatenate([walls, skin]), skin=np.arange(len(walls) + len(skin)) >= len(walls))
+    free = shapely.box(110.2 + further, 80, 120, 100)
+    found = region_of(around, filled(free, 0.36))
+    assert found.distance == pytest.approx(0.36, abs=0.01)
+    assert found.skin_distance == pytest.approx(0.36 + further, abs=0.015)
+    (area,) = found.polygons
+    solid = shapely.LineString(rows)
+    # A path may leave its region by 0.01 mm, and may not be outside by 0.02 mm.
+    assert area.distance(solid) == pytest.approx(found.skin_distance, abs=0.01)
+    assert area.distance(SQUARE.boundary) == pytest.approx(0.36, abs=0.01)
 
 
 def test_a_region_is_taken_again_only_where_it_fits() -> None:
     walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
-    before = region_of(walls_of(walls), infill)
-    assert region_of(walls_of(walls), infill, before) is before
+    before = region_of(beads_at(walls), infill)
+    assert region_of(beads_at(walls), infill, before) is before
     # The next layer's samples lie elsewhere on the same walls.
     moved = dense(shapely.segmentize(SQUARE.boundary, 0.13), STEP)
-    assert region_of(walls_of(moved), filled(SQUARE, 0.36), before) is before
+    assert region_of(beads_at(moved), filled(SQUARE, 0.36), before) is before
     for other in (shapely.box(100, 80, 120, 100.2), SQUARE.buffer(0.1, join_style="mitre"), AREAS["hole"]):
-        assert region_of(walls_of(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
-    assert region_of(walls_of(walls), filled(SQUARE, 0.42), before) is not before
+        assert region_of(beads_at(dense(other.boundary, STEP)), filled(other, 0.36), before) is not before
+    assert region_of(beads_at(walls), filled(SQUARE, 0.42), before) is not before
 
 
 # --- time ------------------------------------------------------------------------------------------------------

@@ -159,7 +159,7 @@ def stacked(aside: float) -> Drawing:
 
 
 def test_the_measure_can_fail() -> None:
-    nothing = Beads(ends=np.empty((0, 2, 2)), layer=np.empty(0, dtype=np.intp))
+    nothing = Beads(ends=np.empty((0, 2, 2)), layer=np.empty(0, dtype=np.intp), skin=np.empty(0, dtype=bool))
     old, new, last = measured(
         stacked(0.0), stacked(0.45), nothing, np.arange(1, 6), line_width=0.45, stride=1, last=None
     )

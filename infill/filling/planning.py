@@ -97,15 +97,15 @@ def planned(
         for number in filled(batch):
             chosen = np.flatnonzero(batch.layer == number)
             opens = batch.infill.opens[chosen]
-            beside = batch.others.of(number, STEP)
+            around = batch.others.around(number, STEP)
             places, first = picked(batch.infill.first, chosen)
             drawn = sampled(batch.infill.points[places], first, INFILL_STEP).points
             before = region
-            region = region_of(walls_of(beside), drawn, before)
+            region = region_of(around, drawn, before)
             if not region.polygons:
                 continue
             if region is not before:
-                walls.append(beside)
+                walls.append(around.points)
                 area = shapely.MultiPolygon(list(region.polygons))
             regions.append((area, float(batch.table.z[opens[0]]), number))
             spacing = _spacing(width, float(np.median(batch.marks.height[opens])))

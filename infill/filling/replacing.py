@@ -16,7 +16,7 @@ from infill.filling.fitting import INSIDE, Column, Fitted, Place, column, fitted
 from infill.filling.planning import Plan
 from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.sharing import Group, grouped, lengths_of, unsure
-from infill.filling.surroundings import Walls, walls_of
+from infill.filling.surroundings import Walls
 from infill.gcode.bodies import Body, Ways, bodies
 from infill.gcode.splicing import UNIT
 from infill.ragged import picked
@@ -96,9 +96,9 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
     fresh: list[Fresh] = []
     for number in np.unique(batch.layer).tolist():
         some = np.flatnonzero(batch.layer == number)
-        walls = walls_of(batch.others.of(number, STEP))
+        around = batch.others.around(number, STEP)
         places, first = picked(batch.infill.first, some)
-        region = region_of(walls, sampled(batch.infill.points[places], first, INFILL_STEP).points, memory.region)
+        region = region_of(around, sampled(batch.infill.points[places], first, INFILL_STEP).points, memory.region)
         if region is not memory.region:
             memory.drawn.clear()
         memory.region = region
@@ -112,7 +112,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
             members = [here[each] for each in group.areas if each in here]
             reason = unsure(group, members, lost)
             if not reason:
-                done = _filled(group, members, region, walls, plan, memory, commanded)
+                done = _filled(group, members, region, around.all, plan, memory, commanded)
                 fresh += done
                 reason = "" if done else "no path fits"
             if reason:

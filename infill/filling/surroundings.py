@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from infill.filling.contact import STEP as FINE
 from infill.filling.contact import Samples, sampled
-from infill.gcode.sections import Marks, Strokes
+from infill.gcode.sections import SKINS, Marks, Strokes
 from infill.gcode.table import Table
 
 if TYPE_CHECKING:
@@ -39,10 +39,13 @@ class Beads:
     ends : (N, 2, 2) float64, mm
         Where each begins and ends.
     layer : (N,) int, ascending
+    skin : (N,) bool
+        They belong to solid infill; else to walls, supports and so on.
     """
 
     ends: Floats
     layer: Places
+    skin: NDArray[np.bool_]
 
     def walls(self, layers: Places) -> Walls:
         """Return the beads of some layers, ready for searches."""
@@ -50,9 +53,13 @@ class Beads:
         points = sampled(self.ends[some].reshape(-1, 2), np.arange(len(some) + 1) * 2, STEP)
         return walls_of(points.points, self.layer[some][points.path])
 
-    def of(self, number: int, step: float) -> Floats:
-        """Return points on the beads of a layer, at most `step` apart: (N, 2) float64, mm."""
-        return self.samples_of(number, step).points
+    def around(self, number: int, step: float) -> Around:
+        """Return points on the beads of a layer, at most `step` apart, mm."""
+        found = self.samples_of(number, step)
+        low, high = np.searchsorted(self.layer, [number, number + 1])
+        ends = self.ends[low:high].reshape(-1, 2)  # which stick out where lines turn
+        skin = self.skin[low:high]
+        return Around(points=np.concatenate([found.points, ends]), skin=np.append(skin[found.path], np.repeat(skin, 2)))
 
     def samples_of(self, number: int, step: float = FINE) -> Samples:
         """Return samples of the beads of a layer, at most `step` apart, mm."""
@@ -71,7 +78,38 @@ def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
     y = np.where(back >= 0, table.y[back], table.before.y)
     ends = np.stack([x, y, table.x[line], table.y[line]], axis=1).reshape(-1, 2, 2)
     known = np.isfinite(ends).all(axis=(1, 2))
-    return Beads(ends=ends[known], layer=marks.layer[line][known])
+    skin = np.isin(marks.role, [place for place, role in enumerate(marks.roles) if role in SKINS])
+    return Beads(ends=ends[known], layer=marks.layer[line][known], skin=skin[line][known])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Around:
+    """Points on the other beads of a layer.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    skin : (N,) bool
+        They lie on solid infill.
+    """
+
+    points: Floats
+    skin: NDArray[np.bool_]
+
+    @cached_property
+    def all(self) -> Walls:
+        """All of them, as layer 0."""
+        return walls_of(self.points)
+
+    @cached_property
+    def walls(self) -> Walls:
+        """Those that are no skins."""
+        return walls_of(self.points[~self.skin])
+
+    @cached_property
+    def skins(self) -> Walls:
+        """The skins."""
+        return walls_of(self.points[self.skin])
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,6 +15,7 @@ Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 SPARSE = "sparse infill"
+SKINS = ("solid infill", "top solid infill", "bottom solid infill", "bridge infill", "internal bridge infill")
 ALIKE = 0.02  # two moves extrude alike if their filament per mm differs by less than this share
 FILAMENT_UNIT = 1e-5  # mm: the last decimal of an E word
 # Said to the display or the host alone, so that moves before and after it are still one line of plastic.
