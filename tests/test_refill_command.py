@@ -8,7 +8,7 @@ import subprocess
 import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import pytest
 from slicers import missing_prusa
@@ -205,6 +205,32 @@ def test_only_the_layers_that_are_asked_for_change(words: str, layers: set[int],
     told = re.compile(rb"^M73.*$", re.MULTILINE)
     different = {number for number in range(1, 6) if told.sub(b"", old[number]) != told.sub(b"", new[number])}
     assert different - {5} == layers  # after the last layer, the print tells its time and its filament
+
+
+@pytest.mark.parametrize(("words", "layer"), [([], 2), (["--layers", "3-4"], 3), (["--layers", "1-1"], 1)])
+def test_the_preview_shows_a_layer_that_is_asked_for(
+    words: list[str], layer: int, gcode: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The middle one, or of those asked for the one that is nearest to it."""
+    shown: list[str] = []
+
+    def write(layers: Mapping[str, object], file: BinaryIO) -> None:
+        shown.extend(layers)
+        file.write(PICTURE)
+
+    monkeypatch.setattr("infill.pictures.speeds.write_speeds", write)
+    assert run("refill", gcode, "--preview", tmp_path / "layer.png", *words).exit_code == 0
+    assert shown == [f"layer {layer}, as sliced", f"layer {layer}, refilled"]
+
+
+def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_path: Path) -> None:
+    picture = tmp_path / "layer.png"
+    picture.write_bytes(PICTURE)
+    result = run("refill", gcode, "--preview", picture)
+    assert result.exit_code == 1
+    logged(result, log_of(gcode))
+    assert picture.read_bytes() == PICTURE
+    assert gcode.read_bytes() == PRINT
 
 
 # --- mistakes --------------------------------------------------------------------------------------------

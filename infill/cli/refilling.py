@@ -114,48 +114,55 @@ def refill(
     }
     if preview is not None and dry_run:
         raise typer.BadParameter("a dry run draws nothing; leave --preview out")
-    before = _before(gcode, preview, overwrite=force) if preview is not None else {}
     with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
         from infill.filling.refilling import refill as refilled
         from infill.filling.settings import resolve
 
+        asked = resolve(flags, config, assigned or [])
+        number = 0
+        before: dict[str, LayerSpeeds] = {}
+        if preview is not None:
+            number, before = _before(gcode, preview, asked.get("layers"), overwrite=force)
         result = refilled(
             gcode,
             output=output,
-            **resolve(flags, config, assigned or []),
+            **asked,
             dry_run=dry_run,
             overwrite=force,
             progress=progress,
         )
     if preview is not None:
-        _write_preview(before, result.path or gcode, preview)
+        _write_preview(number, before, result.path or gcode, preview)
     if not quiet:
         say(_summary(result.report, str(gcode), str(result.path) if result.path else ""))
     if as_json:
         print_json({**result.report, "files": [str(result.path)] if result.path else []})
 
 
-def _before(gcode: Path, preview: Path, *, overwrite: bool) -> dict[str, LayerSpeeds]:
-    """Return the middle layer of a print, by its caption."""
+def _before(
+    gcode: Path, preview: Path, layers: tuple[int, int] | None, *, overwrite: bool
+) -> tuple[int, dict[str, LayerSpeeds]]:
+    """Return the number of the middle layer of a print, or of those nearest to it that are asked for, and the layer."""
     from infill.formats.whole_files import check_targets
     from infill.inspection.layer_speeds import layer_speeds, middle_layer
     from infill.pictures.preview import check_preview
 
     check_targets([check_preview(preview)], overwrite=overwrite)
     if not gcode.is_file():
-        return {}
+        return 0, {}
     number = middle_layer(gcode)
-    return {f"layer {number}, as sliced": layer_speeds(gcode, number)}
+    if layers is not None and not layers[0] <= number <= layers[1]:
+        number = layers[0] if layers[0] > number else layers[1]
+    return number, {f"layer {number}, as sliced": layer_speeds(gcode, number)}
 
 
-def _write_preview(before: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
+def _write_preview(number: int, before: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
     from functools import partial
 
     from infill.formats.whole_files import deliver
-    from infill.inspection.layer_speeds import layer_speeds, middle_layer
+    from infill.inspection.layer_speeds import layer_speeds
     from infill.pictures.speeds import write_speeds
 
-    number = middle_layer(path)
     deliver({preview: partial(write_speeds, {**before, f"layer {number}, refilled": layer_speeds(path, number)})})
 
 
