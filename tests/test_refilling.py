@@ -143,6 +143,23 @@ def test_rounding_leaves_what_it_promises(honeycomb: Path, kept: Path) -> None:
     assert bonded(new) >= LEAST_SHARE * bonded(old) - 0.01
 
 
+@pytest.mark.parametrize("chosen", [0.15, 0.3, float("inf")])
+def test_a_print_that_lost_too_much_is_drawn_again(
+    chosen: float, honeycomb: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever a few layers told."""
+    monkeypatch.setattr("infill.filling.support.largest_deviation", lambda *_: chosen)
+    report = refill(honeycomb, output=tmp_path / "again.gcode").report
+    assert report["rounding"]["deviation_mm"] < chosen
+    assert min(report["contact"]["kept_supported"], report["contact"]["kept_bonded"]) >= LEAST_SHARE
+    assert report["problems"] == []
+    assert judge(honeycomb.read_bytes(), (tmp_path / "again.gcode").read_bytes()) == []
+    # What was asked for by number is what is done, and what it costs is said.
+    asked = refill(honeycomb, output=tmp_path / "asked.gcode", smooth_radius=50, max_deviation=0.3).report
+    assert asked["rounding"]["deviation_mm"] == 0.3
+    assert asked["problems"]
+
+
 def test_the_largest_deviation(looked_at: list[Batch]) -> None:
     """It is one of those tried, not above the one asked for, and larger ones hold less."""
     best = largest_deviation(looked_at, Rounding(), 1000.0)

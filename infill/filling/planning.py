@@ -91,12 +91,17 @@ def planned(
     regions: list[tuple[MultiPolygon, float, int]] = []
     walls, length, width, spacing = [], 0.0, 0.0, 1.0
     region: Region | None = None
+    seen: set[tuple[float, bytes]] = set()
     area = shapely.MultiPolygon()
     for batch in some:
         width = batch.line_width
         for number in filled(batch):
             chosen = np.flatnonzero(batch.layer == number)
             opens = batch.infill.opens[chosen]
+            layer = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[chosen[0]]].tobytes()
+            if layer in seen:  # places that were looked at overlap in small prints
+                continue
+            seen.add(layer)
             around = batch.others.around(number, STEP)
             places, first = picked(batch.infill.first, chosen)
             drawn = sampled(batch.infill.points[places], first, INFILL_STEP).points

@@ -38,6 +38,9 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], None]
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
+AGAIN = 3  # times that a print is drawn anew, with corners that move less, or at another cell
+EVEN = 0.005  # of the filament of all infill, that it may be off
+SMALL = 1 << 19  # bytes of a print that is drawn anew to take the filament that it took
 MOST_THREADS = 4  # more of them would only take memory: one reads what all the others draw
 
 
@@ -244,7 +247,7 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.filling.placement import family_of
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
-    from infill.filling.support import largest_deviation, samples
+    from infill.filling.support import largest_deviation, samples, smaller_deviation
     from infill.gcode.survey import survey
 
     found = survey(given.text)
@@ -264,6 +267,15 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
     tally = _drafted(given.text, draft, found, rules, plan, progress)
+    if plan is not None and plan.density is None and not plan.fixed and found.size <= SMALL:
+        tally = _evened(tally, plan, lambda other: _drafted(given.text, draft, found, rules, other, progress))
+    for _ in range(AGAIN if request.pattern == KEEP and request.smooth_radius == AUTO else 0):
+        # A few layers told how far corners may move; all that were measured since have the last word.
+        smaller = smaller_deviation(rules.rounding.deviation, tally.before, tally.after)
+        if smaller == rules.rounding.deviation:
+            break
+        rules = rules.rounded_by(smaller)
+        tally = _drafted(given.text, draft, found, rules, plan, progress)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
@@ -274,6 +286,26 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
         edits.append(_stamp(draft, tally))
     metadata = retold(given.metadata, change, said)
     return _Done(found=found, draft=draft, tally=tally, rules=rules, edits=tuple(sorted(edits)), metadata=metadata)
+
+
+def _evened(tally: Tally, plan: Plan, drafted: Callable[[Plan], Tally]) -> Tally:
+    """Draw a small print again, at other cells, until its infill takes the filament that it took; else at the best.
+
+    In a large one, what a layer takes too much or too little is made up for in the next ones.
+    """
+
+    def off(some: Tally) -> float:
+        return some.infill_after.filament / some.infill.filament - 1 if some.infill.filament else 0.0
+
+    best, least, drawn = plan, abs(off(tally)), plan
+    for _ in range(AGAIN):
+        if abs(off(tally)) <= EVEN:
+            return tally
+        drawn = replace(drawn, cell=drawn.cell * (1 + off(tally)))
+        tally = drafted(drawn)
+        if abs(off(tally)) < least:
+            best, least = drawn, abs(off(tally))
+    return tally if drawn is best else drafted(best)
 
 
 def _section(found: Survey) -> float:
@@ -312,6 +344,8 @@ def _drafted(
     from infill.filling.tally import Tally
 
     file.seek(0)
+    draft.seek(0)
+    draft.truncate()
     tally, memory, below, tags = Tally(), Memory(), None, None
     done = shown = 0
 

@@ -24,7 +24,7 @@ from infill.gcode.table import read
 from infill.kernels.threads import in_order, thread_count
 
 LEAST_SHARE = 0.94
-AIM = 0.941  # what layers here and there must keep, so that all of them keep the least
+AIM = 0.944  # what layers here and there must keep, so that all of them keep the least
 # mm; tried from the largest down. Beyond them, legs are what limits an arc.
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
 LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about what it leaves of support or contact
@@ -88,6 +88,18 @@ def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: f
     if share(rounding.deviation) >= AIM:
         return rounding.deviation
     return first_enough([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
+
+
+def smaller_deviation(deviation: float, old: Contact, new: Contact) -> float:
+    """Return a deviation, mm, for a print that lost too much of its support or contact; the same if it did not.
+
+    What is lost grows with the deviation: it is lowered by as much as too much was lost, and a little more.
+    """
+    kept = min(kept_shares(old, new))
+    if kept >= LEAST_SHARE:
+        return deviation
+    smaller = min(deviation, LARGEST_DEVIATION) * (1 - AIM) / (1 - kept)
+    return smaller if smaller > DEVIATIONS[-1] / 2 else 0.0
 
 
 def first_enough(candidates: Sequence[float], share: Callable[[float], float]) -> float:

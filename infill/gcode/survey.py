@@ -18,6 +18,8 @@ TAIL = 1 << 17  # bytes looked at for the settings
 WINDOW = 1 << 18  # bytes read at each place that is sampled
 MOST_WINDOW = 16 << 20
 WHOLE = 3  # layers at each place
+WINDOWS = 6  # places
+SMALL, MORE_WINDOWS = 1 << 19, 24  # bytes: of a smaller file, nearly every layer is looked at
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(
@@ -82,14 +84,12 @@ class Survey:
         return None
 
 
-def survey(file: BinaryIO, windows: int = 6) -> Survey:
+def survey(file: BinaryIO) -> Survey:
     """Look at a print; the file is left at its beginning.
 
     Parameters
     ----------
     file : binary file
-    windows : int
-        At how many places to read layers.
 
     Raises
     ------
@@ -118,6 +118,7 @@ def survey(file: BinaryIO, windows: int = 6) -> Survey:
         retracted=before.retracted,
         f=before.f,
     )
+    windows = WINDOWS if size > SMALL else MORE_WINDOWS
     found = tuple(text for text in (_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
     file.seek(0)
     return Survey(
