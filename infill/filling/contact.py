@@ -90,7 +90,7 @@ def merged(one: Samples, other: Samples) -> Samples:
 def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
     """Return the middles of equal pieces of every segment, at most `step` long.
 
-    >>> sampled(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2])).points[:, 0].round(3).tolist()
+    >>> sampled(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2]), 0.2).points[:, 0].round(3).tolist()
     [0.1, 0.3]
     """
     path = np.repeat(np.arange(len(first) - 1), np.diff(first))
