@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 
 from infill import FormatError, OutputError, ParameterError, refill
 from infill.filling.batch import Batch
@@ -16,7 +18,7 @@ from infill.filling.families.catalogue import FAMILIES
 from infill.filling.measuring import Drawing, measured
 from infill.filling.planning import planned
 from infill.filling.rounding import Rounding
-from infill.filling.support import AIM, LEAST_SHARE, largest_deviation, samples
+from infill.filling.support import AIM, LEAST_SHARE, first_enough, largest_deviation, samples
 from infill.filling.surroundings import Beads
 from infill.gcode.survey import survey
 from infill.ragged import packed
@@ -158,6 +160,34 @@ def test_a_print_that_lost_too_much_is_drawn_again(
     asked = refill(honeycomb, output=tmp_path / "asked.gcode", smooth_radius=50, max_deviation=0.3).report
     assert asked["rounding"]["deviation_mm"] == 0.3
     assert asked["problems"]
+
+
+def test_a_dense_print_gets_no_cell_that_beads_do_not_fit_into(tmp_path: Path) -> None:
+    """Drawn again with more lines, it would take one."""
+    dense = prusa_print(
+        box(tmp_path, (20, 20, 3)), tmp_path / "dense.gcode", {"fill_density": "75%", "fill_pattern": "rectilinear"}
+    )
+    report = refill(dense, output=tmp_path / "new.gcode", pattern="grid").report
+    assert report["sections"]["replaced"]
+    assert report["filament"]["infill_after_mm"] <= report["filament"]["infill_before_mm"] * 1.01
+
+
+@given(
+    st.lists(st.floats(0.005, 0.3), min_size=1, max_size=40, unique=True).map(lambda some: sorted(some, reverse=True)),
+    st.floats(0.01, 20),
+    st.floats(0.2, 3),
+)
+def test_the_first_deviation_that_is_enough_is_found(candidates: list[float], slope: float, power: float) -> None:
+    """However the share falls with the deviation, as long as it falls: that of a search one by one."""
+    tried: list[float] = []
+
+    def share(deviation: float) -> float:
+        tried.append(deviation)
+        return float(1 - slope * deviation**power)
+
+    wanted = next((each for each in candidates if 1 - slope * each**power >= AIM), 0.0)
+    assert first_enough(candidates, share) == wanted
+    assert len(set(tried)) == len(tried) <= 14  # none twice; by halves after a few
 
 
 def test_the_largest_deviation(looked_at: list[Batch]) -> None:

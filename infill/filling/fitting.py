@@ -136,9 +136,7 @@ class Fitted:
 def fitted(stack: Column, place: Place) -> Fitted:
     """Return paths in the area of a column, at its cell, or at one that gives them the length they should have.
 
-    Where the cell was asked for, it is that one.
-
-    The length jumps with the cell in small areas: the nearest of a few is taken.
+    The length jumps with the cell in small areas: the nearest of a few is taken. A cell that was asked for stays.
     """
     wanted = stack.length
     best = _covered(stack.area, stack.cell, place)

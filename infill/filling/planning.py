@@ -13,7 +13,7 @@ from infill.filling.batch import Batch
 from infill.filling.contact import sampled
 from infill.filling.covering import check_cell, solve_cell, total_length
 from infill.filling.families.heart import ConcentricHeart
-from infill.filling.families.protocol import Family
+from infill.filling.families.protocol import TOUCH, Family
 from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.rounding import Rounding, rounded_paths
 from infill.filling.support import filled
@@ -52,6 +52,10 @@ class Plan:
     rounding: Rounding
     density: float | None
     fixed: bool = False
+
+    def with_cell(self, cell: float) -> Plan:
+        """Return the plan with another cell, mm, or the smallest that beads fit into."""
+        return replace(self, cell=max(cell, TOUCH * self.line_width))
 
     @property
     def radius(self) -> float:
@@ -98,10 +102,10 @@ def planned(
         for number in filled(batch):
             chosen = np.flatnonzero(batch.layer == number)
             opens = batch.infill.opens[chosen]
-            layer = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[chosen[0]]].tobytes()
-            if layer in seen:  # places that were looked at overlap in small prints
+            which = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[chosen[0]]].tobytes()
+            if which in seen:  # places that were looked at overlap in small prints
                 continue
-            seen.add(layer)
+            seen.add(which)
             around = batch.others.around(number, STEP)
             places, first = picked(batch.infill.first, chosen)
             drawn = sampled(batch.infill.points[places], first, INFILL_STEP).points
@@ -131,9 +135,8 @@ def planned(
     if cell is not None:
         check_cell(cell, width)
         return replace(plan, cell=cell, fixed=True)
-    everywhere = walls_of(
-        np.concatenate(walls)
-    )  # of all layers at once: where they differ, a few more corners stay sharp
+    # Of all layers at once: where they differ, a few more corners stay sharp.
+    everywhere = walls_of(np.concatenate(walls))
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
         done, _ = rounded_paths(

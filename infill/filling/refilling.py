@@ -301,7 +301,7 @@ def _evened(tally: Tally, plan: Plan, drafted: Callable[[Plan], Tally]) -> Tally
     for _ in range(AGAIN):
         if abs(off(tally)) <= EVEN:
             return tally
-        drawn = replace(drawn, cell=drawn.cell * (1 + off(tally)))
+        drawn = drawn.with_cell(drawn.cell * (1 + off(tally)))
         tally = drafted(drawn)
         if abs(off(tally)) < least:
             best, least = drawn, abs(off(tally))
