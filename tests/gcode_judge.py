@@ -28,6 +28,7 @@ PUSHED = 3e-5  # mm of filament: two roundings to five digits, and one of a sum
 DEPTH = 1e-3  # mm of filament: a retraction in pieces, each rounded to five digits
 WIDER = 0.08  # of the filament per mm: beads may be made so much wider or thinner
 OUTSIDE = 0.02  # mm outside of the region of the slicer's own infill
+BESIDE_OLD = 0.25  # mm from the old path, within which a new one may lie as near to other beads as that did
 LONGEST = 95  # bytes of a line, which is what Marlin takes
 FILAMENT = math.pi / 4 * 1.75**2  # mm²
 SPARSE = (b"Internal infill", b"Sparse infill", b"FILL")
@@ -940,7 +941,11 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
         level = beads[0].end[2]
         step = level - max((z for z in below if z < level - NEAR), default=0.0)
         # Round about a section alone: other objects of the layer are too far to bound it.
-        room, _ = region(layers.get(part.layer, []), beads, step)
+        others = layers.get(part.layer, [])
+        room, _ = region(others, beads, step)
+        drawn, solid = (
+            shapely.union_all([shapely.linestrings(path) for path in lines_of(moves)]) for moves in (beads, others)
+        )
         near = shapely.buffer(room, OUTSIDE)
         shapely.prepare(near)
         over_walls = shapely.buffer(room, beads[0].width or 0.45)  # a travel along a wall does no harm
@@ -952,6 +957,8 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
             out = shapely.difference(line, near if m.pushed else over_walls)
             far = max(shapely.distance(shapely.points(shapely.get_coordinates(out)), room), default=0.0)
             if m.pushed and far < OUTSIDE + NEAR:
+                continue
+            if m.extrudes and _no_nearer(out, drawn, solid):
                 continue
             if m.extrudes:
                 yield f"move outside: {_name(m.line)} leaves the region of the infill by {far:.3f} mm"
@@ -966,6 +973,15 @@ def _regions(parts: list[Section], was: list[Replay], now: list[Replay], deviati
                 yield f"travel outside: {_name(m.line)} leaves the region unretracted for {out.length:.2f} mm"
         if deviation is not None:
             yield from _deviation(part, beads, new.beads(), deviation)
+
+
+def _no_nearer(out, drawn, solid) -> bool:
+    """Tell if what is outside a region lies where the old path was outside too, and no nearer to other beads."""
+    points = shapely.points(shapely.get_coordinates(out))
+    before = shapely.points(shapely.get_coordinates(shapely.shortest_line(points, drawn)).reshape(-1, 2, 2)[:, 1])
+    moved = shapely.distance(points, before)
+    closer = shapely.distance(before, solid) - shapely.distance(points, solid)
+    return bool(((moved < BESIDE_OLD) & (closer < OUTSIDE)).all())
 
 
 def _deviation(part: Section, old: list[Move], new: list[Move], deviation: float) -> Iterator[str]:

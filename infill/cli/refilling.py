@@ -74,7 +74,7 @@ def refill(
         ),
     ] = None,
     max_deviation: Annotated[
-        float | None, typer.Option(help="How far a path may lie from its corner, mm.", rich_help_panel=PATHS)
+        float | None, typer.Option(help="How far a path may move, mm.", rich_help_panel=PATHS)
     ] = None,
     layers: Annotated[
         str | None, typer.Option(help="Layers to refill, counted from 1: 5-20, or 5-.", rich_help_panel=WHERE)

@@ -112,12 +112,12 @@ def rounded(
     inner[first[:-1][first[:-1] < count]] = False
     inner[first[1:] - 1] = False
     here = np.flatnonzero(inner)
-    turn, before, after, lengths = _turns(points, here)
+    turn, before, after, lengths = turns(points, here)
     half = turn / 2
     half_tangent = np.maximum(np.tan(half), 1e-12)
     wanted = np.minimum(radius * half_tangent, _at(deviation, here) / np.maximum(np.tan(turn / 4), 1e-12))
     wanted[(turn > SHARPEST) | (lengths.min(axis=0) == 0)] = 0.0
-    setback = _shared(wanted, here, lengths, count)
+    setback = _shared(wanted, here, lengths, half_tangent, count)
     straight = half < 1e-9
     arc = np.divide(setback, np.tan(half), out=np.full(len(here), np.inf), where=~straight)
     setback[(setback * np.tan(turn / 4) < LEAST_DEVIATION) | straight] = 0.0
@@ -132,7 +132,7 @@ def _at(value: float | Floats, here: Places) -> Floats | float:
     return value[here] if isinstance(value, np.ndarray) else value
 
 
-def _turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats]:
+def turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats]:
     """Return the turn at each inner point, the directions of its two legs, and their lengths (2, n)."""
     before, after = points[here] - points[here - 1], points[here + 1] - points[here]
     lengths = np.stack([np.hypot(*before.T), np.hypot(*after.T)])
@@ -143,11 +143,15 @@ def _turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats
     return np.arctan2(np.abs(cross), before[:, 0] * after[:, 0] + before[:, 1] * after[:, 1]), before, after, lengths
 
 
-def _shared(wanted: Floats, here: Places, lengths: Floats, count: int) -> Floats:
-    """Return setbacks that fit: two corners share their leg by halves, unless one of them needs less."""
-    needs = np.zeros(count)
-    needs[here] = wanted
-    fits = [np.maximum(length / 2, length - needs[here + step]) for length, step in zip(lengths, (-1, 1), strict=True)]
+def _shared(wanted: Floats, here: Places, lengths: Floats, half_tangent: Floats, count: int) -> Floats:
+    """Return setbacks that fit: two corners share their leg so that their arcs are equal, unless one needs less."""
+    needs, weight = np.zeros(count), np.zeros(count)
+    needs[here], weight[here] = wanted, np.where(wanted > 0, half_tangent, 0.0)
+    own = np.maximum(weight[here], 1e-12)
+    fits = [
+        np.maximum(length * (own / (own + weight[here + step])), length - needs[here + step])
+        for length, step in zip(lengths, (-1, 1), strict=True)
+    ]
     setback: Floats = np.minimum(wanted, np.minimum(*fits))
     return setback
 

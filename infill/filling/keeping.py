@@ -38,6 +38,7 @@ def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corne
         speed=batch.speed,
         corner=corner,
         line_width=batch.line_width,
+        wide=True,
     )
 
 

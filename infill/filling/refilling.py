@@ -99,7 +99,7 @@ def refill(
     smooth_radius : "auto" or float
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional
-        How far an arc may lie from its corner, mm.
+        How far a path may move, mm.
     layers : tuple of int, optional
         The first and the last layer to refill, counted from 1.
     part : str, optional
@@ -247,7 +247,7 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.filling.placement import family_of
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
-    from infill.filling.support import largest_deviation, samples, smaller_deviation
+    from infill.filling.support import kept_shares, largest_deviation, samples, smaller_deviation
     from infill.gcode.survey import survey
 
     found = survey(given.text)
@@ -269,11 +269,14 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     tally = _drafted(given.text, draft, found, rules, plan, progress)
     if plan is not None and plan.density is None and not plan.fixed and found.size <= SMALL:
         tally = _evened(tally, plan, lambda other: _drafted(given.text, draft, found, rules, other, progress))
+    last = 0.0
     for _ in range(AGAIN if request.pattern == KEEP and request.smooth_radius == AUTO else 0):
         # A few layers told how far corners may move; all that were measured since have the last word.
-        smaller = smaller_deviation(rules.rounding.deviation, tally.before, tally.after)
+        kept = min(kept_shares(tally.before, tally.after))
+        smaller = smaller_deviation(rules.rounding.deviation, kept, last)
         if smaller == rules.rounding.deviation:
             break
+        last = kept
         rules = rules.rounded_by(smaller)
         tally = _drafted(given.text, draft, found, rules, plan, progress)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)

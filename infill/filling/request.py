@@ -34,7 +34,7 @@ class Request:
     smooth_radius : "auto" or float
         mm; 0 leaves corners as they are.
     max_deviation : float, optional
-        mm that an arc may lie from its corner.
+        mm that a path may move.
     layers : tuple of int, optional
         First and last layer to refill, counted from 1.
     part : str, optional

@@ -12,11 +12,14 @@ from numpy.typing import NDArray
 from infill.filling.corners import Machine, Rounded, rounded
 from infill.filling.curves import MOST_BULGE, Recut, recut
 from infill.filling.surroundings import BESIDE, TOWARDS, Walls, bounded_deviation
+from infill.filling.wide import Room, room_of, widened
 from infill.gcode.splicing import UNIT
 from infill.ragged import packed, parted
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
+
+BESIDE_WALLS = 2.5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +29,10 @@ class Rounding:
     Parameters
     ----------
     deviation : float, mm
-        How far an arc may lie from its corner.
+        How far a path may move at its corners. Those beside other beads hold nothing but themselves: they may move
+        `BESIDE_WALLS` times as far.
+    most : float, mm
+        How far those may move as well.
     radius : float, mm
         Its largest radius.
     corner : float
@@ -36,6 +42,7 @@ class Rounding:
     """
 
     deviation: float = math.inf
+    most: float = math.inf
     radius: float = math.inf
     corner: float = 9.0
     same_filament: bool = False
@@ -52,7 +59,7 @@ class Corners:
         Number of points before.
     machine : Machine
     inner : (C,) int
-        The points of `curves` that are corners.
+        The points of `curves` that are corners and may change.
     beside : (B,) int
         Those of them that lie beside other beads.
     near : (B,) float64, mm
@@ -60,9 +67,9 @@ class Corners:
     layer : (B,) int
     walls : Walls
         The other beads.
-    hard : (H,) int
-        Points of `curves` that stay as they are.
     line_width : float, mm
+    room : Room, optional
+        Where corners may be taken wide.
     """
 
     curves: Recut
@@ -73,8 +80,8 @@ class Corners:
     near: Floats
     layer: Places
     walls: Walls
-    hard: Places
     line_width: float
+    room: Room | None = None
 
     def rounded(self, rounding: Rounding) -> Rounded:
         """Return the paths with round corners."""
@@ -87,10 +94,12 @@ class Corners:
             self.near,
             self.walls,
             self.layer,
-            deviation=rounding.deviation,
+            deviation=min(BESIDE_WALLS * rounding.deviation, rounding.most),
             line_width=self.line_width,
         )
-        deviation[self.hard] = 0.0
+        if self.room is not None:
+            points, wide = widened(points, self.room, deviation=rounding.deviation, radius=rounding.radius)
+            deviation[self.room.corner] = wide
         done = rounded(points, first, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT)
         radius = np.full(self.old, np.inf)
         kept = np.flatnonzero(~self.curves.curved)
@@ -109,6 +118,7 @@ def corners_of(
     corner: float,
     line_width: float,
     hard: NDArray[np.bool_] | None = None,
+    wide: bool = False,
 ) -> Corners:
     """Cut the curves of some paths anew, and find their corners.
 
@@ -128,6 +138,8 @@ def corners_of(
     line_width : float, mm
     hard : (N,) bool, optional
         Points that stay as they are.
+    wide : bool
+        Take corners wide where there is room.
     """
 
     def machine(begins: Places) -> Machine:
@@ -135,16 +147,21 @@ def corners_of(
         return Machine(acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=corner)
 
     of = np.repeat(layer, np.diff(first))
-    near = walls.near(points, of, BESIDE * line_width)
-    bulge = np.where(np.isfinite(near), TOWARDS, MOST_BULGE)
+    near = walls.near(points, of, (BESIDE + wide / 2) * line_width)
+    bulge = np.where(near < BESIDE * line_width, TOWARDS, MOST_BULGE)
     if hard is not None:
         bulge[hard] = 0.0
     curves = recut(points, first, machine(first), bulge)
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corners = np.flatnonzero(inner)
-    # Corners of their own beside other beads hardly move.
-    beside = corners[np.isfinite(near[curves.source[corners]])]
+    if hard is not None:
+        corners = corners[~hard[curves.source[corners]]]
+    away = near[curves.source[corners]]
+    beside = corners[away < BESIDE * line_width]
+    room = None
+    if wide:
+        room = room_of(curves.points, curves.first, corners, away, of[curves.source], line_width=line_width)
     return Corners(
         curves=curves,
         old=len(points),
@@ -154,8 +171,8 @@ def corners_of(
         near=near[curves.source[beside]],
         layer=of[curves.source[beside]],
         walls=walls,
-        hard=np.empty(0, dtype=np.intp) if hard is None else np.flatnonzero(hard[curves.source]),
         line_width=line_width,
+        room=room,
     )
 
 

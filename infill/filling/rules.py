@@ -76,6 +76,7 @@ def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
         request=request,
         rounding=Rounding(
             deviation=request.deviation,
+            most=request.deviation,
             radius=request.radius,
             corner=max(jerk or CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,

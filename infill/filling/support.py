@@ -30,6 +30,7 @@ DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k
 LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about what it leaves of support or contact
 MANY = 6  # shares; with more, what they tell of the others is not used any longer
 ENOUGH = 1000.0  # mm of infill in a layer
+NO_DIFFERENCE = 0.002  # of what is kept
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 
@@ -90,15 +91,26 @@ def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: f
     return first_enough([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
 
 
-def smaller_deviation(deviation: float, old: Contact, new: Contact) -> float:
+def smaller_deviation(deviation: float, kept: float, last: float = 0.0) -> float:
     """Return a deviation, mm, for a print that lost too much of its support or contact; the same if it did not.
 
     What is lost grows with the deviation: it is lowered by as much as too much was lost, and a little more.
+
+    Parameters
+    ----------
+    deviation : float, mm
+    kept : float
+        The lesser share that it left.
+    last : float
+        The share that the deviation before it left, which was larger. If that made no difference, legs were what
+        limited the arcs: it is lowered by half.
     """
-    kept = min(kept_shares(old, new))
     if kept >= LEAST_SHARE:
         return deviation
-    smaller = min(deviation, LARGEST_DEVIATION) * (1 - AIM) / (1 - kept)
+    factor = (1 - AIM) / (1 - kept)
+    if kept - last < NO_DIFFERENCE:
+        factor = min(factor, 0.5)
+    smaller = min(deviation, LARGEST_DEVIATION) * factor
     return smaller if smaller > DEVIATIONS[-1] / 2 else 0.0
 
 

@@ -23,7 +23,7 @@ Places = NDArray[np.intp]
 STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 ANCHORED = 1 / 3  # line widths that a corner beside a bead may move away from it
-TOWARDS = 0.02  # mm that it may move towards it
+TOWARDS = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
 FEW = 500  # points: with so few, nothing is gained by looking where walls are
 FARTHEST = 1e5  # mm: no machine is larger
@@ -165,6 +165,28 @@ class Walls:
         close = _around(moved, self.points, distance) if len(some) > FEW else np.arange(len(some))
         found[some[close]] = self.tree.query(moved[close], distance_upper_bound=distance)[0]
         return found
+
+    def nearest(self, points: Floats, layer: Places, distance: float, places: range) -> tuple[Floats, Places]:
+        """Return the nearest points on other beads of its layer for each point: how far, mm, and their numbers.
+
+        Parameters
+        ----------
+        points : (N, 2) float64, mm
+        layer : (N,) int
+            Among `layers`.
+        distance : float, mm
+            Up to `LARGEST_DISTANCE`.
+        places : range
+            Which of them, from 1 on; where there are fewer, their distance is infinite.
+
+        Returns
+        -------
+        distance : (N, places) float64, mm
+        number : (N, places) int
+        """
+        moved = _moved(points, np.searchsorted(self.layers, layer), self.pitch)
+        found, number = self.tree.query(moved, k=list(places), distance_upper_bound=distance)
+        return found, number
 
 
 def walls_of(points: Floats, layer: Places | None = None) -> Walls:

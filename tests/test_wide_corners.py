@@ -1,0 +1,141 @@
+"""Laws of corners that are moved outwards before they are rounded."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+
+from infill.filling.corners import COARSEST, Machine, rounded
+from infill.filling.families.hilbert import Hilbert
+from infill.filling.families.protocol import TOUCH
+from infill.filling.rounding import Rounding, corners_of
+from infill.filling.surroundings import BESIDE, walls_of
+from infill.filling.wide import APART, ASIDE, SHARPEST
+from infill.ragged import packed, parted
+from tests.test_corners_and_curves import length_of, one, turns, walks
+
+WIDTH = 0.45  # mm
+NOTHING = walls_of(np.empty((0, 2)))
+
+
+def taken(
+    paths: list[np.ndarray], *, deviation: float = math.inf, wide: bool = True, walls: np.ndarray | None = None
+) -> list[np.ndarray]:
+    """Return paths of one layer rounded."""
+    points, first = packed(paths)
+    each = np.ones(len(paths))
+    found = corners_of(
+        points,
+        first,
+        walls=NOTHING if walls is None else walls_of(walls),
+        layer=np.zeros(len(paths), dtype=int),
+        acceleration=1000.0 * each,
+        speed=80.0 * each,
+        corner=9.0,
+        line_width=WIDTH,
+        wide=wide,
+    )
+    done = found.rounded(Rounding(deviation=deviation))
+    return parted(done.points, done.first)
+
+
+def smallest_radius(path: np.ndarray) -> float:
+    """Return the smallest radius of a path of chords: what two chords of equal turn stand for."""
+    step = np.hypot(*np.diff(path, axis=0).T)
+    return float((np.minimum(step[1:], step[:-1]) / np.maximum(2 * np.tan(np.abs(turns(path)) / 2), 1e-9)).min())
+
+
+def farthest(path: np.ndarray, other: np.ndarray) -> float:
+    """Return how far a path is from another at most, both ways."""
+    a, b = shapely.linestrings(path), shapely.linestrings(other)
+    return float(shapely.hausdorff_distance(shapely.segmentize(a, 0.01), shapely.segmentize(b, 0.01)))
+
+
+@pytest.mark.parametrize("deviation", [0.1, 0.2])
+def test_length_is_kept_and_arcs_are_larger(deviation: float) -> None:
+    """On Hilbert's curve, at the same distance from it; arcs inside the corners lose a tenth of it."""
+    curve = max(Hilbert().strands((0, 0, 40, 40), cell=3.0, line_width=WIDTH, z=0, layer=0, radius=0), key=len)
+    curve = curve[:120]
+    wide, plain = (taken([curve], deviation=deviation, wide=wide)[0] for wide in (True, False))
+    assert abs(length_of(wide) / length_of(curve) - 1) < 0.25 * (1 - length_of(plain) / length_of(curve))
+    assert farthest(wide, curve) <= deviation + COARSEST
+    assert smallest_radius(wide[5:-5]) > 1.4 * smallest_radius(plain[5:-5])
+
+
+@given(path=walks(171, shortest=1.0), deviation=st.floats(0.02, 0.5))
+def test_no_path_moves_farther_than_told(path: np.ndarray, deviation: float) -> None:
+    """Both ways: neither is the new path far from the old one, nor any of the old one from the new; ends stay."""
+    (done,) = taken([path], deviation=deviation)
+    assert np.allclose(done[[0, -1]], path[[0, -1]], atol=0.0006)
+    new, old = shapely.linestrings(done), shapely.linestrings(path)
+    assert shapely.distance(shapely.points(done), old).max() <= deviation + COARSEST
+    sharp = np.flatnonzero(np.abs(turns(path)) < SHARPEST) + 1
+    assert all(shapely.distance(shapely.points(path[sharp]), new) <= deviation + COARSEST)
+
+
+def waves(apart: float, count: int = 8, side: float = 2.7) -> list[np.ndarray]:
+    """Return two lines of a honeycomb, whose level legs lie so many mm apart where they meet."""
+    step = side * math.sqrt(3) / 2
+    x = np.concatenate([[k * 1.5 * side, k * 1.5 * side + side] for k in range(count)])
+    low = np.concatenate([[-step, -step] if k % 2 else [-apart / 2, -apart / 2] for k in range(count)])
+    return [np.stack([x, low], axis=1), np.stack([x, -low], axis=1)]
+
+
+@given(
+    deviation=st.floats(0.02, 0.1),
+    angle=st.floats(0, 2 * math.pi),
+    apart=st.floats(TOUCH, 1.0).map(lambda share: share * WIDTH),
+)
+def test_lines_that_touch_stay_in_touch(deviation: float, angle: float, apart: float) -> None:
+    """Their common walls stay straight and become longer, and no bead comes nearer to another."""
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    old = [path @ turn.T for path in waves(apart)]
+    done = {wide: taken(old, deviation=deviation, wide=wide) for wide in (True, False)}
+    touching = {}
+    for wide, (one_wave, other) in done.items():
+        lines = shapely.linestrings(one_wave), shapely.linestrings(other)
+        assert shapely.distance(*lines) >= apart - 0.002
+        points = shapely.points(shapely.get_coordinates(shapely.segmentize(lines[0], 0.01)))
+        touching[wide] = (shapely.distance(points, lines[1]) <= apart + 0.01).mean()
+    assert touching[True] > touching[False]
+    # The single legs stay above those of the layer below: a sixteenth of a line width, and the chords.
+    inner = [path[np.abs((path @ turn)[:, 1]) > apart / 2 + 0.6] for path in done[True]]
+    for path, before in zip(inner, old, strict=True):
+        level = np.abs((path @ turn)[:, 1]) < 2.7 * math.sqrt(3) / 2 - 0.6
+        away = shapely.distance(shapely.points(path[level]), shapely.linestrings(before))
+        assert (away <= ASIDE * WIDTH + 0.003).all()
+
+
+@given(
+    gap=st.floats(1.2, 6.0).map(lambda share: share * WIDTH), deviation=st.one_of(st.just(math.inf), st.floats(0.05, 1))
+)
+def test_peaks_do_not_run_into_one_another(gap: float, deviation: float) -> None:
+    """Corners that point at each other keep room for their beads."""
+    x = np.arange(12) * 2.0
+    low = np.where(np.arange(12) % 2, 0.0, -2.0)
+    old = [np.stack([x, low], axis=1), np.stack([x, gap - low], axis=1)]
+    a, b = (shapely.linestrings(path) for path in taken(old, deviation=deviation))
+    assert shapely.distance(a, b) >= min(gap, APART * WIDTH) - 0.002
+
+
+@given(near=st.floats(0.3, 3.0), deviation=st.floats(0.05, 1.0))
+def test_corners_stay_off_walls(near: float, deviation: float) -> None:
+    """A corner that is taken wide never comes to lie beside a bead that it did not lie beside."""
+    path = np.array([[0.0, 0.0], [4.0, 4.0], [8.0, 0.0], [12.0, 4.0], [16.0, 0.0]])
+    wall = np.stack([np.linspace(-2, 18, 2001), np.full(2001, 4.0 + near)], axis=1)
+    (done,) = taken([path], deviation=deviation, walls=wall)
+    assert done[:, 1].max() <= max(4.0 + near - BESIDE * WIDTH, 4.0) + 0.001
+
+
+def test_plain_rounding_is_the_same_without_room() -> None:
+    """A corner between two walls that touch others cannot move: its arc is that of plain rounding."""
+    path = np.array([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0]])
+    other = np.array([[0.0, -WIDTH], [5.0 + WIDTH, -WIDTH], [5.0 + WIDTH, 5.0]])
+    (done, _) = taken([path, other], deviation=0.1)
+    plain = rounded(*one(path), deviation=0.1, machine=Machine(acceleration=1000.0), unit=0.001)
+    assert np.allclose(done, plain.points, atol=0.0011)
