@@ -532,6 +532,12 @@ def test_a_region_keeps_from_skins_what_the_slicer_does(further: float) -> None:
     assert area.distance(SQUARE.boundary) == pytest.approx(0.36, abs=0.01)
 
 
+def test_the_outline_of_a_region_has_no_more_points_than_it_needs() -> None:
+    """Straight walls are straight: corners of paths that meet them need legs."""
+    (polygon,) = region_of(beads_at(dense(SQUARE.boundary, STEP)), filled(SQUARE, 0.36)).polygons
+    assert len(polygon.exterior.coords) < 40
+
+
 def test_a_region_is_taken_again_only_where_it_fits() -> None:
     walls, infill = dense(SQUARE.boundary, STEP), filled(SQUARE, 0.36)
     before = region_of(beads_at(walls), infill)

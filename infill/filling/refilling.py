@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 Progress = Callable[[str, float], None]
 HEAD = 1 << 16  # bytes in which the header ends
 SHOWN = 1 << 22  # bytes between two reports of progress
-AGAIN = 3  # times that a print is drawn anew, with corners that move less, or at another cell
+AGAIN = 3  # times that a print is drawn anew, with corners that move less
+EVENED = 6  # times that a small one is, at another cell
 EVEN = 0.005  # of the filament of all infill, that it may be off
 SMALL = 1 << 19  # bytes of a print that is drawn anew to take the filament that it took
 MOST_THREADS = 4  # more of them would only take memory: one reads what all the others draw
@@ -250,7 +251,8 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.filling.support import kept_shares, largest_deviation, samples, smaller_deviation
     from infill.gcode.survey import survey
 
-    found = survey(given.text)
+    family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
+    found = survey(given.text, more=family is not None and not family.prismatic)
     found = replace(found, settings={**found.settings, **given.settings}, slicer=found.slicer or given.slicer)
     if found.stamped:
         return _Done(found=found, draft=draft)
@@ -259,9 +261,8 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     some = samples(found)
     rules = rules_of(request, found, some)
     plan = None
-    if request.pattern != KEEP:
+    if family is not None:
         share = None if isinstance(request.density, str | None) else float(request.density)
-        family = family_of(request.pattern, request.parameters)
         plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell)
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
@@ -301,10 +302,15 @@ def _evened(tally: Tally, plan: Plan, drafted: Callable[[Plan], Tally]) -> Tally
         return some.infill_after.filament / some.infill.filament - 1 if some.infill.filament else 0.0
 
     best, least, drawn = plan, abs(off(tally)), plan
-    for _ in range(AGAIN):
-        if abs(off(tally)) <= EVEN:
+    found: dict[float, float] = {}  # what was off, by cell
+    for _ in range(EVENED):
+        error = found[drawn.cell] = off(tally)
+        if abs(error) <= EVEN:
             return tally
-        drawn = drawn.with_cell(drawn.cell * (1 + off(tally)))
+        # The filament jumps with the cell: between two cells that take too much and too little, if they are known.
+        across = [cell for cell, other in found.items() if other * error < 0]
+        nearest = min(across, key=lambda cell: abs(cell - drawn.cell), default=0.0)
+        drawn = drawn.with_cell(math.sqrt(nearest * drawn.cell) if nearest else drawn.cell * (1 + error))
         tally = drafted(drawn)
         if abs(off(tally)) < least:
             best, least = drawn, abs(off(tally))

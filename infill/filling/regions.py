@@ -36,6 +36,7 @@ LEAST_DISTANCE, USUAL_DISTANCE = 0.15, 0.36  # mm
 AROUND = 0.1  # mm
 SOME = 3  # one of so many points on infill is enough to know a region again
 SAME_WITHIN = 0.02  # mm
+OUTLINE_STEP = 0.5  # mm
 NEARER = 0.005  # mm that an outline may come nearer to other beads, to have fewer points
 LEAST_AREA = 0.5  # mm²
 MOST_OFF = 0.05  # mm that a contour between nodes lies off
@@ -65,10 +66,11 @@ class Region:
 
     @cached_property
     def outline(self) -> Floats:
-        """The points of its outlines, (N, 2), mm."""
+        """Points of its outlines, at most `OUTLINE_STEP` apart, (N, 2), mm."""
         import shapely
 
-        return np.asarray(shapely.get_coordinates(np.array(self.polygons, dtype=object)))
+        lines = shapely.segmentize(np.array(self.polygons, dtype=object), OUTLINE_STEP)
+        return np.asarray(shapely.get_coordinates(lines))
 
     @cached_property
     def around(self) -> Polygon | MultiPolygon:
@@ -196,5 +198,8 @@ def _opened(area: Polygon | MultiPolygon) -> Polygon | MultiPolygon:
     arms = rest[shapely.area(rest) > ARM]
     whole = shapely.union_all([smooth, *shapely.buffer(arms, 1e-3)]) if len(arms) else smooth
     whole = shapely.simplify(whole, SAME_WITHIN / 2)
-    found: Polygon | MultiPolygon = shapely.intersection(whole, shapely.buffer(area, NEARER / 2))
+    # Where the two outlines cross to and fro, they leave points a few hundredths of a millimetre apart.
+    found: Polygon | MultiPolygon = shapely.simplify(
+        shapely.intersection(whole, shapely.buffer(area, NEARER / 2)), NEARER / 2
+    )
     return found

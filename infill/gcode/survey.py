@@ -18,8 +18,8 @@ TAIL = 1 << 17  # bytes looked at for the settings
 WINDOW = 1 << 18  # bytes read at each place that is sampled
 MOST_WINDOW = 16 << 20
 WHOLE = 3  # layers at each place
-WINDOWS = 6  # places
-SMALL, MORE_WINDOWS = 1 << 19, 24  # bytes: of a smaller file, nearly every layer is looked at
+WINDOWS, MORE_WINDOWS = 6, 16  # places
+SMALL, ALL_WINDOWS = 1 << 19, 24  # bytes: of a smaller file, nearly every layer is looked at
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(
@@ -84,12 +84,14 @@ class Survey:
         return None
 
 
-def survey(file: BinaryIO) -> Survey:
+def survey(file: BinaryIO, *, more: bool = False) -> Survey:
     """Look at a print; the file is left at its beginning.
 
     Parameters
     ----------
     file : binary file
+    more : bool
+        Look at more places: where layers differ, a few do not tell how much infill there is.
 
     Raises
     ------
@@ -118,7 +120,7 @@ def survey(file: BinaryIO) -> Survey:
         retracted=before.retracted,
         f=before.f,
     )
-    windows = WINDOWS if size > SMALL else MORE_WINDOWS
+    windows = ALL_WINDOWS if size <= SMALL else MORE_WINDOWS if more else WINDOWS
     found = tuple(text for text in (_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
     file.seek(0)
     return Survey(
