@@ -10,12 +10,13 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
+from infill.filling.contact import TOUCHING
 from infill.filling.corners import COARSEST, Machine, rounded
 from infill.filling.families.hilbert import Hilbert
 from infill.filling.families.protocol import TOUCH
 from infill.filling.rounding import Rounding, corners_of
 from infill.filling.surroundings import BESIDE, walls_of
-from infill.filling.wide import APART, ASIDE, SHARPEST
+from infill.filling.wide import ASIDE, HAIRPIN
 from infill.ragged import packed, parted
 from tests.test_corners_and_curves import length_of, one, turns, walks
 
@@ -74,16 +75,16 @@ def test_no_path_moves_farther_than_told(path: np.ndarray, deviation: float) -> 
     assert np.allclose(done[[0, -1]], path[[0, -1]], atol=0.0006)
     new, old = shapely.linestrings(done), shapely.linestrings(path)
     assert shapely.distance(shapely.points(done), old).max() <= deviation + COARSEST
-    sharp = np.flatnonzero(np.abs(turns(path)) < SHARPEST) + 1
+    sharp = np.flatnonzero(np.abs(turns(path)) < HAIRPIN) + 1
     assert all(shapely.distance(shapely.points(path[sharp]), new) <= deviation + COARSEST)
 
 
 def waves(apart: float, count: int = 8, side: float = 2.7) -> list[np.ndarray]:
-    """Return two lines of a honeycomb, whose level legs lie so many mm apart where they meet."""
+    """Return three lines of a honeycomb, whose level legs lie so many mm apart where they meet, the middle one first."""
     step = side * math.sqrt(3) / 2
     x = np.concatenate([[k * 1.5 * side, k * 1.5 * side + side] for k in range(count)])
     low = np.concatenate([[-step, -step] if k % 2 else [-apart / 2, -apart / 2] for k in range(count)])
-    return [np.stack([x, low], axis=1), np.stack([x, -low], axis=1)]
+    return [np.stack([x, y], axis=1) for y in (low, -low, -2 * step - apart - low)]
 
 
 @given(
@@ -97,18 +98,18 @@ def test_lines_that_touch_stay_in_touch(deviation: float, angle: float, apart: f
     old = [path @ turn.T for path in waves(apart)]
     done = {wide: taken(old, deviation=deviation, wide=wide) for wide in (True, False)}
     touching = {}
-    for wide, (one_wave, other) in done.items():
+    for wide, (one_wave, other, _) in done.items():
         lines = shapely.linestrings(one_wave), shapely.linestrings(other)
         assert shapely.distance(*lines) >= apart - 0.002
         points = shapely.points(shapely.get_coordinates(shapely.segmentize(lines[0], 0.01)))
         touching[wide] = (shapely.distance(points, lines[1]) <= apart + 0.01).mean()
     assert touching[True] > touching[False]
     # The single legs stay above those of the layer below: a sixteenth of a line width, and the chords.
-    inner = [path[np.abs((path @ turn)[:, 1]) > apart / 2 + 0.6] for path in done[True]]
-    for path, before in zip(inner, old, strict=True):
-        level = np.abs((path @ turn)[:, 1]) < 2.7 * math.sqrt(3) / 2 - 0.6
-        away = shapely.distance(shapely.points(path[level]), shapely.linestrings(before))
-        assert (away <= ASIDE * WIDTH + 0.003).all()
+    fine = shapely.get_coordinates(shapely.segmentize(shapely.linestrings(done[True][0]), 0.05))
+    height = np.abs((fine @ turn)[:, 1])
+    single = fine[(height > apart / 2 + 0.6) & (height < 2.7 * math.sqrt(3) / 2 - 0.6)]
+    assert len(single) > 20
+    assert shapely.distance(shapely.points(single), shapely.linestrings(old[0])).max() <= ASIDE * WIDTH + 0.003
 
 
 @given(
@@ -120,7 +121,7 @@ def test_peaks_do_not_run_into_one_another(gap: float, deviation: float) -> None
     low = np.where(np.arange(12) % 2, 0.0, -2.0)
     old = [np.stack([x, low], axis=1), np.stack([x, gap - low], axis=1)]
     a, b = (shapely.linestrings(path) for path in taken(old, deviation=deviation))
-    assert shapely.distance(a, b) >= min(gap, APART * WIDTH) - 0.002
+    assert shapely.distance(a, b) >= min(gap, TOUCHING * WIDTH) - 0.002
 
 
 @given(near=st.floats(0.3, 3.0), deviation=st.floats(0.05, 1.0))
@@ -130,6 +131,16 @@ def test_corners_stay_off_walls(near: float, deviation: float) -> None:
     wall = np.stack([np.linspace(-2, 18, 2001), np.full(2001, 4.0 + near)], axis=1)
     (done,) = taken([path], deviation=deviation, walls=wall)
     assert done[:, 1].max() <= max(4.0 + near - BESIDE * WIDTH, 4.0) + 0.001
+
+
+@given(side=st.floats(2.0, 12.0), near=st.floats(0.6, 2.0), share=st.floats(0.05, 0.95), leg=st.integers(0, 2))
+def test_legs_stay_off_walls(side: float, near: float, share: float, leg: int) -> None:
+    """Nor does a leg that moves with its corners, in a hook, come beside a boss in its middle."""
+    path = np.array([[0.0, 0.0], [0.0, side], [side, side], [side, 0.0]])
+    outwards = np.array([[-1.0, 0.0], [0.0, 1.0], [1.0, 0.0]])[leg]
+    boss = path[leg] + share * (path[leg + 1] - path[leg]) + near * outwards
+    (done,) = taken([path], walls=boss[None])
+    assert shapely.distance(shapely.linestrings(done), shapely.points(boss)) >= min(near, BESIDE * WIDTH) - 0.002
 
 
 def test_plain_rounding_is_the_same_without_room() -> None:

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.contact import OWN, TOUCHING, sampled
 from infill.filling.corners import turns
-from infill.filling.surroundings import BESIDE, FARTHEST, walls_of
+from infill.filling.surroundings import BESIDE, FARTHEST, Walls, walls_of
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -25,13 +26,13 @@ Places = NDArray[np.intp]
 OUTWARDS = 0.75  # how far a corner moves, over the distance from there to its arc: the length stays about the same
 ALONG = 0.3  # the same along a leg that touches, over the length of the leg that the arc takes
 ASIDE = 1 / 16  # line widths that such a move may carry the other leg aside
-SHARPEST = math.radians(150)
-LEAST_APART, TOUCHING = 0.5, 1.15  # line widths between legs that run side by side and touch
-APART = 1.05  # line widths between centre lines that must stay
+HAIRPIN = math.radians(150)  # a sharper turn would swing out by a third of its leg: it stays
+LEAST_APART, MOST_APART = 0.5, 1.15  # line widths between legs that run side by side and touch
+ROOM = 2.0  # line widths that walls are looked for beyond those that a corner lies beside
+LEG_STEP = 0.5  # mm along a leg, from one place at which walls are looked for to the next
 SEEN = 3.0  # line widths from a corner within which others are looked for
 NEIGHBOURS = 4  # that are looked at
 PARALLEL = 0.98  # cosine between legs that run side by side
-OWN = 4.0  # line widths along a path within which it is its own neighbour
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,8 +68,8 @@ def room_of(
     points: Floats,
     first: Places,
     corner: Places,
-    near: Floats,
     layer: Places,
+    walls: Walls,
     *,
     line_width: float,
 ) -> Room:
@@ -81,21 +82,21 @@ def room_of(
     first : (M + 1,) int
         Where each begins, and N.
     corner : (C,) int
-        Their corners: none of them the end of a path.
-    near : (C,) float64, mm
-        How near beads that are not of the infill come to each, as far as they were looked for.
+        Their corners: none of them the end of a path, or beside a bead that is not of the infill.
     layer : (N,) int
+    walls : Walls
+        Those beads.
     line_width : float, mm
     """
     turn, before, after, lengths = turns(points, corner)
     leg = lengths.min(axis=0)
-    wide = (turn < SHARPEST) & (leg > 0) & (near > BESIDE * line_width)
+    wide = (turn < HAIRPIN) & (leg > 0)
     if not (np.abs(points) < FARTHEST).all():
         wide[:] = False
-    corner, near = corner[wide], near[wide]
-    turn, before, after, leg = turn[wide], before[wide], after[wide], leg[wide]
+    corner, turn, before, after, leg = corner[wide], turn[wide], before[wide], after[wide], leg[wide]
     free, along = _beside_others(points, first, corner, (before, after), layer, line_width)
-    free = np.minimum(free, np.maximum(near - BESIDE * line_width, 0.0))
+    loose = np.flatnonzero((along == 0) & (free > 0))
+    free[loose] = np.minimum(free[loose], _off_walls(points, corner[loose], layer, walls, line_width))
     return Room(corner=corner, free=free, along=along, turn=turn, before=before, after=after, leg=leg)
 
 
@@ -152,9 +153,9 @@ def _beside_others(
     own &= path[other] == path[corner[row]]
     known = np.bincount(row[own], minlength=count) < NEIGHBOURS  # else there may be others behind its own
     row, distance, other = row[~own], distance[~own], other[~own]
-    free = np.where(known, np.inf, 0.0)
+    free = np.where(known, (SEEN - TOUCHING) / 2 * line_width, 0.0)
     nearest = np.flatnonzero(np.diff(row, prepend=-1))
-    free[row[nearest]] = np.maximum(distance[nearest] - APART * line_width, 0.0) / 2
+    free[row[nearest]] = np.maximum(distance[nearest] - TOUCHING * line_width, 0.0) / 2
     beside = np.zeros((2, count), dtype=bool)
     offset = points[other] - points[corner[row]]
     arriving = _directions(points, path)
@@ -165,11 +166,29 @@ def _beside_others(
         for side in (arriving, leaving):
             level |= np.abs(x * side[other, 0] + y * side[other, 1]) > PARALLEL
         apart = np.abs(x * offset[:, 1] - y * offset[:, 0]) / line_width
-        beside[which, row[level & (apart > LEAST_APART) & (apart < TOUCHING)]] = True
+        beside[which, row[level & (apart > LEAST_APART) & (apart < MOST_APART)]] = True
     along = beside[0].astype(np.intp) - beside[1]
     free[beside.all(axis=0)] = 0.0
     free[along != 0] = ASIDE * line_width
     return free, along
+
+
+def _off_walls(points: Floats, corner: Places, layer: Places, walls: Walls, line_width: float) -> Floats:
+    """Return how far each corner may move before one of its legs comes to lie beside a wall, mm.
+
+    A leg moves with both of its ends, and less the further from them: half of the room is for each.
+    """
+    free = np.full(len(corner), ROOM * line_width / 2)
+    for other in (-1, 1):
+        ends = np.stack([points[corner], points[corner + other]], axis=1)
+        some = sampled(ends.reshape(-1, 2), np.arange(len(corner) + 1) * 2, LEG_STEP)
+        length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)[some.path]
+        near = walls.near(some.points, layer[corner][some.path], (BESIDE + ROOM) * line_width)
+        room = np.maximum(near - BESIDE * line_width, 0.0) / 2
+        close = np.flatnonzero(np.isfinite(near))
+        left = (1 - some.along / np.maximum(length, 1e-9))[close]
+        np.minimum.at(free, some.path[close], room[close] / np.maximum(left, 1e-3))
+    return free
 
 
 def _directions(points: Floats, path: Places) -> Floats:
