@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from infill import FormatError
 from infill.gcode import stream
 from infill.gcode.lines import ARC, BLANK, COMMENT, MOVE, ODD, OTHER
-from infill.gcode.numbers import MOST_DIGITS, read_numbers, write_words
+from infill.gcode.numbers import MOST_DIGITS, WORD, long_numbers, read_numbers, short_numbers, write_words
 from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
 from infill.gcode.stream import batches
 from infill.gcode.survey import HEAD, STAMP, TAIL, Survey, survey
@@ -86,6 +86,19 @@ def test_many_numbers_are_read_as_one_by_one() -> None:
     values, good = read_numbers(np.frombuffer(text, dtype=np.uint8), places)
     np.testing.assert_array_equal(values, [one_number(token)[0] for token in tokens])
     assert good.tolist() == [one_number(token)[1] for token in tokens] == [1, 1, 0, 1, 0, 1, 0, 0, 1]
+
+
+@given(st.lists(st.text("0123456789.", max_size=12), min_size=1), st.sampled_from(" ;-X\x00\xff"))
+def test_eight_bytes_at_a_time_tell_what_byte_after_byte_does(tokens: list[str], behind: str) -> None:
+    text = "".join(token + behind for token in tokens).encode("latin-1") + b"\n"
+    places = np.cumsum([0] + [len(token) + 1 for token in tokens])[:-1]
+    data = np.frombuffer(text, dtype=np.uint8)
+    *quick, whole = short_numbers(data, places)
+    for one, other in zip(quick, long_numbers(data, places), strict=True):
+        np.testing.assert_array_equal(one[whole], other[whole])
+    # A second point ends a number as any other character does.
+    read = [re.match(r"\d*\.?\d*", token) for token in tokens]
+    assert whole.tolist() == [found is not None and len(found[0]) < WORD for found in read]
 
 
 def plainly(value: float, decimals: int) -> str:

@@ -142,7 +142,7 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
         reach = line_width / 2
-        _, other = cKDTree(below.points).query(points, k=3, distance_upper_bound=reach + STEP / 2)
+        _, other = cKDTree(below.points, balanced_tree=False).query(points, k=3, distance_upper_bound=reach + STEP / 2)
         supported |= (_nearest(points, below, other)[0] <= reach).any(axis=1)
     bonded = _beside(points, infill.path[some], along, infill, TOUCHING * line_width)
     return Contact(
@@ -159,13 +159,13 @@ def _nearest(points: Floats, others: Samples, which: Places) -> tuple[Floats, Fl
     """
     there = which < len(others.points)
     which = np.where(there, which, 0)
-    delta = points[:, None] - others.points[which]
-    half = others.half[which]
     # Axis by axis: NumPy is slow along the short axis of an array.
-    square = np.maximum(half[..., 0] ** 2 + half[..., 1] ** 2, 1e-18)
-    along = np.clip((delta[..., 0] * half[..., 0] + delta[..., 1] * half[..., 1]) / square, -1.0, 1.0)
-    rest = delta - along[..., None] * half
-    distance = np.where(there, np.hypot(rest[..., 0], rest[..., 1]), np.inf)
+    (dx, dy), (hx, hy) = (
+        tuple(first[:, None] - then[which] for first, then in zip(points.T, others.points.T, strict=True)),
+        tuple(half[which] for half in others.half.T),
+    )
+    along = np.clip((dx * hx + dy * hy) / np.maximum(hx**2 + hy**2, 1e-18), -1.0, 1.0)
+    distance = np.where(there, np.hypot(dx - along * hx, dy - along * hy), np.inf)
     return distance, others.along[which] + along * others.weight[which] / 2
 
 
@@ -173,7 +173,7 @@ def _beside(points: Floats, path: Places, along: Floats, infill: Samples, reach:
     """Return which points, at certain places along paths of some infill, have another stretch of it within `reach`."""
     from scipy.spatial import cKDTree
 
-    tree, number = cKDTree(infill.points), len(infill.points)
+    tree, number = cKDTree(infill.points, balanced_tree=False), len(infill.points)
     touches: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     left, count = np.arange(len(points)), NEIGHBOURS
     while len(left):

@@ -194,11 +194,13 @@ def _drawn(
     on_arc = np.flatnonzero(bent[source])
     which = corner[source[on_arc]]
     place = on_arc - start[source[on_arc]]
-    angle = turn[which] * place / chords[which]
-    left = np.sign(before[which, 0] * after[which, 1] - before[which, 1] * after[which, 0])
-    along, normal = before[which], np.stack([-before[which, 1], before[which, 0]], axis=1) * left[:, None]
-    along = along * (arc[which] * np.sin(angle) - setback[which])[:, None]
-    new[on_arc] += along + normal * (arc[which] * (1 - np.cos(angle)))[:, None]
+    angle = (turn / np.maximum(chords, 1))[which] * place
+    size = arc[which]
+    along, inwards = size * np.sin(angle) - setback[which], size * (1 - np.cos(angle))
+    left = np.sign(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+    # Axis by axis: NumPy is slow along the short axis of an array.
+    new[on_arc, 0] += along * before[which, 0] - inwards * (left * before[:, 1])[which]
+    new[on_arc, 1] += along * before[which, 1] + inwards * (left * before[:, 0])[which]
     if unit:
         new = np.rint(new / unit) * unit
     # Arcs that meet in the middle of a leg share a point there; an arc may end at a point of the path, which stays.

@@ -96,9 +96,17 @@ def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
         share[:, :2] = 0.0
         share[pushed > 0, 3] *= turning_only[pushed > 0]
         speed = np.where(turning_only, speed, np.minimum(speed, limit("feedrate")[:, :2].min(axis=1)))
-    with np.errstate(divide="ignore"):
-        speed = np.minimum(speed, (limit("feedrate") / share).min(axis=1))
-        acceleration = np.minimum(acceleration, (limit("axis_acceleration") / share).min(axis=1))
+    speed = _on_axes(speed, limit("feedrate"), share)
+    acceleration = _on_axes(acceleration, limit("axis_acceleration"), share)
     return Bounded(
         distance=distance, direction=direction, turning_only=turning_only, speed=speed, acceleration=acceleration
     )
+
+
+def _on_axes(asked: Floats, limit: Floats, share: Floats) -> Floats:
+    """Return what is asked for along moves, (N,), or less where it breaks the limit of an axis that has a share."""
+    with np.errstate(divide="ignore"):
+        for axis in range(4):  # NumPy is slow along the short axis of an array
+            if not np.isinf(limit[:, axis]).all():
+                asked = np.minimum(asked, limit[:, axis] / share[:, axis])
+    return asked

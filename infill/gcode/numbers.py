@@ -13,12 +13,24 @@ from numpy.typing import NDArray
 
 Bytes = NDArray[np.uint8]
 Places = NDArray[np.intp]
+Integers = NDArray[np.int64]
 
 MOST_DIGITS = 15  # a float64 holds them exactly
 LONGEST = MOST_DIGITS + 2  # with a sign and a point
 POWERS = 10.0 ** np.arange(LONGEST + 1)
 SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR = b" \t\n\r;(*"
 ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
+WORD = 8  # bytes
+
+
+def _eight(byte: int) -> np.uint64:
+    """Return a word with the same value in each of its bytes."""
+    return np.uint64(int.from_bytes(bytes([byte]) * WORD, "little"))
+
+
+_ONE, _EIGHT_BITS = np.uint64(1), np.uint64(3)  # a shift by which bytes become bits
+_HIGH, _LOW, _ZEROS = _eight(0x80), _eight(0x7F), _eight(ZERO)
+_OVER_NINE = _eight(0x80 - 10)  # added to a byte over 9, it sets the high bit
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,42 +67,96 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
     head = text[np.minimum(places, last)]
     negative = head == MINUS
     at = places + (negative | (head == PLUS))
-    digits = np.zeros(len(places), dtype=np.int64)
-    number = np.zeros(len(places), dtype=np.int8)  # of digits
-    decimals = np.zeros(len(places), dtype=np.int8)
-    pointed = np.zeros(len(places), dtype=bool)
-    going = np.ones(len(places), dtype=bool)
-    good = np.zeros(len(places), dtype=bool)
-    for step in range(LONGEST):
-        byte = text[np.minimum(at + step, last)]
-        digit = (byte - ZERO <= 9) & going  # bytes below 0 wrap around
-        point = (byte == POINT) & going & ~pointed
-        pointed |= point
-        np.multiply(digits, 10, out=digits, where=digit)
-        np.add(digits, byte - ZERO, out=digits, where=digit)
-        number += digit
-        decimals += digit & pointed
-        ends = going & ~(digit | point)
-        good |= ends & _ends_a_number(byte)
-        going &= ~ends
-        if not going.any():
-            break
-    good &= number > 0
-    values = digits / POWERS[decimals]
+    digits, number, decimals, whole = short_numbers(text, at)
+    long = np.flatnonzero(~whole)
+    if len(long):
+        digits[long], number[long], decimals[long] = long_numbers(text, at[long])
+    good = _ENDS[text[np.minimum(at + number + (decimals >= 0), last)]] & (number > 0) & (number <= MOST_DIGITS)
+    values = digits / POWERS[np.maximum(decimals, 0)]
     np.negative(values, where=negative, out=values)
     values[~good] = np.nan
     return values, good
 
 
+def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]:
+    """Read numbers without a sign, of up to `LONGEST` characters, one character after another.
+
+    Returns
+    -------
+    digits : (M,) int64
+        The digits as a whole number.
+    number : (M,) int64
+        How many there are.
+    decimals : (M,) int64
+        How many of them stand after the point; -1 without a point.
+    """
+    last = len(text) - 1
+    digits = np.zeros(len(at), dtype=np.int64)
+    number = np.zeros(len(at), dtype=np.int64)
+    decimals = np.full(len(at), -1)
+    going = np.ones(len(at), dtype=bool)
+    for step in range(LONGEST):
+        byte = text[np.minimum(at + step, last)]
+        digit = (byte - ZERO <= 9) & going  # bytes below 0 wrap around
+        point = (byte == POINT) & going & (decimals < 0)
+        np.multiply(digits, 10, out=digits, where=digit)
+        np.add(digits, byte - ZERO, out=digits, where=digit)
+        number += digit
+        decimals += (digit & (decimals >= 0)) | point
+        going &= digit | point
+        if not going.any():
+            break
+    return digits, number, decimals
+
+
+def short_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
+    """Read numbers as `long_numbers` does, each from one word of 64 bits whose lowest byte comes first.
+
+    Returns
+    -------
+    digits, number, decimals : (M,) int64
+    whole : (M,) bool
+        The number ends within these eight characters; else the others mean nothing.
+    """
+    padded = np.zeros(len(text) + 2 * WORD, dtype=np.uint8)
+    padded[: len(text)] = text
+    # Words begin at any byte: as items without alignment they are copied byte by byte, whatever the machine.
+    every: NDArray[np.void] = np.ndarray((len(text) + WORD,), dtype=f"V{WORD}", buffer=padded, strides=(1,))
+    words = every[np.minimum(at, len(text))].view("<u8").astype(np.uint64, copy=False) ^ _ZEROS
+    other = _not_digits(words)
+    first = other & (~other + _ONE)  # the lowest bit that is set
+    before = _place(first)
+    pointed = ((words >> (before << _EIGHT_BITS)) & np.uint64(0xFF) == POINT ^ ZERO) & (other != 0)
+    lower = (first >> np.uint64(7)) - _ONE
+    words = np.where(pointed, (words & lower) | ((words >> np.uint64(8)) & ~lower), words)
+    other = np.where(pointed, _not_digits(words) | np.uint64(0x80 << 56), other)
+    number = _place(other & (~other + _ONE))
+    whole = np.where(pointed, number < WORD - 1, other != 0)
+    # Digits end where the word ends, zeros before them; then pairs, fours and eights of them are put together.
+    words = np.where(number > 0, words << ((np.uint64(WORD) - number) % np.uint64(WORD) << _EIGHT_BITS), 0)
+    words = (words * np.uint64(10) + (words >> np.uint64(8))) & np.uint64(0x00FF00FF00FF00FF)
+    words = (words * np.uint64(100) + (words >> np.uint64(16))) & np.uint64(0x0000FFFF0000FFFF)
+    words = (words * np.uint64(10000) + (words >> np.uint64(32))) & np.uint64(0xFFFFFFFF)
+    count = number.astype(np.int64)
+    decimals = np.where(pointed, count - before.astype(np.int64), -1)
+    return words.astype(np.int64), count, decimals, whole
+
+
+def _not_digits(words: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Return words with the high bit of each byte that is over 9."""
+    marked: NDArray[np.uint64] = (((words & _LOW) + _OVER_NINE) | words) & _HIGH
+    return marked
+
+
+def _place(bit: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Return which byte has its high bit set, where one has it."""
+    place: NDArray[np.uint64] = (bit >> np.uint64(7)) * np.uint64(0x0001020304050607) >> np.uint64(56)
+    return place
+
+
 _ENDS = np.zeros(256, dtype=bool)
 _ENDS[[SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR]] = True
 _ENDS[list(b"ABCDFGHIJKLMNOPQRSTUVWXYZabcdfghijklmnopqrstuvwxyz")] = True  # no E: 1E5 is no number here
-
-
-def _ends_a_number(byte: Bytes) -> NDArray[np.bool_]:
-    """Return whether a byte may follow a number: a space, a line end, a comment, a checksum, the next word."""
-    ends: NDArray[np.bool_] = _ENDS[byte]
-    return ends
 
 
 def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Rows:
@@ -102,7 +168,7 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
         The prefix, such as ``b" X"``, stands before the number. A value that is NaN leaves its word out. Zeros that
         add nothing are left out, as slicers do: ``.5``, ``12``, ``-.031``.
     head, tail : bytes
-        Such as ``b"G1"`` and a line end.
+        Such as ``b"G1"``, and a line end.
 
     Returns
     -------
@@ -120,8 +186,9 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
         parts.append(word)
     parts.append(_constant(tail, rows))
     wide: Bytes = np.concatenate(parts, axis=1)
-    shown = wide != 0
-    return Rows(text=wide[shown].tobytes(), start=np.concatenate([[0], np.cumsum(shown.sum(axis=1))]))
+    text = wide.tobytes().translate(None, b"\0")
+    ends = np.flatnonzero(np.frombuffer(text, dtype=np.uint8) == NEWLINE)
+    return Rows(text=text, start=np.append(0, ends + 1))
 
 
 def _constant(text: bytes, rows: int) -> Bytes:
@@ -133,13 +200,19 @@ def _number(values: NDArray[np.float64], decimals: int) -> Bytes:
     """Return each value as text in a row of its own, 0 where there is no character."""
     scaled = np.rint(values * 10.0**decimals).astype(np.int64)
     rest = np.abs(scaled)
-    wide = len(str(int(rest.max()))) if len(rest) else 1
+    largest = int(rest.max(initial=0))
+    wide = len(str(largest))
+    if largest < 1 << 32:
+        rest = rest.astype(np.uint32)
+    ten = rest.dtype.type(10)
     places = max(wide, decimals + 1)
     text = np.zeros((len(values), places + 2), dtype=np.uint8)
     shown = np.zeros(len(values), dtype=bool)  # something other than 0 was met, from the right
     column = places + 1
     for place in range(places):
-        rest, digit = np.divmod(rest, 10)
+        tenth = rest // ten  # much quicker than divmod
+        digit = (rest - tenth * ten).astype(np.uint8)
+        rest = tenth
         if place == decimals and decimals:
             text[:, column] = np.where(shown, POINT, 0)
             column -= 1

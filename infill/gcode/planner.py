@@ -120,7 +120,8 @@ def settle(
     if limits[0].model == "klipper" and ratio.any():
         squares, cruise, known = _eased(bounds, joints, bounds.reach * (1 - ratio))
     else:
-        squares, cruise, known = look_ahead(joints, bounds.reach), bounds.speed**2, _known(joints, bounds.reach)
+        squares, cruise = look_ahead(joints, bounds.reach), bounds.speed**2
+        known = np.ones(1, dtype=bool) if ends else _known(joints, bounds.reach)
     known[0] = True
     settled = len(moves) if ends else int(np.flatnonzero(known)[-1])
     return settled, _trapezoids(bounds, squares, cruise, settled), float(squares[settled])
