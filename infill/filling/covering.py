@@ -15,6 +15,7 @@ from infill.checks import positive
 from infill.errors import ParameterError
 from infill.filling.clipping import clip
 from infill.filling.families.protocol import TOUCH, Family, Path, RegionFamily
+from infill.filling.ground import Ground
 from infill.filling.joining import join
 from infill.filling.ordering import order
 from infill.filling.outlines import Outline, outline_of
@@ -51,6 +52,7 @@ def cover(
     anchor: float = ANCHOR,
     anchor_max: float = ANCHOR_MAX,
     start: tuple[float, float] | None = None,
+    ground: Ground | None = None,
 ) -> list[Path]:
     """Return centre lines of a family inside a region, joined along its outline and in the order of printing.
 
@@ -65,6 +67,8 @@ def cover(
         As for `join`, mm.
     start : (x, y), optional
         Where the nozzle comes from, mm.
+    ground : Ground, optional
+        As for `join`.
 
     Returns
     -------
@@ -84,7 +88,7 @@ def cover(
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
     check_cell(cell, line_width)
-    paths = _joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max)
+    paths = _joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max, ground)
     return order(paths, start)
 
 
@@ -206,13 +210,14 @@ def _joined(
     radius: float,
     anchor: float,
     anchor_max: float,
+    ground: Ground | None = None,
 ) -> list[Path]:
     """Return the paths of a family in a region, in no order."""
     if isinstance(family, RegionFamily):
         return family.strands_inside(outline.region, cell=cell, line_width=line_width)
     strands = family.strands(outline.region.bounds, cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
     pieces = clip(strands, outline)
-    return join(pieces, outline, line_width=line_width, anchor=anchor, anchor_max=anchor_max)
+    return join(pieces, outline, line_width=line_width, anchor=anchor, anchor_max=anchor_max, ground=ground)
 
 
 def check_cell(cell: float, line_width: float) -> None:

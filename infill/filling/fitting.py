@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from infill.filling.covering import cover, total_length
 from infill.filling.families.protocol import TOUCH
+from infill.filling.ground import Ground
 from infill.filling.planning import Plan
 from infill.filling.rounding import rounded_paths
 from infill.filling.surroundings import Walls
@@ -101,6 +102,8 @@ class Place:
     layer : int
     speed, acceleration : float
         mm/s and mm/s².
+    ground : Ground, optional
+        The layer below, if paths should lie on it.
     """
 
     plan: Plan
@@ -109,6 +112,7 @@ class Place:
     layer: int
     speed: float
     acceleration: float
+    ground: Ground | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -173,6 +177,7 @@ def _covered(area: Polygon, cell: float, place: Place) -> Fitted:
         z=place.z,
         layer=place.layer,
         radius=plan.radius,
+        ground=place.ground,
     )
     strands = [path for path in strands if len(path) > 1]
     if not strands:

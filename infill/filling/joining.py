@@ -16,13 +16,22 @@ from numpy.typing import NDArray
 from infill.filling.clipping import Pieces
 from infill.filling.families.protocol import TOUCH, Path
 from infill.filling.gaps import CLEAR, Gaps, gaps_of
+from infill.filling.ground import Ground
 from infill.filling.outlines import Outline
 from infill.filling.pairing import walked_gaps
 
 SHORTEST = 2.0  # line widths; a path shorter than this is a dot
 
 
-def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, anchor_max: float) -> list[Path]:
+def join(
+    pieces: Pieces,
+    outline: Outline,
+    *,
+    line_width: float,
+    anchor: float,
+    anchor_max: float,
+    ground: Ground | None = None,
+) -> list[Path]:
     """Return paths joined along the outline.
 
     Parameters
@@ -36,6 +45,8 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
         Length of the anchor of an end that stays free, mm, at most.
     anchor_max : float
         Length of the outline along which two ends are joined, mm, at most; the shortest are joined first.
+    ground : Ground, optional
+        The layer below: where the outline lies on it, ends are joined before all others, and anchored.
 
     Returns
     -------
@@ -44,7 +55,8 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     """
     gaps = gaps_of(pieces, outline, line_width)
     apart = TOUCH * line_width
-    walked = walked_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart)
+    held = None if ground is None else _held(gaps, outline, ground)
+    walked = walked_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=held)
     link: dict[int, tuple[int, Path]] = {}
     for gap in np.flatnonzero(walked).tolist():
         begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])
@@ -55,8 +67,17 @@ def join(pieces: Pieces, outline: Outline, *, line_width: float, anchor: float, 
     kept = [chain for chain in chains if len(chain) > 1 or lengths[chain[0] // 2] >= SHORTEST * line_width]
     free = [end for chain in kept for end in (chain[0], chain[-1] ^ 1) if end not in link]
     heading = {end: _heading(pieces.paths[end // 2], end) for end in free}
-    anchors = _anchors(heading, gaps, walked, outline, anchor, apart)
+    anchors = _anchors(heading, gaps, walked, outline, anchor, apart, ground)
     return [_laid(chain, pieces.paths, link, anchors) for chain in kept]
+
+
+def _held(gaps: Gaps, outline: Outline, ground: Ground) -> NDArray[np.bool_]:
+    """Return whether the middles of gaps lie on something."""
+    middles = [
+        outline.points_at(ring, np.array([place + length / 2]))[0]
+        for ring, place, length in zip(gaps.ring.tolist(), gaps.place.tolist(), gaps.length.tolist(), strict=True)
+    ]
+    return ground.holds(np.array(middles).reshape(-1, 2))
 
 
 def _chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:
@@ -90,8 +111,12 @@ def _anchors(
     outline: Outline,
     anchor: float,
     apart: float,
+    ground: Ground | None,
 ) -> dict[int, Path]:
-    """Return the anchors of free ends, by end, from the end on: the longer way, or the blunter one if it is clear."""
+    """Return the anchors of free ends, by end, from the end on.
+
+    The way that lies on something, else the longer one, or the blunter one if it is clear.
+    """
     after = dict(zip(gaps.begin.tolist(), range(len(gaps.begin)), strict=True))
     before = dict(zip(gaps.end.tolist(), range(len(gaps.end)), strict=True))
     # Two anchors in a gap keep apart around a right angle too.
@@ -108,7 +133,8 @@ def _anchors(
                 place = float(gaps.place[onwards])
                 wall = outline.stretch(int(gaps.ring[onwards]), place, sign * reach)
                 blunt = bool((_heading(wall[:2], 1) * direction).sum() >= 0)
-                ways.append((reach + blunt * anchor, reach, gap, wall[1:]))
+                held = ground is not None and bool(ground.holds(wall[1:].mean(axis=0)[None])[0])
+                ways.append((reach + (blunt + 2 * held) * anchor, reach, gap, wall[1:]))
         if ways:
             _, reach, gap, anchors[end] = max(ways, key=lambda way: way[0])
             left[gap] -= reach

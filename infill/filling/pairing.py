@@ -1,6 +1,7 @@
 """Which gaps of an outline are walked: as many as possible, the short ones first, so that long open paths result.
 
-Step 1. Greedily: the shortest gap first, unless one of its ends is taken or it would close a loop.
+Step 1. Greedily: the shortest gap first, unless one of its ends is taken or it would close a loop; gaps that would lie
+        on something before all others.
 Step 2. Where two free ends of a ring have only walked pairs between them, walk the gaps beside those instead: ::
 
         o   o---o   o---o   o      two gaps walked, two ends free
@@ -19,7 +20,7 @@ from infill.filling.gaps import Gaps
 Chosen = NDArray[np.bool_]
 
 
-def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float) -> Chosen:
+def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held: Chosen | None = None) -> Chosen:
     """Return which gaps are walked, (G,) bool.
 
     Parameters
@@ -31,6 +32,8 @@ def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float) -> C
         Longer gaps are not walked, mm.
     overlapping : float
         Gaps whose ends are nearer than this may close a loop, mm.
+    held : (G,) bool, optional
+        Gaps along which there is something below.
     """
     possible = gaps.clear & (gaps.length <= most) & (gaps.begin != gaps.end)
     free = possible & (gaps.across < overlapping) & (gaps.length < 2 * overlapping)
@@ -38,7 +41,8 @@ def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float) -> C
     taken: set[int] = set()
     group = list(range(paths))
     order = np.flatnonzero(possible)
-    order = order[np.argsort(np.where(free, gaps.across - overlapping, gaps.length)[order], kind="stable")]
+    later = np.zeros(len(possible), dtype=bool) if held is None else ~held
+    order = order[np.lexsort((np.where(free, gaps.across, gaps.length)[order], (later & ~free)[order], ~free[order]))]
     begins, ends = gaps.begin.tolist(), gaps.end.tolist()
     for gap in order.tolist():
         begin, end = begins[gap], ends[gap]

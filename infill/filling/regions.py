@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.surroundings import Around, Walls
+from infill.filling.surroundings import Around, Walls, foot
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
@@ -29,6 +29,7 @@ STEP = 0.15  # mm between the points on beads
 INFILL_STEP = 0.2  # mm between the points on infill
 NODES = 0.2  # mm between the nodes of the grid
 REACH = 1.2  # mm: distances above this do not matter
+ACROSS = 1.5 * NODES  # mm: an outline passes between two nodes of which neither is farther from it
 ALONG_WALLS = 0.7  # mm: infill nearer than this to another bead runs along it
 SHARE_BESIDE, SHARE_BESIDE_SKINS = 0.1, 0.2  # of the points beside them that may lie nearer: where infill is anchored
 SKINS_FARTHER = 0.05  # mm that infill keeps further from skins, at most
@@ -150,10 +151,10 @@ def _free(kinds: Sequence[tuple[Walls, float]], grid: Floats) -> Polygon | Multi
     from skimage.measure import find_contours
 
     nodes = grid.reshape(-1, 2)
-    field = np.full(len(nodes), REACH)
+    field = np.full(len(nodes), ACROSS)
     for walls, distance in kinds:
-        np.minimum(field, walls.near(nodes, 0, REACH) - distance, out=field)
-    padded = np.pad(field.reshape(grid.shape[:2]), 1, constant_values=-REACH)
+        np.minimum(field, walls.near(nodes, 0, distance + ACROSS) - distance, out=field)
+    padded = np.pad(field.reshape(grid.shape[:2]), 1, constant_values=-ACROSS)
     contours = find_contours(padded, 0.0)  # type: ignore[no-untyped-call]
     lines = [shapely.LineString((line - 1) * NODES + grid[0, 0]) for line in contours if len(line) > 3]
     area = shapely.segmentize(shapely.build_area(shapely.GeometryCollection(lines)), NODES / 2)
@@ -167,11 +168,10 @@ def _kept_off(kinds: Sequence[tuple[Walls, float]], points: Floats) -> Floats:
     most = np.full(len(points), -np.inf)
     move = np.zeros(points.shape)
     for walls, distance in kinds:
-        apart, which = walls.tree.query(points)
-        # Points stand half a step to either side of the nearest place on their bead.
-        lacks = distance - np.sqrt(np.maximum(apart**2 - (STEP / 4) ** 2, 0.0))
+        nearest, apart = foot(points, walls)
+        lacks = distance - apart
         binding = lacks > most
-        away = (points - walls.points[which]) / np.maximum(apart, 1e-9)[:, None]
+        away = (points - nearest) / np.maximum(apart, 1e-9)[:, None]
         move[binding] = (away * lacks[:, None])[binding]
         most = np.maximum(most, lacks)
     move[np.abs(most) > MOST_OFF] = 0.0  # at the border of the grid

@@ -13,6 +13,7 @@ from infill.filling.batch import Batch
 from infill.filling.contact import sampled
 from infill.filling.covering import total_length
 from infill.filling.fitting import INSIDE, Column, Fitted, Place, column, fitted
+from infill.filling.ground import Ground, ground_of
 from infill.filling.planning import Plan
 from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.sharing import Group, grouped, lengths_of, unsure
@@ -44,6 +45,8 @@ class Memory:
         Of the areas of the region; for a pattern that repeats in every layer, the layer is 0.
     columns : list of Column
         One for each area.
+    ground : Ground, optional
+        The layer below the one in which the region began, for a pattern that repeats in every layer.
     owed : float
         mm of filament that beads could not be widened enough to take.
     """
@@ -52,6 +55,7 @@ class Memory:
     ways: Ways = field(default_factory=Ways)
     drawn: dict[tuple[int, int], Fitted] = field(default_factory=dict)
     columns: list[Column] = field(default_factory=list)
+    ground: Ground | None = None
     owed: float = 0.0
 
 
@@ -100,9 +104,11 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
         places, first = picked(batch.infill.first, some)
         region = region_of(around, sampled(batch.infill.points[places], first, INFILL_STEP).points, memory.region)
         if region is not memory.region:
+            below = [path for each in memory.drawn.values() for path in each.paths]
+            memory.ground = ground_of(below, plan.line_width) if plan.family.prismatic else None
             memory.drawn.clear()
         memory.region = region
-        groups, lost = grouped(region, batch.infill, some, batch.section)
+        groups = grouped(region, batch.infill, some, batch.section)
         here = {body.section: body for body in found if body.layer == number}
         held = lengths_of(groups)
         memory.columns = [
@@ -110,7 +116,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
         ]
         for group in groups:
             members = [here[each] for each in group.areas if each in here]
-            reason = unsure(group, members, lost)
+            reason = unsure(group, members)
             if not reason:
                 done = _filled(group, members, region, around.all, plan, memory, commanded)
                 fresh += done
@@ -140,6 +146,7 @@ def _filled(
             layer=body.layer,
             speed=body.feed / 60,
             acceleration=float(acceleration[body.strokes[0]]),
+            ground=memory.ground,
         )
         drawn = [_drawn(area, place, memory) for area in group.areas[body.section]]
         fresh.append(

@@ -17,7 +17,7 @@ from infill.ragged import picked
 Places = NDArray[np.intp]
 
 SHARED = 0.02  # of an area's infill may be another section's
-LOST = 0.1  # of a section's infill may lie outside every area that was found
+LOST = 0.1  # of the infill of sections that share areas may lie outside every area that was found
 STEP = 0.5  # mm between the points on infill that are looked up
 AROUND = 0.1  # mm around an area that belong to it
 
@@ -32,14 +32,17 @@ class Group:
         By section, the areas that it is to fill: those of which it printed more than the others.
     lengths : dict of int to float
         mm of the slicer's infill in each area.
+    lost : float
+        Share of it that lies outside every area.
     """
 
     areas: dict[int, tuple[int, ...]]
     lengths: dict[int, float]
+    lost: float
 
 
-def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> tuple[list[Group], set[int]]:
-    """Return the sections of a layer in groups that share areas, and the sections whose areas are not sure.
+def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> list[Group]:
+    """Return the sections of a layer in groups that share areas.
 
     Parameters
     ----------
@@ -57,14 +60,14 @@ def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> t
     shapely.prepare(grown)
     numbers = np.unique(section[some]).tolist()
     held = np.zeros((len(numbers), len(grown)))
-    lost: set[int] = set()
+    whole, lost = np.zeros((2, len(numbers)))  # mm
     for place, number in enumerate(numbers):
         places, first = picked(infill.first, some[section[some] == number])
         drawn = sampled(infill.points[places], first, STEP)
         inside = np.array([shapely.contains_xy(area, drawn.points[:, 0], drawn.points[:, 1]) for area in grown])
         held[place] = inside @ drawn.weight if len(grown) else 0.0
-        if not len(grown) or inside.any(axis=0).mean() < 1 - LOST:
-            lost.add(number)
+        whole[place] = drawn.weight.sum()
+        lost[place] = drawn.weight[~inside.any(axis=0)].sum() if len(grown) else whole[place]
     # A section that printed next to nothing of an area has no share in it.
     shares = held > SHARED * held.sum(axis=0)
     label = np.arange(len(numbers))
@@ -80,8 +83,9 @@ def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> t
             areas[numbers[place]] = tuple(own)
         amount = held[label == each].sum(axis=0)
         lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
-        groups.append(Group(areas=areas, lengths=lengths))
-    return groups, lost
+        share = float(lost[label == each].sum() / whole[label == each].sum())
+        groups.append(Group(areas=areas, lengths=lengths, lost=share))
+    return groups
 
 
 def lengths_of(groups: Sequence[Group]) -> dict[int, float]:
@@ -93,7 +97,7 @@ def lengths_of(groups: Sequence[Group]) -> dict[int, float]:
     return held
 
 
-def unsure(group: Group, members: Sequence[Body], lost: set[int]) -> str:
+def unsure(group: Group, members: Sequence[Body]) -> str:
     """Say why a group of sections cannot be filled anew; nothing if it can.
 
     Parameters
@@ -101,10 +105,8 @@ def unsure(group: Group, members: Sequence[Body], lost: set[int]) -> str:
     group : Group
     members : sequence of Body
         Its sections that can be drawn anew.
-    lost : set of int
-        Sections whose areas are not sure.
     """
-    if lost & set(group.areas):
+    if group.lost > LOST:
         return "no sure region"
     if len(members) < len(group.areas):
         return "shares its region with a section that is kept"

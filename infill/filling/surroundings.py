@@ -25,6 +25,7 @@ BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead t
 ANCHORED = 1 / 3  # line widths that a corner beside a bead may move away from it
 TOWARDS = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
+NEAREST = 3  # pieces of beads around a point, of which one is the nearest
 FEW = 500  # points: with so few, nothing is gained by looking where walls are
 FARTHEST = 1e5  # mm: no machine is larger
 MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
@@ -59,7 +60,11 @@ class Beads:
         low, high = np.searchsorted(self.layer, [number, number + 1])
         ends = self.ends[low:high].reshape(-1, 2)  # which stick out where lines turn
         skin = self.skin[low:high]
-        return Around(points=np.concatenate([found.points, ends]), skin=np.append(skin[found.path], np.repeat(skin, 2)))
+        return Around(
+            points=np.concatenate([found.points, ends]),
+            skin=np.append(skin[found.path], np.repeat(skin, 2)),
+            half=np.concatenate([found.half, np.zeros(ends.shape)]),
+        )
 
     def samples_of(self, number: int, step: float = FINE) -> Samples:
         """Return samples of the beads of a layer, at most `step` apart, mm."""
@@ -91,25 +96,28 @@ class Around:
     points : (N, 2) float64, mm
     skin : (N,) bool
         They lie on solid infill.
+    half : (N, 2) float64, mm, optional
+        From each to the end of the piece of its bead whose middle it is; without it, beads are points.
     """
 
     points: Floats
     skin: NDArray[np.bool_]
+    half: Floats | None = None
 
     @cached_property
     def all(self) -> Walls:
         """All of them, as layer 0."""
-        return walls_of(self.points)
+        return walls_of(self.points, half=self.half)
 
     @cached_property
     def walls(self) -> Walls:
         """Those that are no skins."""
-        return walls_of(self.points[~self.skin])
+        return walls_of(self.points[~self.skin], half=None if self.half is None else self.half[~self.skin])
 
     @cached_property
     def skins(self) -> Walls:
         """The skins."""
-        return walls_of(self.points[self.skin])
+        return walls_of(self.points[self.skin], half=None if self.half is None else self.half[self.skin])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,6 +132,8 @@ class Walls:
     pitch : float, mm
     low, high : (2,) float64, mm
         The box that holds them, before they were moved.
+    half : (K, 2) float64, mm
+        From each to the end of the piece of its bead whose middle it is.
     """
 
     points: Floats
@@ -131,6 +141,7 @@ class Walls:
     pitch: float
     low: Floats
     high: Floats
+    half: Floats
 
     @cached_property
     def tree(self) -> cKDTree:
@@ -189,7 +200,28 @@ class Walls:
         return found, number
 
 
-def walls_of(points: Floats, layer: Places | None = None) -> Walls:
+def foot(points: Floats, walls: Walls) -> tuple[Floats, Floats]:
+    """Return the nearest places on other beads of a single layer, (N, 2), mm, and how far they are, mm: exactly.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    walls : Walls
+        With at least one point.
+    """
+    _, which = walls.tree.query(points, k=min(NEAREST, len(walls.points)))
+    which = which.reshape(len(points), -1)
+    # Axis by axis: NumPy is slow along the short axis of an array.
+    (mx, my), (hx, hy) = ([column[which] for column in half.T] for half in (walls.points, walls.half))
+    dx, dy = points[:, :1] - mx, points[:, 1:] - my
+    along = np.clip((dx * hx + dy * hy) / np.maximum(hx**2 + hy**2, 1e-18), -1.0, 1.0)
+    apart = np.hypot(dx - along * hx, dy - along * hy)
+    rows, best = np.arange(len(points)), apart.argmin(axis=1)
+    nearest = np.stack([mx + along * hx, my + along * hy], axis=-1)[rows, best]
+    return nearest, apart[rows, best]
+
+
+def walls_of(points: Floats, layer: Places | None = None, half: Floats | None = None) -> Walls:
     """Return points on other beads, ready for searches.
 
     Parameters
@@ -197,15 +229,18 @@ def walls_of(points: Floats, layer: Places | None = None) -> Walls:
     points : (K, 2) float64, mm
     layer : (K,) int, optional
         Without it, all are of layer 0.
+    half : (K, 2) float64, mm, optional
+        Without it, beads are points.
     """
+    half = np.zeros(points.shape) if half is None else half
     layer = np.zeros(len(points), dtype=np.intp) if layer is None else layer
     real = (np.abs(points[:, 0]) < FARTHEST) & (np.abs(points[:, 1]) < FARTHEST)
-    points, layer = points[real], layer[real]
+    points, layer, half = points[real], layer[real], half[real]
     layers, slot = np.unique(layer, return_inverse=True)
     low = np.array([points[:, axis].min(initial=FARTHEST) for axis in (0, 1)])
     high = np.array([points[:, axis].max(initial=-FARTHEST) for axis in (0, 1)])
     pitch = float(high[0] - low[0]) + 4 * LARGEST_DISTANCE
-    return Walls(points=_moved(points, slot, pitch), layers=layers, pitch=pitch, low=low, high=high)
+    return Walls(points=_moved(points, slot, pitch), layers=layers, pitch=pitch, low=low, high=high, half=half)
 
 
 def _moved(points: Floats, slot: Places, pitch: float) -> Floats:
