@@ -15,8 +15,8 @@ from infill.filling.contact import STEP as CONTACT_STEP
 from infill.filling.contact import Contact, Samples, contact, merged, sampled
 from infill.filling.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
 from infill.filling.curves import GENTLE, MOST_BULGE, recut
-from infill.filling.regions import STEP, region_of
-from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, Around, bounded_deviation, walls_of
+from infill.filling.regions import NEARER, STEP, region_of
+from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, Around, bounded_deviation, foot, walls_of
 from infill.filling.timing import neutral_limits, path_seconds
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
@@ -492,6 +492,42 @@ def test_a_region_is_what_walls_leave_free(name: str, kept: float) -> None:
     assert whole.area == pytest.approx(wanted.area, rel=0.005)
     assert whole.difference(wanted.buffer(0.05)).is_empty
     assert wanted.difference(whole.buffer(0.25)).is_empty
+
+
+@pytest.mark.parametrize("name", AREAS)
+def test_a_region_is_bounded_exactly_by_pieces_of_beads(name: str) -> None:
+    """By pieces of beads, not by points on them: its outline lies nowhere nearer than asked, and is as simple."""
+    area = AREAS[name]
+    rings = [
+        shapely.get_coordinates(shapely.segmentize(ring, STEP)) for ring in shapely.get_rings(shapely.get_parts(area))
+    ]
+    middles = np.concatenate([(ring[1:] + ring[:-1]) / 2 for ring in rings])
+    half = np.concatenate([(ring[1:] - ring[:-1]) / 2 for ring in rings])
+    around = Around(points=middles, skin=np.zeros(len(middles), dtype=bool), half=half)
+    found = region_of(around, filled(area, 0.36))
+    whole = shapely.MultiPolygon(list(found.polygons))
+    apart = shapely.distance(shapely.points(shapely.get_coordinates(shapely.segmentize(whole, 0.1))), area.boundary)
+    assert apart.min() > found.distance - 2 * NEARER
+    straight = name in ("square", "two islands", "hole")
+    assert np.quantile(apart, 0.9 if straight else 0.5) < found.distance + 2 * NEARER
+
+
+@given(st.integers(0, 2**32 - 1))
+def test_the_foot_is_the_nearest_place_on_a_bead(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    path = np.cumsum(random.normal(0, 2, (6, 2)), axis=0)
+    some = sampled(path, np.array([0, len(path)]), STEP)
+    points = path[random.integers(0, len(path), 20)] + random.normal(0, 1, (20, 2))
+    place, apart = foot(points, walls_of(some.points, half=some.half))
+    line = shapely.LineString(path)
+    # Of the nearest pieces three are looked at: where lines come together, the nearest place may lie on a fourth.
+    np.testing.assert_allclose(apart, shapely.distance(shapely.points(points), line), atol=STEP / 10)
+    np.testing.assert_allclose(shapely.distance(shapely.points(place), line), 0, atol=1e-9)
+    np.testing.assert_allclose(np.hypot(*(points - place).T), apart, atol=1e-9)
+
+
+def test_without_beads_there_is_no_foot() -> None:
+    assert foot(np.zeros((2, 2)), walls_of(np.empty((0, 2))))[1].tolist() == [np.inf] * 2
 
 
 def test_what_holds_no_infill_is_no_region() -> None:

@@ -17,9 +17,11 @@ from infill.filling.clipping import clip
 from infill.filling.covering import cover, solve_cell, total_length
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.protocol import TOUCH, Path
+from infill.filling.ground import ground_of
 from infill.filling.joining import join
 from infill.filling.ordering import order, travel
 from infill.filling.outlines import outline_of
+from infill.filling.surroundings import walls_of
 
 WIDTH = 0.45
 GAP = TOUCH * WIDTH
@@ -217,6 +219,52 @@ def test_parallel_lines_become_one_path(count: int) -> None:
     region = outline_of(box(0, 0, 10, 2 * count))
     (path,) = join(clip(lines_across(count), region), region, line_width=WIDTH, anchor=0, anchor_max=12)
     assert length_of([path]) == pytest.approx(10 * count + 2 * (count - 1))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_equal_gaps_are_walked_on_one_side(seed: int) -> None:
+    """Touching waves are joined by hairpins at one end of each pair: all at one side, or the path would end between."""
+    ring = shapely.get_coordinates(shapely.segmentize(box(0, 0, 60, 60).exterior, 1))[:-1]
+    rough = Polygon(ring + np.random.default_rng(seed).uniform(-0.002, 0.002, ring.shape))
+    paths = cover(rough, FAMILIES["honeycomb"], cell=6, line_width=WIDTH, z=Z, layer=LAYER)
+    assert len(paths) == 1
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_ends_are_joined_above_what_lies_below(mirrored: bool) -> None:
+    region = outline_of(box(0, 0, 10, 8))
+    pieces = clip(lines_across(4), region)
+    plain = join(pieces, region, line_width=WIDTH, anchor=0, anchor_max=12)
+    below = [path * (-1, 1) + (10, 0) if mirrored else path for path in plain]
+    ground = ground_of(below, walls_of(np.empty((0, 2))), WIDTH)
+    paths = join(pieces, region, line_width=WIDTH, anchor=0, anchor_max=12, ground=ground)
+    assert multi(paths).equals(multi(below))
+    assert multi(plain).equals(multi(below)) != mirrored
+
+
+def test_free_ends_are_anchored_above_what_lies_below() -> None:
+    region = outline_of(box(0, 0, 10, 8))
+    pieces = clip(lines_across(2, apart=4.0), region)
+    for up in (-2.0, 2.0):
+        wall = shapely.segmentize(shapely.LineString([(10, 2), (10, 2 + up)]), 0.1)
+        ground = ground_of([], walls_of(shapely.get_coordinates(wall)), WIDTH)
+        (path,) = (
+            path
+            for path in join(pieces, region, line_width=WIDTH, anchor=1.5, anchor_max=0, ground=ground)
+            if path[:, 1].min() < 3
+        )
+        anchored = path[path[:, 0] > 10 - INSIDE]
+        assert np.ptp(anchored[:, 1]) == pytest.approx(1.5)
+        assert (anchored[:, 1].mean() - 2) * up > 0
+
+
+@given(regions(), st.sampled_from(list(FAMILIES)), st.floats(1.5, 9))
+def test_any_region_is_covered_soundly_above_another(region: Polygon | MultiPolygon, name: str, cell: float) -> None:
+    region = region.buffer(WIDTH).buffer(-WIDTH)
+    under = cover(region.buffer(0.4), FAMILIES[name], cell=cell, line_width=WIDTH, z=Z, layer=LAYER)
+    ground = ground_of(under, walls_of(shapely.get_coordinates(region)), WIDTH)
+    paths = cover(region, FAMILIES[name], cell=cell, line_width=WIDTH, z=Z, layer=LAYER, ground=ground)
+    assert_sound(paths, region)
 
 
 def test_gaps_longer_than_asked_are_not_walked() -> None:

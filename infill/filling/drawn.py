@@ -44,6 +44,7 @@ class Drawn:
     drawing: Drawing
     summary: str = "a drawing, repeated"
     prismatic: bool = True
+    wide: bool = False
 
     @property
     def left_out(self) -> tuple[str, ...]:

@@ -195,6 +195,7 @@ def _covered(area: Polygon, cell: float, place: Place) -> Fitted:
             rounding=plan.rounding_of(cell),
             line_width=plan.line_width,
             hard=hard,
+            wide=plan.family.wide,
         )
         lines = np.array([shapely.linestrings(path) for path in done])
         inside = shapely.covers(near, lines)

@@ -7,14 +7,33 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.contact import Contact, Samples, contact, merged, sampled
+from infill.filling.contact import MOST_POINTS, STEP, Contact, Samples, contact, merged, sampled
 from infill.filling.surroundings import Beads
 from infill.ragged import picked
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-MEASURED = 16  # layers of a print, about
+MEASURED = 16  # layers of a print, about; of small layers more, so that about as many points are looked at
+MOST_MEASURED = 128
+LARGE = MOST_POINTS * STEP  # mm of infill in a layer: of more, a sample is looked at
+
+
+def stride_of(layers: float, length: float) -> int:
+    """Return every how-many-th layer of a print is measured.
+
+    Parameters
+    ----------
+    layers : float
+        How many there are.
+    length : float
+        mm of infill in a layer, usually.
+
+    >>> stride_of(320, 5000.0), stride_of(320, 500.0), stride_of(320, 0.0)
+    (20, 5, 2)
+    """
+    number = min(MEASURED * max(1.0, LARGE / max(length, 1e-9)), MOST_MEASURED)
+    return max(1, round(layers / number))
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,6 +19,8 @@ from infill.filling.gaps import Gaps
 
 Chosen = NDArray[np.bool_]
 
+ALIKE = 0.02  # mm: gaps that differ by less are as long as one another
+
 
 def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held: Chosen | None = None) -> Chosen:
     """Return which gaps are walked, (G,) bool.
@@ -42,7 +44,10 @@ def walked_gaps(gaps: Gaps, paths: int, *, most: float, overlapping: float, held
     group = list(range(paths))
     order = np.flatnonzero(possible)
     later = np.zeros(len(possible), dtype=bool) if held is None else ~held
-    order = order[np.lexsort((np.where(free, gaps.across, gaps.length)[order], (later & ~free)[order], ~free[order]))]
+    # Of gaps as long as one another, those that follow one another along the ring: on either side of a row of equal
+    # paths, all of one side come first.
+    length = np.rint(np.where(free, gaps.across, gaps.length) / ALIKE)
+    order = order[np.lexsort((length[order], (later & ~free)[order], ~free[order]))]
     begins, ends = gaps.begin.tolist(), gaps.end.tolist()
     for gap in order.tolist():
         begin, end = begins[gap], ends[gap]

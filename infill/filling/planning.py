@@ -146,6 +146,7 @@ def planned(
             speed=USUAL_SPEED,
             rounding=plan.rounding_of(cell),
             line_width=width,
+            wide=family.wide,
         )
         return total_length(done)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -17,9 +17,10 @@ from infill.filling.ground import Ground, ground_of
 from infill.filling.planning import Plan
 from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.sharing import Group, grouped, lengths_of, unsure
-from infill.filling.surroundings import Walls
+from infill.filling.surroundings import Around, Walls
 from infill.gcode.bodies import Body, Ways, bodies
 from infill.gcode.splicing import UNIT
+from infill.kernels.threads import in_order
 from infill.ragged import picked
 
 if TYPE_CHECKING:
@@ -45,6 +46,8 @@ class Memory:
         Of the areas of the region; for a pattern that repeats in every layer, the layer is 0.
     columns : list of Column
         One for each area.
+    others : Walls, optional
+        Its other beads.
     ground : Ground, optional
         The layer below the one in which the region began, for a pattern that repeats in every layer.
     owed : float
@@ -56,6 +59,7 @@ class Memory:
     drawn: dict[tuple[int, int], Fitted] = field(default_factory=dict)
     columns: list[Column] = field(default_factory=list)
     ground: Ground | None = None
+    others: Walls | None = None
     owed: float = 0.0
 
 
@@ -98,16 +102,16 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
     found, reasons = bodies(batch.table, batch.marks, batch.infill)
     commanded = batch.acceleration(acceleration)
     fresh: list[Fresh] = []
-    for number in np.unique(batch.layer).tolist():
+    # Regions need nothing of what is drawn: the next one is looked for meanwhile.
+    for number, (region, around) in in_order(_looker(batch, memory.region), np.unique(batch.layer).tolist(), threads=1):
         some = np.flatnonzero(batch.layer == number)
-        around = batch.others.around(number, STEP)
-        places, first = picked(batch.infill.first, some)
-        region = region_of(around, sampled(batch.infill.points[places], first, INFILL_STEP).points, memory.region)
         if region is not memory.region:
             below = [path for each in memory.drawn.values() for path in each.paths]
-            memory.ground = ground_of(below, plan.line_width) if plan.family.prismatic else None
+            memory.ground = None
+            if memory.others is not None and plan.family.prismatic:
+                memory.ground = ground_of(below, memory.others, plan.line_width)
             memory.drawn.clear()
-        memory.region = region
+        memory.region, memory.others = region, around.all
         groups = grouped(region, batch.infill, some, batch.section)
         here = {body.section: body for body in found if body.layer == number}
         held = lengths_of(groups)
@@ -124,6 +128,20 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
             if reason:
                 reasons[reason] = reasons.get(reason, 0) + len(members)
     return sorted(fresh, key=lambda each: each.body.first), reasons
+
+
+def _looker(batch: Batch, before: Region | None) -> Callable[[int], tuple[Region, Around]]:
+    """Return what tells the region of a layer and its other beads, of one layer after another."""
+    last = before
+
+    def looked(number: int) -> tuple[Region, Around]:
+        nonlocal last
+        around = batch.others.around(number, STEP)
+        places, first = picked(batch.infill.first, np.flatnonzero(batch.layer == number))
+        last = region_of(around, sampled(batch.infill.points[places], first, INFILL_STEP).points, last)
+        return last, around
+
+    return looked
 
 
 def _filled(

@@ -185,6 +185,7 @@ def rounded_paths(
     rounding: Rounding,
     line_width: float,
     hard: NDArray[np.bool_] | None = None,
+    wide: bool = False,
 ) -> tuple[list[Floats], Floats]:
     """Return paths of layer 0 with round corners, and the radii of their arcs, mm; see `corners_of`."""
     if not len(paths):
@@ -200,6 +201,7 @@ def rounded_paths(
         corner=rounding.corner,
         line_width=line_width,
         hard=hard,
+        wide=wide,
     )
     done = corners.rounded(rounding)
     return parted(done.points, done.first), done.radius

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.batch import Batch
-from infill.filling.measuring import MEASURED
+from infill.filling.measuring import stride_of
 from infill.filling.request import SAME, Request
 from infill.filling.rounding import Rounding
 from infill.filling.timing import neutral_limits
@@ -69,6 +69,7 @@ def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
     """Return the rules for a print, from what its header and some of its layers tell."""
     jerk = found.number("machine_max_jerk_x") if found.number("machine_max_junction_deviation") is None else None
     speeds = [batch.table.f[batch.infill.opens] for batch in some]
+    lengths = [batch.infill.length[batch.layer == layer].sum() for batch in some for layer in np.unique(batch.layer)]
     cooled = found.settings.get("cooling", "1") != "0"
     least = found.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
@@ -85,7 +86,7 @@ def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
         usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
         least_layer=least or 0.0,
         resets_filament=found.resets_filament,
-        stride=max(1, round(found.layers / MEASURED)),
+        stride=stride_of(found.layers, float(np.median(lengths)) if lengths else 0.0),
     )
 
 

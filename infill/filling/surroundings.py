@@ -207,8 +207,10 @@ def foot(points: Floats, walls: Walls) -> tuple[Floats, Floats]:
     ----------
     points : (N, 2) float64, mm
     walls : Walls
-        With at least one point.
+        Without any, all are infinitely far.
     """
+    if not len(walls.points):
+        return points, np.full(len(points), np.inf)
     _, which = walls.tree.query(points, k=min(NEAREST, len(walls.points)))
     which = which.reshape(len(points), -1)
     # Axis by axis: NumPy is slow along the short axis of an array.

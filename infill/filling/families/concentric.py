@@ -21,6 +21,7 @@ class Concentric:
     name: str = "concentric"
     summary: str = "lines that follow the outline of the region"
     prismatic: bool = True
+    wide: bool = False
 
     def strands(
         self,

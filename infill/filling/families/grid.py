@@ -25,6 +25,7 @@ class Zigzags:
     summary: str
     angle: float = 0.0
     prismatic: bool = True
+    wide: bool = False
 
     def strands(
         self,

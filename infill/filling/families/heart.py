@@ -25,6 +25,7 @@ class ConcentricHeart:
     name: str = "concentric-heart"
     summary: str = "nested hearts; lines that follow an outline and never cross"
     prismatic: bool = True
+    wide: bool = False
     middle: tuple[float, float] | None = None
     angle: float = 0.0
 

@@ -22,6 +22,7 @@ class Hilbert:
     name: str = "hilbert"
     summary: str = "one line that folds itself through the region, equally stiff in both directions"
     prismatic: bool = True
+    wide: bool = True
 
     def strands(
         self,
@@ -50,8 +51,8 @@ class Hilbert:
         return TOUCH * line_width / density
 
     def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
-        """Return the radius at which the arcs of a step meet, mm."""
-        return cell / 2
+        """Return the radius at which the arcs of a step meet, mm: of corners taken wide."""
+        return cell
 
 
 def numbers(x: NDArray[np.int64], y: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -26,6 +26,7 @@ class Honeycomb:
     name: str = "honeycomb"
     summary: str = "hexagons drawn as touching waves; stiff in every direction for little material"
     prismatic: bool = True
+    wide: bool = False
     flats: float = 1.0
 
     def strands(

@@ -31,6 +31,7 @@ class Honeycomb3D:
     name: str = "honeycomb-3d"
     summary: str = "truncated octahedra; closed cells that are stiff in height as well"
     prismatic: bool = False
+    wide: bool = False
 
     def strands(
         self,

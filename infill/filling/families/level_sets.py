@@ -32,6 +32,7 @@ class Gyroid:
     name: str = "gyroid"
     summary: str = "smooth waves that turn with height; equally stiff in every direction"
     prismatic: bool = False
+    wide: bool = False
 
     def strands(
         self,
@@ -79,6 +80,7 @@ class SchwarzP:
     name: str = "schwarz-p"
     summary: str = "smooth tubes along three axes; every one a closed loop"
     prismatic: bool = False
+    wide: bool = False
 
     def strands(
         self,
@@ -121,6 +123,7 @@ class SchwarzD:
     name: str = "schwarz-d"
     summary: str = "smooth waves at 45 degrees that turn with height, as atoms in diamond are bound"
     prismatic: bool = False
+    wide: bool = False
 
     def strands(
         self,

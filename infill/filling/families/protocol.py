@@ -31,6 +31,8 @@ class Family(Protocol):
         What the family is for, in one phrase.
     prismatic : bool
         True if every layer is equal, so that each bead lies on the one below, however it is rounded.
+    wide : bool
+        True if its corners are taken wide where there is room: its lines stand alone, so that none is torn off another.
     """
 
     @property
@@ -46,6 +48,11 @@ class Family(Protocol):
     @property
     def prismatic(self) -> bool:
         """True if every layer is equal."""
+        ...
+
+    @property
+    def wide(self) -> bool:
+        """True if its corners are taken wide."""
         ...
 
     def strands(

@@ -16,6 +16,7 @@ class Rectilinear:
     name: str = "rectilinear"
     summary: str = "straight lines, across one another from layer to layer; quick to print"
     prismatic: bool = False
+    wide: bool = False
 
     def strands(
         self,

@@ -41,6 +41,7 @@ class Threefold:
     share: float = 0.0
     rises: bool = False
     prismatic: bool = True
+    wide: bool = False
 
     def strands(
         self,

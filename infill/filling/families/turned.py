@@ -32,6 +32,11 @@ class Turned:
         """True if every layer is equal."""
         return self.family.prismatic
 
+    @property
+    def wide(self) -> bool:
+        """True if its corners are taken wide."""
+        return self.family.wide
+
     def strands(
         self, bounds: Bounds, *, cell: float, line_width: float, z: float, layer: int, radius: float
     ) -> list[Path]:
