@@ -13,36 +13,24 @@ import io
 import math
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from infill.errors import FormatError
 from infill.filling.prints import copy_mode, pieces, retold, write_print
-from infill.filling.request import AUTO, KEEP, Request
-from infill.formats.whole_files import check_target, scratch, told, whole_file
-from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
+from infill.filling.request import AUTO, KEEP, Progress, Request
+from infill.formats.whole_files import check_target, scratch, whole_file
+from infill.gcode.estimates import Change, said_seconds, told_anew
 from infill.inspection.sliced_file import SlicedText, opened
-from infill.kernels.threads import in_order, thread_count
 from infill.version import __version__
 
 if TYPE_CHECKING:
-    from infill.filling.batch import Batch
-    from infill.filling.layers import Refilled
-    from infill.filling.planning import Plan
     from infill.filling.rules import Rules
     from infill.filling.tally import Tally
     from infill.gcode.survey import Survey
 
-Progress = Callable[[str, float], None]
 HEAD = 1 << 16  # bytes in which the header ends
-SHOWN = 1 << 22  # bytes between two reports of progress
-AGAIN = 3  # times that a print is drawn anew, with corners that move less
-EVENED = 6  # times that a small one is, at another cell
-EVEN = 0.005  # of the filament of all infill, that it may be off
-SMALL = 1 << 19  # bytes of a print that is drawn anew to take the filament that it took
-MOST_THREADS = 4  # more of them would only take memory: one reads what all the others draw
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -245,10 +233,11 @@ def _report(request: Request, parts: Sequence[_Done], plates: Sequence[int] = ()
 
 def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
     """Write the new text to a draft."""
+    from infill.filling.drafting import drafted
     from infill.filling.placement import family_of
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
-    from infill.filling.support import kept_shares, largest_deviation, samples, smaller_deviation
+    from infill.filling.support import largest_deviation, samples
     from infill.gcode.survey import survey
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
@@ -267,19 +256,7 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
-    tally = _drafted(given.text, draft, found, rules, plan, progress)
-    if plan is not None and plan.density is None and not plan.fixed and found.size <= SMALL:
-        tally = _evened(tally, plan, lambda other: _drafted(given.text, draft, found, rules, other, progress))
-    last = 0.0
-    for _ in range(AGAIN if request.pattern == KEEP and request.smooth_radius == AUTO else 0):
-        # A few layers told how far corners may move; all that were measured since have the last word.
-        kept = min(kept_shares(tally.before, tally.after))
-        smaller = smaller_deviation(rules.rounding.deviation, kept, last)
-        if smaller == rules.rounding.deviation:
-            break
-        last = kept
-        rules = rules.rounded_by(smaller)
-        tally = _drafted(given.text, draft, found, rules, plan, progress)
+    tally, rules = drafted(given.text, draft, found, rules, plan, progress)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
@@ -290,31 +267,6 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
         edits.append(_stamp(draft, tally))
     metadata = retold(given.metadata, change, said)
     return _Done(found=found, draft=draft, tally=tally, rules=rules, edits=tuple(sorted(edits)), metadata=metadata)
-
-
-def _evened(tally: Tally, plan: Plan, drafted: Callable[[Plan], Tally]) -> Tally:
-    """Draw a small print again, at other cells, until its infill takes the filament that it took; else at the best.
-
-    In a large one, what a layer takes too much or too little is made up for in the next ones.
-    """
-
-    def off(some: Tally) -> float:
-        return some.infill_after.filament / some.infill.filament - 1 if some.infill.filament else 0.0
-
-    best, least, drawn = plan, abs(off(tally)), plan
-    found: dict[float, float] = {}  # what was off, by cell
-    for _ in range(EVENED):
-        error = found[drawn.cell] = off(tally)
-        if abs(error) <= EVEN:
-            return tally
-        # The filament jumps with the cell: between two cells that take too much and too little, if they are known.
-        across = [cell for cell, other in found.items() if other * error < 0]
-        nearest = min(across, key=lambda cell: abs(cell - drawn.cell), default=0.0)
-        drawn = drawn.with_cell(math.sqrt(nearest * drawn.cell) if nearest else drawn.cell * (1 + error))
-        tally = drafted(drawn)
-        if abs(off(tally)) < least:
-            best, least = drawn, abs(off(tally))
-    return tally if drawn is best else drafted(best)
 
 
 def _section(found: Survey) -> float:
@@ -341,46 +293,3 @@ def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
     ends = b"\r\n" if line.endswith(b"\r\n") else b"\n"
     text = b"%s %s: %d of %d sections%s" % (STAMP, __version__.encode(), tally.replaced, tally.sections, ends)
     return place, 0, text
-
-
-def _drafted(
-    file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, plan: Plan | None, progress: Progress | None
-) -> Tally:
-    """Write the new text to a draft."""
-    from infill.filling.batch import read_batches
-    from infill.filling.layers import measured_contact, refilled
-    from infill.filling.replacing import Memory
-    from infill.filling.tally import Tally
-
-    file.seek(0)
-    draft.seek(0)
-    draft.truncate()
-    tally, memory, below, tags = Tally(), Memory(), None, None
-    done = shown = 0
-
-    def work(batch: Batch) -> Refilled:
-        return refilled(batch, rules, plan, memory)
-
-    # Our own paths continue those of the layer below, so that batches come one after another.
-    threads = min(thread_count(), MOST_THREADS) if plan is None else 1
-    with told(Path("a temporary file")):
-        for batch, new in in_order(work, read_batches(file), threads=threads):
-            before, after, below = measured_contact(batch, new, below, rules.stride)
-            tally.add(new.tally)
-            tally.before += before
-            tally.after += after
-            for first, last in estimates(new.text):
-                tally.lines.append((draft.tell() + first, new.text[first:last], tally.saved))
-            draft.write(new.text)
-            tags = batch.marks.after
-            done += len(batch.table.data)
-            if progress is not None and done >= shown:
-                progress("drawing infill", done / max(found.size, 1))
-                shown = done + SHOWN
-        draft.flush()
-    if tags is None or not tags.layer:
-        raise FormatError(
-            "the file has no marked layers; give the G-code of PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio "
-            "or Cura, with its comments"
-        )
-    return tally

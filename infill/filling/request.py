@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from infill.checks import positive, within
 from infill.errors import ParameterError
 from patterns.errors import PatternError
 
+Progress = Callable[[str, float], None]
 KEEP = "keep"
 AUTO = "auto"
 SAME = "same"

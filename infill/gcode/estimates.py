@@ -6,8 +6,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 _LINE = re.compile(
     rb"^(?:M73 [^\n]*|; (?:total )?filament used \[[a-z0-9]+\] = [^\n]*|; (?:total )?filament cost = [^\n]*"
     rb"|; total filament (?:length|volume|weight) \[[a-z0-9^]+\] : [^\n]*"
@@ -72,6 +70,8 @@ def estimates(text: bytes) -> Iterator[tuple[int, int]]:
 
 def _line_begins(text: bytes) -> Iterator[int]:
     """Yield where lines begin with a semicolon or an M: few of those in a print."""
+    import numpy as np  # later: a command that finds no file needs none
+
     data = np.frombuffer(text, dtype=np.uint8)
     begins = np.concatenate([[0], np.flatnonzero(data == ord("\n")) + 1])
     begins = begins[begins < len(data)]

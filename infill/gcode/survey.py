@@ -67,6 +67,11 @@ class Survey:
     windows: tuple[bytes, ...]
 
     @property
+    def small(self) -> bool:
+        """Nearly every layer was looked at."""
+        return self.size <= SMALL
+
+    @property
     def layers(self) -> float:
         """About how many layers there are."""
         there = sum(len(LAYER_TAG.findall(text)) for text in self.windows)
