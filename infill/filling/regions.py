@@ -46,6 +46,7 @@ FEWEST = 10  # points beside other beads that tell a distance
 POLYGON = 3  # what Shapely calls it
 STRAIGHTENED = 0.5  # mm: dents in an outline that are narrower than twice that are left out
 ARM = 0.3  # mm²: an arm as large as this stays, however narrow
+CROSSED = 1e-4  # mm between the points of the grid on which outlines are divided that cross themselves
 MOST_NODES = 20_000_000  # of a grid: a square of 900 mm; a region beyond that is not looked for
 
 
@@ -158,9 +159,28 @@ def _free(kinds: Sequence[tuple[Walls, float]], grid: Floats) -> Polygon | Multi
     contours = find_contours(padded, 0.0)  # type: ignore[no-untyped-call]
     lines = [shapely.LineString((line - 1) * NODES + grid[0, 0]) for line in contours if len(line) > 3]
     area = shapely.segmentize(shapely.build_area(shapely.GeometryCollection(lines)), NODES / 2)
-    free = shapely.simplify(shapely.transform(area, partial(_kept_off, kinds)), NEARER / 2)
-    found: Polygon | MultiPolygon = free if shapely.is_valid(free) else shapely.make_valid(free, method="structure")
-    return found
+    free: Polygon | MultiPolygon = shapely.simplify(shapely.transform(area, partial(_kept_off, kinds)), NEARER / 2)
+    if not shapely.is_valid(free):
+        free = _divided(free, kinds)
+    return free
+
+
+def _divided(free: Polygon | MultiPolygon, kinds: Sequence[tuple[Walls, float]]) -> Polygon | MultiPolygon:
+    """Return what is free of an area whose outlines cross, as they may where points were moved.
+
+    On a grid, lines can always be divided where they cross; of the faces between them, those are free that are as far
+    from other beads as they should be.
+    """
+    import shapely
+
+    lines = shapely.union_all([shapely.boundary(free)], grid_size=CROSSED)
+    faces = shapely.get_parts(shapely.polygonize(shapely.get_parts(lines)))
+    inside = shapely.get_coordinates(shapely.point_on_surface(faces))
+    clear = np.ones(len(faces), dtype=bool)
+    for walls, distance in kinds:
+        clear &= foot(inside, walls)[1] > distance
+    whole: Polygon | MultiPolygon = shapely.union_all(faces[clear])
+    return whole
 
 
 def _kept_off(kinds: Sequence[tuple[Walls, float]], points: Floats) -> Floats:
