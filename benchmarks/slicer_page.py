@@ -14,8 +14,8 @@ from benchmarks.slicer_promises import (
     WIDE,
     Runs,
     against_keep,
-    cells_across,
     filament,
+    is_wide,
     middle,
     pairs,
     promises,
@@ -109,9 +109,10 @@ def _printers() -> str:
 def promises_section(results: dict[str, Any]) -> str:
     """Return the table of promises: what was promised, what was measured, whether it was reached."""
     runs: Runs = results["runs"]
+    widths: dict[str, float] = results.get("widths", {})
     rows: list[Sequence[str]] = []
     for promise in promises():
-        found = promise.judged(runs)
+        found = promise.judged(runs, widths)
         if found is None:
             rows.append((promise.text, promise.limit, "-", "-", "not measured"))
             continue
@@ -119,11 +120,7 @@ def promises_section(results: dict[str, Any]) -> str:
         spread = f"{promise.show.format(min(values))} to {promise.show.format(max(values))}, {_runs(values)}"
         rows.append((promise.text, promise.limit, promise.show.format(value), spread, verdict(promise.reached(value))))
     for pattern in ("gyroid", "hilbertcurve"):
-        wide = [
-            value
-            for case, value in against_keep(runs, pattern)
-            if cells_across(results.get("widths", {}), case) >= WIDE
-        ]
+        wide = [value for case, value in against_keep(runs, pattern) if is_wide(widths, case)]
         text = f"our {OURS[pattern]} against `keep` of the slicer's, regions wider than {WIDE} cells, middle over runs"
         if wide:
             spread = f"{min(wide):+.1%} to {max(wide):+.1%}, {_runs(wide)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import statistics
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from benchmarks.slicer_cases import Case, case_of
@@ -91,6 +91,8 @@ class Promise:
         Whether that number is good enough.
     show : callable
         The number, as a reader sees it.
+    wide : bool
+        Only of cases whose regions are wider than `WIDE` cells.
     """
 
     text: str
@@ -101,11 +103,20 @@ class Promise:
     collect: Callable[[Sequence[float]], float]
     reached: Callable[[float], bool]
     show: str = "{:.1%}"
+    wide: bool = False
 
-    def judged(self, runs: Runs) -> tuple[float, list[float]] | None:
+    def judged(self, runs: Runs, widths: dict[str, float]) -> tuple[float, list[float]] | None:
         """Return the one number and those of the cases, or None without any."""
-        values = [self.measure(own, other) for _, own, other in pairs(runs, self.mode, **self.chosen)]
+        values = [
+            self.measure(own, other)
+            for case, own, other in pairs(runs, self.mode, **self.chosen)
+            if not self.wide or is_wide(widths, case)
+        ]
         return (self.collect(values), values) if values else None
+
+    def of_wide(self) -> Promise:
+        """Return the same promise for parts whose regions are wide."""
+        return replace(self, text=f"{self.text}, regions wider than {WIDE} cells", wide=True)
 
 
 def promises() -> list[Promise]:
@@ -122,17 +133,16 @@ def promises() -> list[Promise]:
         ("gyroid", "fast", 0.40),
     ):
         chosen = {"slicer": "prusa", "pattern": pattern, "printer": printer}
-        found.append(
-            Promise(
-                text=f"keep, {pattern}, {printer} printer, equal filament: infill time saved, middle over parts",
-                limit=f"at least {100 * least:.0f} %",
-                mode=SAME,
-                chosen=chosen,
-                measure=saved,
-                collect=middle,
-                reached=lambda value, least=least: value >= least,  # type: ignore[misc]
-            )
+        promise = Promise(
+            text=f"keep, {pattern}, {printer} printer, equal filament: infill time saved, middle over parts",
+            limit=f"at least {100 * least:.0f} %",
+            mode=SAME,
+            chosen=chosen,
+            measure=saved,
+            collect=middle,
+            reached=lambda value, least=least: value >= least,  # type: ignore[misc]
         )
+        found += [promise, promise.of_wide()]
     for pattern in ("honeycomb", "3dhoneycomb", "hilbertcurve", "gyroid"):
         found.append(
             Promise(
@@ -215,7 +225,7 @@ def promises() -> list[Promise]:
             show="{:.2f}",
         ),
     ]
-    return found
+    return found + [promise.of_wide() for promise in found[-3:]]
 
 
 def against_keep(runs: Runs, pattern: str) -> list[tuple[Case, float]]:
@@ -226,6 +236,11 @@ def against_keep(runs: Runs, pattern: str) -> list[tuple[Case, float]]:
         for case, _, ours in pairs(runs, "ours", slicer="prusa", pattern=pattern)
         if case in kept_runs
     ]
+
+
+def is_wide(widths: dict[str, float], case: Case) -> bool:
+    """Return whether the regions of a case are as wide as promises take them to be."""
+    return cells_across(widths, case) >= WIDE
 
 
 def cells_across(widths: dict[str, float], case: Case) -> float:

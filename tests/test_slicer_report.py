@@ -108,13 +108,15 @@ def results(**changed: float) -> dict:
 def test_every_promise_can_be_kept_and_each_can_be_broken() -> None:
     assert "NOT reached" not in page(results(), 468, "x")
     assert "not measured" not in page(results(), 468, "x")
-    runs = results()["runs"]
+    made = results()
+    runs, widths = made["runs"], made["widths"]
     for modes in runs.values():
         for mode in MODES[1:]:
             modes[mode] |= {"seconds": 130.0, "turns": 900, "supported": 0.5, "filament": 600.0, "retractions": 91}
     for promise in promises():
-        value, _ = promise.judged(runs)
+        value, _ = promise.judged(runs, widths)
         assert not promise.reached(value), promise.text
+        assert promise.wide == (promise.judged(runs, {"box": 5.0}) is None)
 
 
 @pytest.mark.parametrize("changed", [{"supported": 0.85}, {"bonded": 0.45}, {"seconds": 102.0}])
