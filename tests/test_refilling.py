@@ -17,9 +17,13 @@ from infill.filling.batch import Batch
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.measuring import Drawing, measured
 from infill.filling.planning import planned
+from infill.filling.request import Request
 from infill.filling.rounding import Rounding
+from infill.filling.rules import Rules
 from infill.filling.support import AIM, LEAST_SHARE, first_enough, largest_deviation, samples
 from infill.filling.surroundings import Beads
+from infill.filling.tally import Amounts, Tally
+from infill.filling.telling import report_of_refill
 from infill.gcode.survey import survey
 from infill.ragged import packed
 from tests.gcode_judge import judge, lines_of
@@ -97,6 +101,39 @@ def test_a_pattern_takes_the_filament_that_was_there(name: str, taller: Path, tm
     assert report["sections"] == {"all": 6, "replaced": 6, "kept": {}}
     assert judge(old, new, filament=(0.99, 1.01)) == []
     assert len(RETRACTION.findall(new)) <= len(RETRACTION.findall(old))
+
+
+@pytest.mark.parametrize(("part", "name"), [("far_out_ring", "honeycomb"), ("spur_gear", "honeycomb")])
+def test_what_small_regions_owe_is_paid(part: str, name: str, data: Path, tmp_path: Path) -> None:
+    """Cells that lay 15 % too little, in column upon column, are chosen anew; and what is off is told."""
+    sliced = prusa_print(
+        data / "printable" / f"{part}.stl", tmp_path / "part.gcode", {"fill_pattern": "grid", "fill_density": "20%"}
+    )
+    report = refill(sliced, output=tmp_path / "new.gcode", pattern=name).report
+    filament = report["filament"]
+    assert filament["infill_after_mm"] / filament["infill_before_mm"] == pytest.approx(1, abs=0.01)
+    assert not any("filament" in problem for problem in report["problems"])
+
+
+@pytest.mark.parametrize(
+    ("asked", "ratio", "told"),
+    [
+        ({"pattern": "grid"}, 0.985, True),
+        ({"pattern": "grid"}, 1.015, True),
+        ({"pattern": "grid"}, 0.995, False),
+        ({"pattern": "grid", "density": 0.3}, 0.5, False),
+        ({"pattern": "grid", "parameters": {"cell": 4.0}}, 0.5, False),
+        ({"pattern": "keep"}, 0.93, False),
+    ],
+)
+def test_filament_that_is_off_is_told(asked: dict[str, Any], ratio: float, told: bool, honeycomb: Path) -> None:
+    with honeycomb.open("rb") as file:
+        found = survey(file)
+    tally = Tally(sections=1, replaced=1, infill=Amounts(filament=100.0), infill_after=Amounts(filament=100 * ratio))
+    request = Request(**asked)
+    rules = Rules(request=request, rounding=Rounding())
+    problems = report_of_refill(request, found, tally, already=False, rules=rules)["problems"]
+    assert [f"{ratio - 1:+.1%} filament" in problem for problem in problems] == [True] * told
 
 
 @pytest.mark.parametrize("density", [0.05, 0.2, 0.4])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from infill.filling.batch import Batch
 from infill.filling.contact import sampled
 from infill.filling.covering import total_length
-from infill.filling.fitting import INSIDE, Column, Fitted, Place, column, fitted
+from infill.filling.fitting import INSIDE, OFF, Column, Fitted, Place, column, fitted
 from infill.filling.ground import Ground, ground_of
 from infill.filling.planning import Plan
 from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
@@ -31,6 +31,8 @@ Paths = list[Floats]
 
 LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
 LEAST_TRAVEL = 1.0  # mm; shorter ways are never retracted
+DEBT = 0.1  # of the filament of a layer that may be owed before columns choose their cells anew
+AGAIN_AFTER = 8  # layers, before they do so again
 ACROSS = 0.1  # mm that a way may leave its areas without a retraction
 
 
@@ -52,6 +54,8 @@ class Memory:
         The layer below the one in which the region began, for a pattern that repeats in every layer.
     owed : float
         mm of filament that beads could not be widened enough to take.
+    fitted : int
+        The last layer in which columns chose their cells anew, to pay what is owed.
     """
 
     region: Region | None = None
@@ -61,6 +65,7 @@ class Memory:
     ground: Ground | None = None
     others: Walls | None = None
     owed: float = 0.0
+    fitted: int = -AGAIN_AFTER
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,6 +123,7 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
         memory.columns = [
             column(polygon, held.get(area, 0.0), plan, memory.columns) for area, polygon in enumerate(region.polygons)
         ]
+        _pay(memory, number, sum(body.filament for body in here.values()))
         for group in groups:
             members = [here[each] for each in group.areas if each in here]
             reason = unsure(group, members)
@@ -128,6 +134,18 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
             if reason:
                 reasons[reason] = reasons.get(reason, 0) + len(members)
     return sorted(fresh, key=lambda each: each.body.first), reasons
+
+
+def _pay(memory: Memory, layer: int, filament: float) -> None:
+    """Let columns choose their cells anew if much is owed, mm, of the filament of a layer: those that are far off."""
+    if abs(memory.owed) <= DEBT * filament or layer < memory.fitted + AGAIN_AFTER:
+        return
+    memory.fitted = layer
+    memory.columns = [replace(each, fresh=True) for each in memory.columns]
+    for key, drawn in list(memory.drawn.items()):
+        wanted = memory.columns[key[0]].length
+        if abs(drawn.length - wanted) > OFF * wanted:
+            del memory.drawn[key]
 
 
 def _looker(batch: Batch, before: Region | None) -> Callable[[int], tuple[Region, Around]]:

@@ -18,6 +18,9 @@ from patterns.given import in_degrees
 FORM = 1
 
 
+EVEN = 0.01  # of the filament of all infill, that it may be off
+
+
 def report_of_refill(
     request: Request,
     found: Survey,
@@ -71,6 +74,12 @@ def report_of_refill(
     report["time"] = {"infill_before_s": before.seconds, "infill_after_s": after.seconds}
     report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
+    promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
+    if promised and tally.replaced and abs(ratio - 1) > EVEN:
+        report["problems"].append(
+            f"the infill takes {ratio - 1:+.1%} filament: its lines come and go whole here; take another pattern, or "
+            "another --density"
+        )
     return report
 
 
