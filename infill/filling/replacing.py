@@ -116,6 +116,8 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
             if memory.others is not None and plan.family.prismatic:
                 memory.ground = ground_of(below, memory.others, plan.line_width)
             memory.drawn.clear()
+        elif not plan.family.prismatic:
+            memory.drawn.clear()
         memory.region, memory.others = region, around.all
         groups = grouped(region, batch.infill, some, batch.section)
         here = {body.section: body for body in found if body.layer == number}
