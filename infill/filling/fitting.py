@@ -30,8 +30,8 @@ OFF = 0.08  # of the length that an area should have, which beads cannot make up
 FAR_OFF = 0.25  # of it, before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
 NEAR = 0.02  # of the length: near enough
-SMALL = 300.0  # mm of lines, below which cells around are tried too: the length jumps there
-SPREAD, SCANNED = 0.25, 26
+SMALL = 300.0  # mm of lines, below which cells around are always tried too: the length jumps there
+SPREAD, SCANNED = 0.35, 30
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
 NEWEST = 0.2  # how much the last layer counts in the density of a column
 
@@ -150,9 +150,10 @@ def fitted(stack: Column, place: Place) -> Fitted:
     error = best.length / wanted - 1
     if abs(error) <= (OFF if stack.fresh else FAR_OFF):
         return best
-    around = stack.cell * np.exp(np.linspace(-SPREAD, SPREAD, SCANNED)) if wanted < SMALL else np.empty(0)
-    cell = stack.cell
+    around, cell = _around(stack, place.plan) if wanted < SMALL or stack.fresh else np.empty(0), stack.cell
     for tried in range(TRIES + len(around)):
+        if tried >= TRIES and wanted >= SMALL and abs(best.length / wanted - 1) <= OFF:
+            break
         cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if tried < TRIES else float(around[tried - TRIES])
         cell = max(cell, TOUCH * place.plan.line_width)
         other = _covered(stack.area, cell, place)
@@ -162,6 +163,15 @@ def fitted(stack: Column, place: Place) -> Fitted:
         if abs(error) < NEAR:
             break
     return best
+
+
+def _around(stack: Column, plan: Plan) -> Floats:
+    """Return cells around that of a column, mm; of one whose cell is free, those around that of the plan first."""
+    steps = np.exp(np.linspace(-SPREAD, SPREAD, SCANNED))
+    nearest = steps[np.argsort(np.abs(np.log(steps)), kind="stable")]
+    if not stack.fresh or stack.cell == plan.cell:
+        return stack.cell * nearest
+    return np.concatenate([plan.cell * nearest, stack.cell * nearest])
 
 
 def _covered(area: Polygon, cell: float, place: Place) -> Fitted:

@@ -159,7 +159,7 @@ def _free(kinds: Sequence[tuple[Walls, float]], grid: Floats) -> Polygon | Multi
     contours = find_contours(padded, 0.0)  # type: ignore[no-untyped-call]
     lines = [shapely.LineString((line - 1) * NODES + grid[0, 0]) for line in contours if len(line) > 3]
     area = shapely.segmentize(shapely.build_area(shapely.GeometryCollection(lines)), NODES / 2)
-    free: Polygon | MultiPolygon = shapely.simplify(shapely.transform(area, partial(_kept_off, kinds)), NEARER / 2)
+    free = _simplified(shapely.transform(area, partial(_kept_off, kinds)), NEARER / 2)
     if not shapely.is_valid(free):
         free = _divided(free, kinds)
     return free
@@ -217,9 +217,19 @@ def _opened(area: Polygon | MultiPolygon) -> Polygon | MultiPolygon:
     rest = shapely.get_parts(shapely.difference(area, smooth))
     arms = rest[shapely.area(rest) > ARM]
     whole = shapely.union_all([smooth, *shapely.buffer(arms, 1e-3)]) if len(arms) else smooth
-    whole = shapely.simplify(whole, SAME_WITHIN / 2)
+    whole = _simplified(whole, SAME_WITHIN / 2)
     # Where the two outlines cross to and fro, they leave points a few hundredths of a millimetre apart.
-    found: Polygon | MultiPolygon = shapely.simplify(
-        shapely.intersection(whole, shapely.buffer(area, NEARER / 2)), NEARER / 2
-    )
-    return found
+    return _simplified(shapely.intersection(whole, shapely.buffer(area, NEARER / 2)), NEARER / 2)
+
+
+def _simplified(area: Polygon | MultiPolygon, tolerance: float) -> Polygon | MultiPolygon:
+    """Return an area with fewer points; what is valid stays so.
+
+    Looking after its topology takes time with the square of its holes: that is left for where it is in danger.
+    """
+    import shapely
+
+    simple: Polygon | MultiPolygon = shapely.simplify(area, tolerance, preserve_topology=False)
+    if not shapely.is_valid(simple) and shapely.is_valid(area):
+        simple = shapely.simplify(area, tolerance)
+    return simple
