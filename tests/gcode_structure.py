@@ -33,7 +33,11 @@ def covered(moves: list[Move]):
 
 
 def width_of(moves: list[Move]) -> float:
-    return float(np.median([move.width or 0.45 for move in moves]))
+    """Return the width that half of the length has, or more: short chords are many, and count for little."""
+    width = np.array([move.width or 0.45 for move in moves])
+    length = np.array([np.hypot(move.end[0] - move.start[0], move.end[1] - move.start[1]) for move in moves])
+    order = np.argsort(width)
+    return float(width[order][np.searchsorted(np.cumsum(length[order]), length.sum() / 2)])
 
 
 def supported(data: bytes) -> float:
@@ -45,17 +49,17 @@ def supported(data: bytes) -> float:
 def held_up(data: bytes) -> tuple[float, float]:
     """Return how much of the infill lies on a bead of the layer below, mm, and how much there is above a layer."""
     whole = held = 0.0
-    below: list[Move] = []
+    below: list[list[Move]] = []  # beads of infill and all others, which may have another width
     for _, infill, rest in layers_of(data):
         if infill and below:
             lines = shapely.multilinestrings([shapely.linestrings(path) for path in lines_of(infill)])
             box = shapely.box(*shapely.buffer(lines, 2).bounds)
-            ground = shapely.intersection(covered(below), box)
+            ground = shapely.intersection(shapely.union_all([covered(moves) for moves in below]), box)
             shapely.prepare(ground)
             pieces = [shapely.linestrings(path) for path in lines_of(infill)]
             whole += shapely.length(pieces).sum()
             held += shapely.length(shapely.intersection(pieces, ground)).sum()
-        below = infill + rest
+        below = [moves for moves in (infill, rest) if moves]
     return float(held), float(whole)
 
 

@@ -34,6 +34,18 @@ def test_crossing_lines_are_supported_where_they_cross() -> None:
     assert supported(data) == pytest.approx(4 * 0.45 / 25, rel=0.02)
 
 
+@pytest.mark.parametrize("chords", [1, 200])
+def test_every_bead_has_its_own_width_however_it_is_cut(chords: int) -> None:
+    """Below: infill 0.3 mm wide, of which half is cut into chords, and a wall 0.6 mm wide; above, lines 0.2 mm aside."""
+    text = ["M83", "G90", ";LAYER_CHANGE", "G1 Z0.2 F9000", ";TYPE:Internal infill", ";WIDTH:0.3", "G1 X0 Y0 F9000"]
+    text += [f"G1 X{20 * (k + 1) / chords:.3f} Y0 E{0.5 / chords:.5f} F3000" for k in range(chords)]
+    text += [";TYPE:External perimeter", ";WIDTH:0.6", "G1 X0 Y5 F9000", "G1 X20 Y5 E1"]
+    text += [";LAYER_CHANGE", "G1 Z0.4", ";TYPE:Internal infill", ";WIDTH:0.3"]
+    for y in (0.2, 5.2):
+        text += [f"G1 X0 Y{y} F9000", f"G1 X20 Y{y} E.5"]
+    assert supported("\n".join([*text, ";TYPE:Custom", ""]).encode()) == pytest.approx(0.5, abs=0.01)
+
+
 @pytest.mark.parametrize(("apart", "share"), [(SPACING, 1.0), (0.46, 1.0), (0.5, 0.0)])
 def test_lines_are_bonded_where_they_touch(apart: float, share: float) -> None:
     assert bonded(lines([0.0, apart])) == share
