@@ -517,10 +517,13 @@ def around_of(area: shapely.Geometry) -> Around:
 
 
 @given(st.integers(0, 2**32 - 1))
+@example(341)  # outlines cross where points were moved: left so, they end in an exception of GEOS
+@example(1157)
 def test_any_region_is_valid_and_keeps_its_distance(seed: int) -> None:
     """Stars with holes, whose arms and slots are narrower than beads here and there.
 
-    Through a neck that is a little too narrow for it, the outline of a grid may still pass: by 0.03 mm in 1500 stars.
+    Through a neck that is a little too narrow for it, the outline of a grid may still pass: by 0.03 mm in 1500 stars, and by more than 0.035 mm
+    in one of 4900.
     """
     random = np.random.default_rng(seed)
     angle = np.arange(0, 2 * np.pi, 2 * np.pi / random.integers(5, 40))

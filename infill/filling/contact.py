@@ -159,14 +159,35 @@ def _nearest(points: Floats, others: Samples, which: Places) -> tuple[Floats, Fl
     """
     there = which < len(others.points)
     which = np.where(there, which, 0)
+    along, apart = projected(points, others.points, others.half, which)
+    return np.where(there, apart, np.inf), others.along[which] + along * others.weight[which] / 2
+
+
+def projected(points: Floats, middle: Floats, half: Floats, which: Places) -> tuple[Floats, Floats]:
+    """Return where pieces of paths are nearest to points, and how far that is.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    middle, half : (K, 2) float64, mm
+        Of pieces: their middle, and the way from there to their end.
+    which : (N, k) int
+        The pieces to look at for each point.
+
+    Returns
+    -------
+    along : (N, k) float64
+        From -1, the beginning of the piece, to 1, its end.
+    apart : (N, k) float64, mm
+
+    >>> projected(np.array([[3.0, 4.0]]), np.zeros((1, 2)), np.array([[2.0, 0.0]]), np.array([[0]]))[0].tolist()
+    [[1.0]]
+    """
     # Axis by axis: NumPy is slow along the short axis of an array.
-    (dx, dy), (hx, hy) = (
-        tuple(first[:, None] - then[which] for first, then in zip(points.T, others.points.T, strict=True)),
-        tuple(half[which] for half in others.half.T),
-    )
+    (mx, my), (hx, hy) = ([column[which] for column in each.T] for each in (middle, half))
+    dx, dy = points[:, :1] - mx, points[:, 1:] - my
     along = np.clip((dx * hx + dy * hy) / np.maximum(hx**2 + hy**2, 1e-18), -1.0, 1.0)
-    distance = np.where(there, np.hypot(dx - along * hx, dy - along * hy), np.inf)
-    return distance, others.along[which] + along * others.weight[which] / 2
+    return along, np.hypot(dx - along * hx, dy - along * hy)
 
 
 def _beside(points: Floats, path: Places, along: Floats, infill: Samples, reach: float) -> NDArray[np.bool_]:

@@ -71,7 +71,7 @@ def drafted(
     return tally, rules
 
 
-def _evened(tally: Tally, plan: Plan, drafted: Callable[[Plan], Tally]) -> Tally:
+def _evened(tally: Tally, plan: Plan, again: Callable[[Plan], Tally]) -> Tally:
     """Draw a small print again, at other cells, until its infill takes the filament that it took; else at the best.
 
     In a large one, what a layer takes too much or too little is made up for in the next ones.
@@ -90,10 +90,10 @@ def _evened(tally: Tally, plan: Plan, drafted: Callable[[Plan], Tally]) -> Tally
         across = [cell for cell, other in found.items() if other * error < 0]
         nearest = min(across, key=lambda cell: abs(cell - drawn.cell), default=0.0)
         drawn = drawn.with_cell(math.sqrt(nearest * drawn.cell) if nearest else drawn.cell * (1 + error))
-        tally = drafted(drawn)
+        tally = again(drawn)
         if abs(off(tally)) < least:
             best, least = drawn, abs(off(tally))
-    return tally if drawn is best else drafted(best)
+    return tally if drawn is best else again(best)
 
 
 def _drawn(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.contact import STEP as FINE
-from infill.filling.contact import Samples, sampled
+from infill.filling.contact import Samples, projected, sampled
 from infill.gcode.sections import SKINS, Marks, Strokes
 from infill.gcode.table import Table
 
@@ -201,7 +201,10 @@ class Walls:
 
 
 def foot(points: Floats, walls: Walls) -> tuple[Floats, Floats]:
-    """Return the nearest places on other beads of a single layer, (N, 2), mm, and how far they are, mm: exactly.
+    """Return the nearest places on other beads of a single layer, (N, 2), mm, and how far they are, (N,), mm.
+
+    Of the pieces whose middles are nearest, `NEAREST` are looked at: where beads come together, another one may be
+    nearer, by less than a tenth of a piece.
 
     Parameters
     ----------
@@ -213,14 +216,10 @@ def foot(points: Floats, walls: Walls) -> tuple[Floats, Floats]:
         return points, np.full(len(points), np.inf)
     _, which = walls.tree.query(points, k=min(NEAREST, len(walls.points)))
     which = which.reshape(len(points), -1)
-    # Axis by axis: NumPy is slow along the short axis of an array.
-    (mx, my), (hx, hy) = ([column[which] for column in half.T] for half in (walls.points, walls.half))
-    dx, dy = points[:, :1] - mx, points[:, 1:] - my
-    along = np.clip((dx * hx + dy * hy) / np.maximum(hx**2 + hy**2, 1e-18), -1.0, 1.0)
-    apart = np.hypot(dx - along * hx, dy - along * hy)
+    along, apart = projected(points, walls.points, walls.half, which)
     rows, best = np.arange(len(points)), apart.argmin(axis=1)
-    nearest = np.stack([mx + along * hx, my + along * hy], axis=-1)[rows, best]
-    return nearest, apart[rows, best]
+    piece = which[rows, best]
+    return walls.points[piece] + along[rows, best][:, None] * walls.half[piece], apart[rows, best]
 
 
 def walls_of(points: Floats, layer: Places | None = None, half: Floats | None = None) -> Walls:

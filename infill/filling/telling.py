@@ -18,7 +18,7 @@ from patterns.given import in_degrees
 FORM = 1
 
 
-EVEN = 0.01  # of the filament of all infill, that it may be off
+MOST_OFF = 0.01  # of the filament of all infill, that it may be off
 
 
 def report_of_refill(
@@ -75,7 +75,7 @@ def report_of_refill(
     report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
     promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
-    if promised and tally.replaced and abs(ratio - 1) > EVEN:
+    if promised and tally.replaced and abs(ratio - 1) > MOST_OFF:
         report["problems"].append(
             f"the infill takes {ratio - 1:+.1%} filament: its lines come and go whole here; take another pattern, or "
             "another --density"
