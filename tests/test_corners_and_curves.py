@@ -522,8 +522,8 @@ def around_of(area: shapely.Geometry) -> Around:
 def test_any_region_is_valid_and_keeps_its_distance(seed: int) -> None:
     """Stars with holes, whose arms and slots are narrower than beads here and there.
 
-    Through a neck that is a little too narrow for it, the outline of a grid may still pass: by 0.03 mm in 1500 stars, and by more than 0.035 mm
-    in one of 4900.
+    Through a neck that is a little too narrow for it, the outline of a grid may still pass: by 0.03 mm in 1500 stars,
+    and by more than 0.035 mm in one of 4900.
     """
     random = np.random.default_rng(seed)
     angle = np.arange(0, 2 * np.pi, 2 * np.pi / random.integers(5, 40))
