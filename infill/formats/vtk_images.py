@@ -34,6 +34,7 @@ TYPES = {
     "vtkidtype": "i8",
     "vtktypeuint64": "u8",
     "vtktypeint64": "i8",
+    "share": "f8",
     "float": "f4",
     "double": "f8",
 }
@@ -42,7 +43,7 @@ LONGEST_NUMBER = 40  # bytes
 AT_ONCE = 2**22  # bytes of text turned into numbers in one go
 TEXT_BYTES = 24  # of memory for each byte of such a piece, and for each number: words, then numbers
 SIZES = {"VECTORS": 3, "NORMALS": 3, "TENSORS": 9}
-FLAGS = {"COLOR_SCALARS": ("unsigned_char", "float"), "LOOKUP_TABLE": ("unsigned_char", "float")}  # binary, as text
+BYTES, SHARES = "unsigned_char", "share"  # colours: binary, and as text from 0 to 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,6 +83,15 @@ class Lattice:
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Array:
+    """What a file says before an array: where its values lie, their type, and how many there are per cell."""
+
+    in_cells: bool
+    kind: str
+    numbers: int
+
+
 def read_vtk(path: Path, frame: int | None = None) -> Volume:
     """Return the first scalars of a legacy file, [x, y, z], or one component of them, counted from 0."""
     with told_broken(path), path.open("rb") as file:
@@ -113,13 +123,18 @@ def _image(path: Path, file: IO[bytes], frame: int | None, *, text: bool) -> Vol
                 if of:
                     lattice = _lattice(path, known)
                     if count == math.prod(lattice.shape(in_cells=of == "CELL_DATA")):
-                        return _volume(path, file, lattice, of, kind, numbers, frame, text=text)
+                        found = _Array(in_cells=of == "CELL_DATA", kind=kind, numbers=numbers)
+                        return _volume(path, file, lattice, found, frame, text=text)
                 _skip(file, numbers * count, kind, text=text)
         elif key == "SCALARS":
             at, numbers = file.tell(), _count(words, 3) if len(words) > 3 else 1
             if not _line(file).upper().startswith("LOOKUP_TABLE"):
                 file.seek(at)
-            return _volume(path, file, _lattice(path, known), of, _word(words, 2), numbers, frame, text=text)
+            found = _Array(in_cells=of == "CELL_DATA", kind=_word(words, 2), numbers=numbers)
+            return _volume(path, file, _lattice(path, known), found, frame, text=text)
+        elif key == "COLOR_SCALARS":  # what VTK makes of bytes
+            found = _Array(in_cells=of == "CELL_DATA", kind=SHARES if text else BYTES, numbers=_count(words, 2))
+            return _volume(path, file, _lattice(path, known), found, frame, text=text)
         else:
             shape = _lattice(path, known).shape(in_cells=of == "CELL_DATA")
             _skip(file, *_extent(path, key, words, math.prod(shape), text=text), text=text)
@@ -130,8 +145,8 @@ def _extent(path: Path, key: str, words: list[str], cells: int, *, text: bool) -
     """Return how many numbers of which type follow a line that is of no use here."""
     if key in SIZES:
         return SIZES[key] * cells, _word(words, 2)
-    if key in FLAGS:
-        return _count(words, 2) * (cells if key == "COLOR_SCALARS" else 4), FLAGS[key][text]
+    if key == "LOOKUP_TABLE":
+        return _count(words, 2) * 4, SHARES if text else BYTES
     raise FormatError(f"{path} holds {key[:40]!r} where its scalars should begin; save it again, as an image")
 
 
@@ -147,24 +162,23 @@ def _volume(
     path: Path,
     file: IO[bytes],
     lattice: Lattice,
-    of: str,
-    kind: str,
-    numbers: int,
+    array: _Array,
     frame: int | None,
     *,
     text: bool,
 ) -> Volume:
     """Return the array that begins here."""
-    in_cells = of == "CELL_DATA"
-    shape = lattice.shape(in_cells=in_cells)
-    at = chosen(path, frame, numbers, what=f"holds {numbers} numbers per cell")
-    count = numbers * math.prod(shape)
-    stored = _stored(kind)
+    shape = lattice.shape(in_cells=array.in_cells)
+    at = chosen(path, frame, array.numbers, what=f"holds {array.numbers} numbers per cell")
+    count = array.numbers * math.prod(shape)
+    stored = _stored(array.kind)
     require_memory(count * stored.itemsize + (TEXT_BYTES * (AT_ONCE + count) if text else 0), None, SMALLER)
-    values = _text(file, count, stored) if text else _binary(file, count, kind)
+    values = _text(file, count, stored) if text else _binary(file, count, array.kind)
     if len(values) < count:
         raise FormatError(f"{path} is cut off: it holds {len(values)} numbers of {count}; copy or save it again")
-    return lattice.volume(path, values[at::numbers].reshape(shape, order="F"), in_cells=in_cells)
+    if array.kind == SHARES:
+        values = np.rint(255 * np.clip(values, 0, 1)).astype(np.uint8)
+    return lattice.volume(path, values[at :: array.numbers].reshape(shape, order="F"), in_cells=array.in_cells)
 
 
 def _text(file: IO[bytes], count: int, kind: np.dtype[np.generic]) -> NDArray[Any]:
