@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -141,12 +141,10 @@ def smooth_labels(
                     raise type(error)(f"no label can be smoothed; {said}") from error
                 continue
             surfaces[piece.name], reports[piece.name] = result.surface, result.report
-    done = [piece for piece in pieces if piece.name in surfaces]
+    done, broken = ([piece for piece in pieces if piece.name in some] for some in (surfaces, failed))
     return Result(
         surfaces=surfaces,
-        report=_report(
-            request, done, reports, [piece for piece in pieces if piece.name in failed], failed, absent, clock
-        ),
+        report=_report(request, done, reports, broken, failed, absent, clock),
         stages=LabelStages(segments={piece.name: piece.segment for piece in pieces}, failed=failed),
         colours={piece.name: piece.segment.colour for piece in done if piece.segment.colour is not None},
     )
@@ -169,12 +167,11 @@ def _pieces(
     wanted = None if label is None else label if isinstance(label, tuple) else (label,)
     known = {(each.layer, each.value): each for each in segmentation.segments}
     given = {each.value: each for each in table}
-    found = [
-        (Segment(value=each.value, name=named.name, colour=named.colour, layer=layer), each)
-        for layer, volume in enumerate(segmentation.layers)
-        for each in extents(volume)
-        if (named := given.get(each.value) or known.get((layer, each.value)) or Segment(value=each.value))
-    ]
+    found = []
+    for layer, volume in enumerate(segmentation.layers):
+        for each in extents(volume):
+            named = given.get(each.value) or known.get((layer, each.value)) or Segment(value=each.value)
+            found.append((replace(named, layer=layer), each))
     there = sorted({segment.value for segment, _ in found})
     if not found:
         raise ParameterError("the volume holds no label, only 0; check that it is the right file")

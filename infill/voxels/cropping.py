@@ -30,7 +30,7 @@ def part(volume: Volume, low: tuple[int, ...], high: tuple[int, ...]) -> Volume:
     return replace(volume, values=volume.values[cells], origin=tuple(corner.tolist()))
 
 
-def cropped(volume: Volume, roi: Box) -> Volume:
+def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     """Return the part of a volume that lies in a box.
 
     Parameters
@@ -38,6 +38,8 @@ def cropped(volume: Volume, roi: Box) -> Volume:
     volume : Volume
     roi : (x0, x1, y0, y1, z0, z1), mm
         The box, in the space of the volume: LPS for medical images.
+    varied : bool
+        Whether the part must hold more than one value, as that of a single volume has to.
 
     Returns
     -------
@@ -68,7 +70,7 @@ def cropped(volume: Volume, roi: Box) -> Volume:
         LOG.warning("the grid is turned by %.3g degrees, so that more of it is kept than lies in the roi", angle)
     kept = part(volume, tuple(low.tolist()), tuple(high.tolist()))
     least, most = kept.values.min().item(), kept.values.max().item()
-    if least == most:
+    if varied and least == most:
         raise ParameterError(f"the roi holds {least:g} in all cells, so no surface; make it larger, or move it")
     return kept
 
