@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.rays import way_inside
-from infill.kernels.sparse import BRICK, SOLID_BRICK
+from infill.inspection.rays import first_stretch
+from infill.kernels.rays import follow
+from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -23,7 +22,12 @@ LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface within which a ray ent
 
 
 def thinnest_walls(
-    field: SparseField, surface: Surface, spacing: tuple[float, ...], level: float = 0.0
+    field: SparseField,
+    surface: Surface,
+    spacing: tuple[float, ...],
+    level: float = 0.0,
+    *,
+    threads: int | None = None,
 ) -> tuple[float | None, float | None]:
     """Return how thick the solid is behind the thinnest hundredth of the surface, mm: in the data, and smoothed.
 
@@ -35,6 +39,8 @@ def thinnest_walls(
         The surface of that solid, mm from the lower corner of the first cell.
     spacing : (hx, hy, hz), mm
     level : float
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
 
     Returns
     -------
@@ -59,11 +65,21 @@ def thinnest_walls(
     at = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
 
     def thin(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
-        def value(points: NDArray[np.float64]) -> NDArray[np.float64]:
-            solid = solid_at(field, values, np.floor(points / size).astype(np.int64), height)
-            return np.where(solid, 1.0, -1.0)
-
-        found = way_inside(value, start, inwards, at, leeway=leeway)
+        solid = np.empty((len(start), len(at)))
+        in_threads(
+            follow,
+            field.slots,
+            values,
+            field.shape,
+            start,
+            inwards,
+            at,
+            size,
+            height,
+            solid,
+            threads=thread_count(threads),
+        )
+        found = first_stretch(solid, at, leeway=leeway)
         found = found[found > 0]
         if len(found) == 0:
             return None
@@ -71,24 +87,3 @@ def thinnest_walls(
         return thinnest if thinnest <= FARTHEST * float(size.min()) else None
 
     return thin(field.data, 0.0, LEEWAY_OF_DATA), thin(field.values, level, LEEWAY)
-
-
-def solid_at(
-    field: SparseField, values: NDArray[np.generic], cells: NDArray[np.int64], level: float
-) -> NDArray[np.bool_]:
-    """Return whether `values` of the bricks are above a level at cells (N, 3) of the grid; never beyond the grid."""
-    # Axis by axis, which is three times as fast as all three at once.
-    axes = [np.ascontiguousarray(column) for column in cells.T]
-    inside = np.ones(len(cells), dtype=bool)
-    for along, count in zip(axes, field.shape, strict=True):
-        inside &= (along >= 0) & (along < count)
-    places = [np.where(inside, along, 0) + 1 for along in axes]
-    bricks = [place // size for place, size in zip(places, BRICK, strict=True)]
-    slot = field.slots[bricks[0], bricks[1], bricks[2]]
-    cell = np.where(slot >= 0, slot, 0).astype(np.int64)
-    for place, brick, size in zip(places, bricks, BRICK, strict=True):
-        cell = cell * size + (place - brick * size)
-    flat: NDArray[Any] = values.reshape(-1)
-    kept = flat[cell] > level if len(values) else np.zeros(len(cells), dtype=bool)
-    solid: NDArray[np.bool_] = np.where(slot >= 0, kept, slot == SOLID_BRICK) & inside
-    return solid

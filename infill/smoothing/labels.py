@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 # fraction of the interface for others; and 8 more, for averages that refining takes.
 REACH, MORE = 6, 8
 LISTED = 12  # labels in a message
+SMALL = 2**20  # cells of a box: one thread does it before others have begun
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -216,7 +217,9 @@ def _smoothed(volume: Volume, piece: _Piece, request: Request, options: Options)
         min(count, -(-(at + margin) // size) * size)
         for at, size, count in zip(piece.extent.high, BRICK, volume.values.shape, strict=True)
     )
-    return smooth_volume(part(volume, low, high), label=piece.segment.value, **options)
+    box = part(volume, low, high)
+    chosen: Options = {**options, "threads": 1} if box.values.size < SMALL else options
+    return smooth_volume(box, label=piece.segment.value, **chosen)
 
 
 def _between(
