@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from infill.inspection.rays import first_stretch
 from infill.kernels.rays import follow
-from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -22,12 +21,7 @@ LEEWAY_OF_DATA, LEEWAY = 4, 1  # steps behind the surface within which a ray ent
 
 
 def thinnest_walls(
-    field: SparseField,
-    surface: Surface,
-    spacing: tuple[float, ...],
-    level: float = 0.0,
-    *,
-    threads: int | None = None,
+    field: SparseField, surface: Surface, spacing: tuple[float, ...], level: float = 0.0
 ) -> tuple[float | None, float | None]:
     """Return how thick the solid is behind the thinnest hundredth of the surface, mm: in the data, and smoothed.
 
@@ -39,8 +33,6 @@ def thinnest_walls(
         The surface of that solid, mm from the lower corner of the first cell.
     spacing : (hx, hy, hz), mm
     level : float
-    threads : int, optional
-        See `infill.kernels.threads.thread_count`.
 
     Returns
     -------
@@ -66,19 +58,7 @@ def thinnest_walls(
 
     def thin(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
         solid = np.empty((len(start), len(at)))
-        in_threads(
-            follow,
-            field.slots,
-            values,
-            field.shape,
-            start,
-            inwards,
-            at,
-            size,
-            height,
-            solid,
-            threads=thread_count(threads),
-        )
+        follow(field.slots, values, field.shape, start, inwards, at, size, height, solid)
         found = first_stretch(solid, at, leeway=leeway)
         found = found[found > 0]
         if len(found) == 0:

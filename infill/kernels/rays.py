@@ -12,10 +12,10 @@ from infill.kernels.sparse import B0, B1, B2, SOLID_BRICK
 
 
 @njit(nogil=True, cache=True)
-def follow(slots, values, shape, start, direction, distance, size, level, out, thread, threads):
+def follow(slots, values, shape, start, direction, distance, size, level, out):
     """Set out[ray, place] to 1 where `values` of the bricks are above a level, else to -1; beyond the grid is void."""
     n0, n1, n2 = shape
-    for ray in range(thread, len(start), threads):
+    for ray in range(len(start)):
         for place in range(len(distance)):
             i = math.floor((start[ray, 0] + distance[place] * direction[ray, 0]) / size[0])
             j = math.floor((start[ray, 1] + distance[place] * direction[ray, 1]) / size[1])

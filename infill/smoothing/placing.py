@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from infill.smoothing.request import Request
     from infill.smoothing.stages import SmoothStages
 
-COMPARED = 5_000  # vertices whose distance is measured, at most
+COMPARED = 5_000  # vertices whose distance is measured
 SIMPLER = 0.05  # of the volume: how much simplification may change
 
 
@@ -100,7 +100,7 @@ def moved(
 
 def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
     """Return the vertices that are compared, spread evenly over all of them."""
-    return vertices[:: max(1, -(-len(vertices) // COMPARED))]
+    return vertices[:: max(1, len(vertices) // COMPARED)]
 
 
 def summary(distance: NDArray[np.float64]) -> dict[str, float]:

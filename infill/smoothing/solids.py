@@ -324,6 +324,6 @@ def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
 def _walls(judged: Verdict, surfaced: Surfaced, data: Volume, *, spacing: tuple[float, ...]) -> dict[str, Any]:
     """Return how thin the walls are, and which were lost, for the report."""
     found = surfaced.found
-    before, after = thinnest_walls(found.against, found.surface, spacing, found.height, threads=found.threads)
+    before, after = thinnest_walls(found.against, found.surface, spacing, found.height)
     lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in judged.lost]
     return {"thinnest": {"data": before, "result": after}, "lost": lost}
