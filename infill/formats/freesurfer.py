@@ -61,6 +61,8 @@ def read_mgh(path: Path, frame: int | None = None) -> Volume:
         require_memory(2 * header.frame_bytes, None, SMALLER)
         file.seek(HEADER_BYTES + at * header.frame_bytes)
         held = _read(file, header.frame_bytes)
+        while packed and file.read(2**24):  # to the end, where the checksum is
+            pass
     if len(held) < header.frame_bytes:
         _cut_off(path, len(held), header.frame_bytes)
     values = np.frombuffer(held, dtype=header.kind).reshape(header.shape, order="F")
