@@ -66,15 +66,15 @@ class Result(Generic[Stages]):
         target = Path(path)
         write = parts_writer(target)
         with whole_file(target) as file:
-            write(self.parts, file)
+            write(parts_of(self), file)
         return target
 
-    @property
-    def parts(self) -> list[Part]:
-        """The surfaces with their names and colours, as files hold them."""
-        return [
-            Part(surface=surface, name=name, colour=self.colours.get(name)) for name, surface in self.surfaces.items()
-        ]
+
+def parts_of(result: Result[object]) -> list[Part]:
+    """Return the surfaces of a result with their names and colours, as files hold them."""
+    return [
+        Part(surface=surface, name=name, colour=result.colours.get(name)) for name, surface in result.surfaces.items()
+    ]
 
 
 class Clock:

@@ -173,13 +173,14 @@ def _parts(result: Result[LabelStages], written: Written) -> dict[Path, Callable
     from infill.errors import OutputError
     from infill.formats.mesh_files import parts_writer, writer
     from infill.formats.name_templates import filled, is_template
+    from infill.result import parts_of
 
     # All names, also of labels that failed: what a file is called does not depend on the others.
     every = list(result.stages.segments)
     parts: dict[Path, Callable[[BinaryIO], object]] = {}
     for output in written.outputs:
         if not is_template(output):
-            parts[output] = partial(parts_writer(output), result.parts)
+            parts[output] = partial(parts_writer(output), parts_of(result))
             continue
         write = writer(output, ascii=written.ascii_stl)
         for name, path in zip(every, filled(output, every, list(result.stages.segments.values())), strict=True):
