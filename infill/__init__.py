@@ -24,8 +24,10 @@ if TYPE_CHECKING:
         ParameterError,
     )
     from infill.filling.refilling import RefillResult, refill
+    from infill.formats.label_tables import Segment, read_labels
     from infill.formats.mesh_files import read_mesh, save
     from infill.formats.point_files import read_points
+    from infill.formats.segmentations import Segmentation, read_segmentation
     from infill.formats.volume_files import read_volume
     from infill.grid import Grid
     from infill.inspection.printability import Inspection, check
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
     from infill.result import Result
+    from infill.smoothing.labels import smooth_labels
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
     from infill.surfaces.marching import isosurface
@@ -53,6 +56,9 @@ _HOMES = {
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
+    "smoothing.labels": ("smooth_labels",),
+    "formats.label_tables": ("Segment", "read_labels"),
+    "formats.segmentations": ("Segmentation", "read_segmentation"),
     "smoothing.solids": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
     "surfaces.stacking": ("extrude", "stack"),
@@ -77,6 +83,8 @@ __all__ = [
     "ParameterError",
     "RefillResult",
     "Result",
+    "Segment",
+    "Segmentation",
     "Smoothing",
     "Surface",
     "Volume",
@@ -86,13 +94,16 @@ __all__ = [
     "isosurface",
     "make",
     "motion",
+    "read_labels",
     "read_mesh",
     "read_points",
+    "read_segmentation",
     "read_volume",
     "refill",
     "rescale",
     "save",
     "smooth",
+    "smooth_labels",
     "smooth_mesh",
     "smooth_points",
     "smooth_volume",

@@ -11,7 +11,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from infill.formats.mesh_files import save
+from infill.formats.label_tables import Colour
+from infill.formats.mesh_files import parts_writer, save
+from infill.formats.parts import Part
+from infill.formats.whole_files import whole_file
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -32,12 +35,16 @@ class Result(Generic[Stages]):
     report : dict
         Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
     stages : frozen dataclass
-        What the surfaces came from: `infill.making.stages.MakeStages` or `infill.smoothing.stages.SmoothStages`.
+        What the surfaces came from: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages` or
+        `infill.smoothing.labels.LabelStages`.
+    colours : mapping of str to (red, green, blue)
+        Of surfaces that have one, from 0 to 1, sRGB.
     """
 
     surfaces: Mapping[str, Surface]
     report: dict[str, Any]
     stages: Stages = field(repr=False)
+    colours: Mapping[str, Colour] = field(default_factory=dict)
 
     @property
     def surface(self) -> Surface:
@@ -50,8 +57,24 @@ class Result(Generic[Stages]):
         return self.surface.to_trimesh()
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the only or main surface, the format by suffix, and return the path."""
-        return save(self.surface, path)
+        """Write the surface, the format by suffix, and return the path.
+
+        Several surfaces go into one .3mf or .glb, each by its name.
+        """
+        if len(self.surfaces) == 1:
+            return save(self.surface, path)
+        target = Path(path)
+        write = parts_writer(target)
+        with whole_file(target) as file:
+            write(self.parts, file)
+        return target
+
+    @property
+    def parts(self) -> list[Part]:
+        """The surfaces with their names and colours, as files hold them."""
+        return [
+            Part(surface=surface, name=name, colour=self.colours.get(name)) for name, surface in self.surfaces.items()
+        ]
 
 
 class Clock:

@@ -11,6 +11,7 @@ import pytest
 import tifffile
 import trimesh
 from PIL import Image
+from test_frames_and_more_formats import mgh, vti, vtk
 
 from infill import FormatError, MemoryLimitError, Volume, read_mesh, save
 from infill.formats.broken import told_broken
@@ -65,6 +66,21 @@ def nifti(folder: Path) -> Path:
     return folder / "a.nii"
 
 
+def mgh_file(folder: Path) -> Path:
+    (folder / "a.mgh").write_bytes(mgh(VALUES))
+    return folder / "a.mgh"
+
+
+def vtk_file(folder: Path) -> Path:
+    (folder / "a.vtk").write_bytes(vtk(VALUES, text=True))
+    return folder / "a.vtk"
+
+
+def vti_file(folder: Path) -> Path:
+    (folder / "a.vti").write_bytes(vti(VALUES, form="binary", packed=True))
+    return folder / "a.vti"
+
+
 # A file, what reads it, and a helper of ours that it calls on the way.
 READERS: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object], str]] = {
     "stl": (mesh(".stl", ascii=True), read_mesh, "infill.formats.stl._text_corners"),
@@ -76,6 +92,9 @@ READERS: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object], str]]
     "tif": (tiff, read_volume, "infill.formats.slices._tiff_spacing"),
     "png": (pictures, read_volume, "infill.formats.slices._read_png"),
     "nifti": (nifti, read_volume, "infill.formats.medical._require_whole_nifti"),
+    "mgh": (mgh_file, read_volume, "infill.formats.freesurfer._read"),
+    "vtk": (vtk_file, read_volume, "infill.formats.vtk_images._lattice"),
+    "vti": (vti_file, read_volume, "infill.formats.vtk_xml._extent"),
 }
 
 

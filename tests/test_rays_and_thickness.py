@@ -13,6 +13,7 @@ from infill import Grid, Smoothing, smooth_mesh
 from infill.inspection.rays import way_inside
 from infill.inspection.thickness import thinnest_walls
 from infill.inspection.width import wall_width
+from infill.kernels.rays import follow
 from infill.phasefield.sparse import smooth_bricks
 from infill.surfaces.sparse_marching import extract_bricks
 
@@ -103,6 +104,29 @@ def test_rays_from_the_middle_of_a_ball(dimensions: int, rng: np.random.Generato
     assert (outside == 0).all()  # it begins in the void
     late = way_inside(ball, middle - 3.5 * direction, direction, np.arange(0, 9, 0.25), leeway=1)
     assert late == pytest.approx(6.6)
+
+
+@pytest.mark.parametrize("steps", [0, 3])
+def test_rays_through_bricks_find_what_the_whole_field_says(steps: int, rng: np.random.Generator) -> None:
+    """Bricks that are kept, solid and void ones, and what lies beyond the grid."""
+    spacing = np.array([0.5, 0.8, 1.1])
+    solid = ball(20)
+    solid[:, :6] = True
+    field = smooth_bricks(solid, Smoothing(steps=steps), spacing=tuple(spacing.tolist()))
+    whole = field.to_dense()
+    start = rng.uniform(-3, np.array(whole.shape) * spacing + 3, (500, 3))
+    direction = rng.normal(size=start.shape)
+    distance = np.arange(0, 12, 0.25)
+    found = np.empty((len(start), len(distance)))
+    for values, level in ((field.values, 0.1), (field.data, 0.0)):
+        follow(field.slots, values, field.shape, start, direction, distance, spacing, level, found)
+        cells = np.floor((start[:, None] + distance[:, None] * direction[:, None]) / spacing).astype(int)
+        inside = ((cells >= 0) & (cells < whole.shape)).all(axis=2)
+        dense = whole if values is field.values else np.where(solid, 1.0, -1.0)
+        expected = np.full(inside.shape, -1.0)
+        expected[inside] = np.where(dense[tuple(cells[inside].T)] > level, 1.0, -1.0)
+        assert 0.1 < (expected > 0).mean() < 0.9
+        assert np.array_equal(found, expected)
 
 
 def test_the_width_of_a_wall_between_cells_is_exact() -> None:

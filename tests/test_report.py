@@ -13,7 +13,19 @@ import numpy as np
 import pytest
 import trimesh
 
-from infill import Result, Smoothing, make, refill, smooth_mesh, smooth_points, smooth_volume
+from infill import (
+    Result,
+    Segment,
+    Segmentation,
+    Smoothing,
+    Volume,
+    make,
+    refill,
+    smooth_labels,
+    smooth_mesh,
+    smooth_points,
+    smooth_volume,
+)
 from infill.report import FORM
 from tests.handmade_prints import Dialect, written
 
@@ -22,6 +34,7 @@ pytestmark = pytest.mark.usefixtures("compiled")
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "report.md"
 FREE = {"request.parameters", "sections.kept"}  # a pattern's own, by name; reasons
 REFILL = "\n## Refill: a sliced print\n"  # its keys stand below, and are its own
+ALL_LABELS = "\n## Labels: every label of a segmentation\n"  # likewise
 ONLY_AT_THE_COMMAND_LINE = {"files"}
 
 BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64
@@ -138,7 +151,7 @@ def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Resul
 
 
 def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
-    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[2])
+    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[2].partition(ALL_LABELS)[0])
     assert len(page) > 30
     sliced, smooth, bare = (tmp_path / f"{name}.gcode" for name in ("sliced", "smooth", "bare"))
     sliced.write_bytes(written(Dialect(layers=5)))
@@ -161,6 +174,29 @@ def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
     assert reports["already"]["print"]["already_refilled"]
     for report in reports.values():
         assert json.loads(json.dumps(report, allow_nan=False)) == report
+
+
+def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result[Any]]) -> None:
+    """But for the report of each label, which is that of smoothing."""
+    page = described(PAGE.read_text(encoding="utf-8").partition(ALL_LABELS)[2])
+    assert len(page) > 20
+    volume = Volume(values=LABELS)
+    named = (Segment(value=3, name="ball", colour=(1.0, 0.0, 0.0)), Segment(value=9, name="none"))
+    both = smooth_labels(Segmentation(layers=(volume,), segments=named), allow_broken=True)
+    speck = LABELS.copy()
+    speck[0, 0, 0] = 5
+    some = smooth_labels(speck, allow_broken=True, despeckle=2.0, keep_going=True)
+    assert both.report["absent"]
+    assert some.report["failed"]
+    reports = {}
+    for name, result in {"both": both, "some": some}.items():
+        for each in result.report["labels"]:
+            smooth = dict(flat(results["labels"].report))
+            assert {key for key, _ in flat(each["report"])} <= set(smooth) | {"input.segmentation.label"}
+        inner = [{**each, "report": {}} for each in result.report["labels"]]
+        reports[name] = {**result.report, "labels": inner, "request": {}}
+        assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
+    assert differences(page, reports, ("labels",)) == []
 
 
 def test_the_comparison_can_fail() -> None:

@@ -74,7 +74,7 @@ def test_whole_numbers_are_compared_as_such(dtype: Any, low: int) -> None:
         threshold(volume(values), low=-1)
 
 
-@pytest.mark.parametrize("pair", [(0, 1), (-1, 1), (0, 255)])
+@pytest.mark.parametrize("pair", [(0, 1), (-1, 1), (0, 255), (0, 9), (0, 1000)])
 @pytest.mark.parametrize("dtype", [np.int16, np.float32, float])
 def test_two_values_are_a_mask(pair: tuple[int, int], dtype: Any) -> None:
     expected = RAMP % 3 == 0
@@ -103,7 +103,8 @@ def test_a_field_of_both_signs_is_a_phase() -> None:
         (RAMP, -8, 18),
         (RAMP / 27.0 + 0.3, 0.0037, 0.967),
         (RAMP / 10, -0.8, 1.8),
-        (np.where(RAMP > 3, 2, 0), 0, 2),
+        (np.where(RAMP > 3, 2, 1), 1, 2),  # neither is 0
+        (np.where(RAMP > 3, 0, -1000), -1000, 0),  # which of them is void, air or water?
         (np.clip(RAMP, -1, 1), -1, 1),
         (np.clip(RAMP, 0, 2), 0, 2),
     ],

@@ -616,7 +616,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     (pear(), {"threads": 0}, "threads"),
     (pear(), {"threads": -2}, "threads"),
     (pear(), {"threshold": "odsu"}, "there is no threshold 'odsu'"),
-    (pear().astype(float) * 9, {}, "--threshold X, --range LOW,HIGH, --label N or --otsu"),
+    (pear().astype(float) * 9 + 1, {}, "--threshold X, --range LOW,HIGH, --label N or --otsu"),
     (pear().astype(int) * 9, {"threshold": 50}, "no cell would be solid"),
     (pear().astype(int) * 9, {"threshold": (9, 3)}, "lower end first"),
     (pear().astype(int) * 9, {"threshold": 3, "label": 9}, "exclude each other"),

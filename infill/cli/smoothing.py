@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 import typer
 
 from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
+from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
     from infill.result import Result
@@ -25,8 +27,8 @@ def smooth(
         Path,
         typer.Argument(
             metavar="INPUT",
-            help="Mesh (.stl .3mf .obj .ply .off .glb), volume (.npy .npz .tif .nrrd .nii .mha, a folder of DICOM or "
-            "slices) or points (.xyz .csv .txt .npy .ply).",
+            help="Mesh (.stl .3mf .obj .ply .off .glb), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
+            "folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
         ),
     ],
     output: Annotated[
@@ -64,6 +66,10 @@ def smooth(
     series: Annotated[
         str | None, typer.Option(help="UID of the series, if a DICOM folder holds several.", rich_help_panel=FILES)
     ] = None,
+    frame: Frame = None,
+    each_label: EachLabel = False,
+    labels: Labels = None,
+    keep_going: KeepGoing = False,
     resolution: Annotated[
         int | None,
         typer.Option(help="Voxels along the longest side of a mesh or of points. (default: 200)", rich_help_panel=GRID),
@@ -75,6 +81,7 @@ def smooth(
             help="Voxel size of a volume, mm: 0.9,0.9,1.5, or 1. (default: as in the file)", rich_help_panel=GRID
         ),
     ] = None,
+    roi: Roi = None,
     shell: Annotated[
         float | None,
         typer.Option(
@@ -192,6 +199,52 @@ def smooth(
         method = "plain"  # the only way that has a fidelity
     if not (outputs or preview or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
+    spaced = None if spacing is None else parse_numbers("spacing", spacing, (1, 3))
+    box = None if roi is None else parse_numbers("roi", roi, (6,))
+    if wants_each(outputs, each_label=each_label, labels=labels, keep_going=keep_going):
+        refuse(
+            preview=preview is not None,
+            units=units is not None,
+            resolution=resolution is not None,
+            voxel=voxel is not None,
+            shell=shell is not None,
+            threshold=threshold is not None,
+            range=between is not None,
+            otsu=otsu,
+            grey=grey,
+        )
+        from infill.phasefield.allen_cahn import Smoothing
+
+        smooth_each(
+            GivenLabels(
+                source=source,
+                kind=kind,
+                array=array,
+                series=series,
+                frame=frame,
+                spacing=spaced,
+                roi=box,
+                labels=labels,
+            ),
+            Written(
+                outputs=outputs, ascii_stl=ascii_stl, force=force, as_json=as_json, quiet=quiet, keep_going=keep_going
+            ),
+            label=tuple(label) if label else None,
+            options={
+                "smoothing": Smoothing(
+                    steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
+                ),
+                "refine": refine,
+                "level": parse_level(level),
+                "despeckle": despeckle,
+                "allow_broken": allow_broken,
+                "tolerance": tolerance,
+                "max_triangles": max_triangles,
+                "threads": threads,
+                "max_memory": None if max_memory is None else parse_bytes(max_memory),
+            },
+        )
+        return
     for path in outputs:
         if path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
@@ -214,7 +267,9 @@ def smooth(
                 units=units,
                 array=array,
                 series=series,
-                spacing=None if spacing is None else parse_numbers("spacing", spacing, (1, 3)),
+                frame=frame,
+                spacing=spaced,
+                roi=box,
             )
         from infill.smoothing.placing import field_volume
 

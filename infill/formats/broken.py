@@ -93,8 +93,8 @@ def one_line(error: Exception) -> str:
     return words if len(words) <= 200 else words[:200] + "…"
 
 
-def checked_volume(path: Path, values: NDArray[Any], **place: Any) -> Volume:  # noqa: ANN401 - hands on
-    """Return the checked volume with values [x, y, z]."""
+def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401
+    """Return the checked volume with values [x, y, z]; all may be the same only where they need not be varied."""
     if values.dtype.kind == "c":
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     if values.dtype.kind not in "biuf":
@@ -108,7 +108,7 @@ def checked_volume(path: Path, values: NDArray[Any], **place: Any) -> Volume:  #
     low, high = values.min().item(), values.max().item()
     if not (math.isfinite(low) and math.isfinite(high)):
         raise FormatError(f"{path} holds cells that are NaN or infinite; fill or cut those cells first")
-    if low == high:
+    if varied and low == high:
         raise FormatError(f"{path} holds {low:g} in all cells, so no surface; check that it is the right file")
     try:
         return Volume(values=values, **place)

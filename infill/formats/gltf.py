@@ -1,4 +1,4 @@
-"""Binary glTF 2.0: a JSON chunk that describes one mesh, and a chunk of its numbers.
+"""Binary glTF 2.0: a JSON chunk that describes meshes, and a chunk of their numbers.
 
 glTF is in metres. Vertices are written in millimetres, which 32 bits preserve as in all other formats, and a node
 scaled by 1/1000 converts them to metres.
@@ -8,18 +8,23 @@ from __future__ import annotations
 
 import json
 import struct
+from collections.abc import Sequence
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.errors import FormatError
 from infill.formats.broken import told_broken
+from infill.formats.label_tables import Colour
+from infill.formats.parts import Part, plain
 from infill.surface import Surface
 from infill.version import __version__
 
 FLOAT, UNSIGNED, VERTICES, INDICES = 5126, 5125, 34962, 34963
 MILLIMETRE = 0.001  # of a metre
+LARGEST = 2**32 - 1  # bytes, which is what the sizes in it can say
 
 
 def read_glb(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
@@ -44,33 +49,83 @@ def read_glb(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
 
 def write_glb(surface: Surface, file: BinaryIO) -> None:
     """Write binary glTF 2.0: a JSON chunk that describes one mesh, and a chunk of its numbers."""
-    vertices, faces = surface.vertices.astype("<f4"), surface.faces.astype("<u4")
-    parts = (vertices.nbytes, faces.nbytes)
-    described = {
-        "asset": {"version": "2.0", "generator": f"phasefill {__version__}"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0, "scale": [MILLIMETRE] * 3}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "accessors": [
+    write_glb_parts([Part(surface=surface)], file)
+
+
+def write_glb_parts(parts: Sequence[Part], file: BinaryIO) -> None:
+    """Write binary glTF 2.0: a node with a mesh for each part, with its name and its colour.
+
+    Raises
+    ------
+    FormatError
+        If there is more than 4 GiB of it.
+    """
+    sizes = [size for part in parts for size in (12 * len(part.surface.vertices), 12 * len(part.surface.faces))]
+    described = _described(parts, sizes)
+    text = json.dumps(described, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    whole = 12 + 8 + len(text) + 8 + sum(sizes)
+    if whole > LARGEST:
+        raise FormatError(f"a .glb holds at most 4 GiB and this has {whole / 2**30:.1f}; write .3mf, or simplify it")
+    file.write(struct.pack("<4sII", b"glTF", 2, whole))
+    file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+    file.write(struct.pack("<I4s", sum(sizes), b"BIN\0"))
+    for part in parts:
+        file.write(part.surface.vertices.astype("<f4").tobytes() + part.surface.faces.astype("<u4").tobytes())
+
+
+def _described(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:
+    """Return the JSON chunk: two accessors and two buffer views for each part."""
+    coloured = [(number, part.colour) for number, part in enumerate(parts) if part.colour is not None]
+    material = {number: place for place, (number, _) in enumerate(coloured)}
+    names = [{"name": name} if (name := plain(part.name)) else {} for part in parts]
+    nodes, meshes, accessors = [], [], []
+    for number, part in enumerate(parts):
+        vertices = part.surface.vertices.astype("<f4")
+        look = {"material": material[number]} if number in material else {}
+        primitive = {"attributes": {"POSITION": 2 * number}, "indices": 2 * number + 1, **look}
+        nodes.append({"mesh": number, "scale": [MILLIMETRE] * 3, **names[number]})
+        meshes.append({"primitives": [primitive], **names[number]})
+        accessors += [
             {
-                "bufferView": 0,
+                "bufferView": 2 * number,
                 "componentType": FLOAT,
                 "count": len(vertices),
                 "type": "VEC3",
                 "min": vertices.min(axis=0).tolist(),
                 "max": vertices.max(axis=0).tolist(),
             },
-            {"bufferView": 1, "componentType": UNSIGNED, "count": faces.size, "type": "SCALAR"},
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteOffset": 0, "byteLength": parts[0], "target": VERTICES},
-            {"buffer": 0, "byteOffset": parts[0], "byteLength": parts[1], "target": INDICES},
-        ],
-        "buffers": [{"byteLength": sum(parts)}],
+            {
+                "bufferView": 2 * number + 1,
+                "componentType": UNSIGNED,
+                "count": part.surface.faces.size,
+                "type": "SCALAR",
+            },
+        ]
+    views = [
+        {
+            "buffer": 0,
+            "byteOffset": sum(sizes[:number]),
+            "byteLength": size,
+            "target": INDICES if number % 2 else VERTICES,
+        }
+        for number, size in enumerate(sizes)
+    ]
+    looks = {"materials": [_material(names[number], colour) for number, colour in coloured]} if coloured else {}
+    return {
+        "asset": {"version": "2.0", "generator": f"phasefill {__version__}"},
+        "scene": 0,
+        "scenes": [{"nodes": list(range(len(parts)))}],
+        "nodes": nodes,
+        "meshes": meshes,
+        **looks,
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"byteLength": sum(sizes)}],
     }
-    text = json.dumps(described, separators=(",", ":")).encode()
-    text += b" " * (-len(text) % 4)
-    file.write(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + sum(parts)))
-    file.write(struct.pack("<I4s", len(text), b"JSON") + text)
-    file.write(struct.pack("<I4s", sum(parts), b"BIN\0") + vertices.tobytes() + faces.tobytes())
+
+
+def _material(name: dict[str, str], colour: Colour) -> dict[str, Any]:
+    """Return a material of one colour, which glTF wants as linear light: IEC 61966-2-1."""
+    linear = [each / 12.92 if each <= 0.04045 else ((each + 0.055) / 1.055) ** 2.4 for each in colour]
+    return {**name, "pbrMetallicRoughness": {"baseColorFactor": [*linear, 1.0], "metallicFactor": 0.0}}

@@ -8,6 +8,7 @@ import math
 import os
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import IO, Any, BinaryIO, cast
@@ -16,6 +17,7 @@ import numpy as np
 
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, checked_volume, is_ours, told_broken
+from infill.formats.frames import chosen
 from infill.machine import require_memory
 from infill.version import __version__
 from infill.volume import AXES, Volume
@@ -74,42 +76,89 @@ def _quiet(sitk: ModuleType, path: Path) -> Iterator[None]:
         sitk.ProcessObject.SetGlobalWarningDisplay(shown)
 
 
-def read_medical(path: Path) -> Volume:
-    """Return the volume of one file, [x, y, z], where it lies in space."""
+def read_medical(path: Path, frame: int | None = None) -> Volume:
+    """Return the volume of one file, [x, y, z], where it lies in space, or one of several, counted from 0."""
     sitk = _simpleitk(path.suffix if path.suffix.lower() != ".gz" else ".nii.gz")
+    reader, found = _announced(sitk, path)
+    size, numbers = found.size, found.components
+    if numbers > 1:
+        what = f"holds a {found.kind} per cell; save one grey value, magnitude or label per cell"
+        component = chosen(path, frame, numbers, what=what)
+    else:
+        at = chosen(path, frame, math.prod(size[AXES:]), what=f"has {len(size)} axes, {_times(size)}")
+    if len(size) < AXES or (path.suffix.lower() == ".dcm" and size[2] == 1):
+        raise FormatError(f"{path} is a single slice, {_times(size)}; give the folder of all slices, or a volume")
+    if numbers == 1 and math.prod(size[AXES:]) > 1:
+        reader.SetExtractSize((*size[:AXES], *(0 for _ in size[AXES:])))
+        reader.SetExtractIndex((0, 0, 0, *(int(k) for k in np.unravel_index(at, size[AXES:], order="F"))))
+    with _quiet(sitk, path):
+        image = reader.Execute()
+    return _placed(sitk, path, image, found.space, component=component if numbers > 1 else None)
+
+
+def read_layers(path: Path) -> tuple[Volume, ...]:
+    """Return every component of an image as a volume, in order: the layers of a segmentation, which may be empty."""
+    sitk = _simpleitk(path.suffix)
+    reader, found = _announced(sitk, path)
+    if len(found.size) != AXES:
+        return (read_medical(path),)
+    with _quiet(sitk, path):
+        image = reader.Execute()
+    if found.components == 1:
+        return (_placed(sitk, path, image, found.space),)
+    return tuple(
+        _placed(sitk, path, image, found.space, component=layer, varied=False) for layer in range(found.components)
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Announced:
+    """What the header of an image says: cells along each axis, type of a cell, numbers per cell, space."""
+
+    size: tuple[int, ...]
+    kind: str
+    components: int
+    space: str
+
+
+def _announced(sitk: ModuleType, path: Path) -> tuple[Any, _Announced]:
+    """Return the reader of a file that has read its header, and what that says, checked."""
     reader = sitk.ImageFileReader()
     reader.SetFileName(str(path))
     with _quiet(sitk, path):
         reader.ReadImageInformation()
     size, kind = reader.GetSize(), sitk.GetPixelIDValueAsString(reader.GetPixelID())
-    if reader.GetNumberOfComponents() > 1 or "complex" in kind:
+    if "complex" in kind:
         raise FormatError(f"{path} holds a {kind} per cell; save one grey value, magnitude or label per cell")
-    if len(size) > AXES and math.prod(size[AXES:]) > 1:
-        raise FormatError(f"{path} has {len(size)} axes, {_times(size)}; save one volume of it, with three")
-    if len(size) < AXES or (path.suffix.lower() == ".dcm" and size[2] == 1):
-        raise FormatError(f"{path} is a single slice, {_times(size)}; give the folder of all slices, or a volume")
     known = {key: reader.GetMetaData(key) for key in USED_TAGS if reader.HasMetaDataKey(key)}
+    components = reader.GetNumberOfComponents()
     if path.name.lower().endswith((".nii", ".nii.gz")):
-        _require_whole_nifti(path, size, known)
-    require_memory(math.prod(size) * _cell_bytes(kind), None, SMALLER)
-    with _quiet(sitk, path):
-        image = reader.Execute()
+        _require_whole_nifti(path, (*size, 1 if "8-bit" in kind else components), known)  # bytes of a colour are one
+    require_memory(math.prod(size) * components * _cell_bytes(kind), None, SMALLER)
     # An NRRD may lie in a space without a name; for all other formats, the readers convert theirs to LPS.
     named = not path.name.lower().endswith((".nrrd", ".nhdr")) or known.get("NRRD_space") == "left-posterior-superior"
-    return _placed(sitk, path, image, "LPS" if named else "")
+    return reader, _Announced(size=size, kind=kind, components=components, space="LPS" if named else "")
 
 
-def _placed(sitk: ModuleType, path: Path, image: Any, space: str) -> Volume:  # noqa: ANN401 - SimpleITK.Image
-    """Return an image as a volume [x, y, z], with its origin at the lower corner of the first cell."""
+def _placed(
+    sitk: ModuleType,
+    path: Path,
+    image: Any,  # noqa: ANN401 - SimpleITK.Image
+    space: str,
+    *,
+    component: int | None = None,
+    varied: bool = True,
+) -> Volume:
+    """Return an image, or one component of it, as a volume [x, y, z], with its origin at a corner of the first cell."""
     axes = image.GetDimension()
     values = np.asarray(_Kept(sitk, image))
+    values = values if component is None else values[..., component]
     values = values.reshape(values.shape[-AXES:]).T  # axes beyond three have one cell
     spacing = np.array(image.GetSpacing()[:AXES])
     direction = np.array(image.GetDirection()).reshape(axes, axes)[:AXES, :AXES]
     corner = np.array(image.GetOrigin()[:AXES]) - direction @ (spacing / 2)
-    return checked_volume(
-        path, values, spacing=tuple(spacing.tolist()), origin=tuple(corner.tolist()), direction=direction, space=space
-    )
+    place = {"spacing": tuple(spacing.tolist()), "origin": tuple(corner.tolist()), "direction": direction}
+    return checked_volume(path, values, varied=varied, space=space, **place)
 
 
 def _times(size: tuple[int, ...]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.broken import readable
 from infill.formats.foreign import read_by_trimesh
-from infill.formats.gltf import read_glb, write_glb
+from infill.formats.gltf import read_glb, write_glb, write_glb_parts
 from infill.formats.obj import read_obj, write_obj
+from infill.formats.parts import Part
 from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
-from infill.formats.threemf import read_3mf, write_3mf
+from infill.formats.threemf import read_3mf, write_3mf, write_3mf_parts
 from infill.formats.whole_files import whole_file
 from infill.surface import Surface
 from infill.surfaces.merging import closed_or_merged, surface_of
@@ -70,6 +71,18 @@ def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Ca
     return write_stl_ascii if ascii else WRITERS[suffix]
 
 
+def parts_writer(path: Path) -> Callable[[Sequence[Part], BinaryIO], None]:
+    """Return the function that writes several meshes into one file, or raise FormatError if the format holds one."""
+    suffix = path.suffix.lower()
+    if suffix not in PART_WRITERS:
+        writer(path)
+        raise FormatError(
+            f"{path} can hold one mesh and there may be several; use {' or '.join(PART_WRITERS)}, "
+            "or {label} in the name for a file each"
+        )
+    return PART_WRITERS[suffix]
+
+
 def read_mesh(path: str | os.PathLike[str]) -> Surface:
     """Return the triangles of a file.
 
@@ -111,6 +124,10 @@ WRITERS: dict[str, Callable[[Surface, BinaryIO], None]] = {
     ".obj": write_obj,
     ".ply": write_ply,
     ".glb": write_glb,
+}
+PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
+    ".3mf": write_3mf_parts,
+    ".glb": write_glb_parts,
 }
 READERS: dict[str, Callable[[Path], tuple[NDArray[np.floating], NDArray[np.integer]]]] = {
     ".stl": read_stl,

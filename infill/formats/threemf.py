@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import BinaryIO
 from xml.etree import ElementTree
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import told_broken
+from infill.formats.parts import Part, hexadecimal, plain
 from infill.formats.rows import write_rows
 from infill.surface import Surface
 from infill.version import __version__
@@ -33,12 +36,7 @@ RELATIONS = """<?xml version="1.0" encoding="UTF-8"?>
 HEAD = f"""<?xml version="1.0" encoding="UTF-8"?>
 <model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
  <metadata name="Application">phasefill-{__version__}</metadata>
- <resources><object id="1" type="model"><mesh><vertices>
-"""
-TAIL = """</triangles></mesh></object></resources>
- <build><item objectid="1"/></build>
-</model>
-"""
+ <resources>"""
 
 
 def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
@@ -115,12 +113,38 @@ def _transform(text: str) -> NDArray[np.float64]:
 
 def write_3mf(surface: Surface, file: BinaryIO) -> None:
     """Write 3MF, core specification only: one object, in millimetres."""
+    write_3mf_parts([Part(surface=surface)], file)
+
+
+def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
+    """Write 3MF, core specification only: an object for each part, with its name and its colour, in millimetres."""
+    names = [plain(part.name) for part in parts]
+    coloured = [number for number, part in enumerate(parts) if part.colour is not None]
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=4) as package:
         package.writestr("[Content_Types].xml", TYPES)
         package.writestr("_rels/.rels", RELATIONS)
         with package.open("3D/3dmodel.model", "w", force_zip64=True) as model:
             model.write(HEAD.encode())
-            write_rows(model, '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', surface.vertices)
-            model.write(b"</vertices><triangles>\n")
-            write_rows(model, '<triangle v1="%d" v2="%d" v3="%d"/>\n', surface.faces)
-            model.write(TAIL.encode())
+            model.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
+            for number, part in enumerate(parts):
+                name = f" name={quoteattr(names[number])}" if names[number] else ""
+                at = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
+                model.write(f'<object id="{number + 1}" type="model"{name}{at}><mesh><vertices>\n'.encode())
+                write_rows(model, '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.surface.vertices)
+                model.write(b"</vertices><triangles>\n")
+                write_rows(model, '<triangle v1="%d" v2="%d" v3="%d"/>\n', part.surface.faces)
+                model.write(b"</triangles></mesh></object>")
+            items = "".join(f'<item objectid="{number + 1}"/>' for number in range(len(parts)))
+            model.write(f"</resources>\n <build>{items}</build>\n</model>\n".encode())
+
+
+def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
+    """Return the resource that holds the colours of named parts; empty if there are none."""
+    if not coloured:
+        return ""
+    bases = "".join(
+        f'<base name={quoteattr(name or "part")} displaycolor="{hexadecimal(part.colour)}"/>'
+        for name, part in coloured
+        if part.colour is not None
+    )
+    return f'<basematerials id="{number}">{bases}</basematerials>\n'

@@ -3,6 +3,8 @@
     .npy .npz           [x, y, z], or [z, y, x] where the file says so
     .tif .tiff          pages are z, rows y, columns x; likewise a folder of .tif or .png slices
     .nrrd .nii .mha …   by SimpleITK (extra `medical`), with their place in space
+    .mgz .mgh           of FreeSurfer
+    .vtk .vti           images of VTK, legacy and XML
     a DICOM folder      the only series in it, or the one that is named
 
 Values keep their type, and are copied at most once.
@@ -18,24 +20,33 @@ from typing import BinaryIO
 from infill.errors import FormatError, ParameterError
 from infill.formats.arrays import read_npy, read_npz, write_npz
 from infill.formats.broken import one_line
+from infill.formats.freesurfer import read_mgh
 from infill.formats.medical import read_dicom, read_medical, write_nrrd
 from infill.formats.slices import SLICES, natural, read_slices, read_tiff
+from infill.formats.vtk_images import read_vtk
+from infill.formats.vtk_xml import read_vti
 from infill.formats.whole_files import whole_file
 from infill.volume import Volume
 
 
-def read_volume(path: str | os.PathLike[str], *, array: str | None = None, series: str | None = None) -> Volume:
+def read_volume(
+    path: str | os.PathLike[str], *, array: str | None = None, series: str | None = None, frame: int | None = None
+) -> Volume:
     """Return the volume that a file or a folder holds.
 
     Parameters
     ----------
     path : str or Path
-        .npy, .npz, .tif, .tiff; with SimpleITK also .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, .dcm; a folder
-        of .tif or .png slices, taken in the order of the numbers in their names; a folder of DICOM slices.
+        .npy, .npz, .tif, .tiff, .mgz, .mgh, .vtk, .vti; with SimpleITK also .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd,
+        .dcm; a folder of .tif or .png slices, taken in the order of the numbers in their names; a folder of DICOM
+        slices.
     array : str, optional
         Name of the array to read, if an .npz holds several with three axes.
     series : str, optional
         UID of the series to read, if a DICOM folder holds several.
+    frame : int, optional
+        Which volume to read, counted from 0, of a file that holds several: a series in time, or several numbers per
+        cell. Medical images and those of FreeSurfer and VTK have frames.
 
     Returns
     -------
@@ -51,7 +62,7 @@ def read_volume(path: str | os.PathLike[str], *, array: str | None = None, serie
     MemoryLimitError
         If the values need more memory than is available.
     ParameterError
-        If `array` or `series` is given for a file that has none.
+        If `array`, `series` or `frame` is given for a file that has none.
     """
     source = Path(path)
     suffix = next((each for each in READERS if source.name.lower().endswith(each)), "")
@@ -59,6 +70,8 @@ def read_volume(path: str | os.PathLike[str], *, array: str | None = None, serie
         raise ParameterError(f"array={array!r} was given for {source}; only an .npz holds named arrays")
     if series is not None and not source.is_dir():
         raise ParameterError(f"series={series!r} was given for {source}; give the folder that holds the series")
+    if frame is not None and (source.is_dir() or (suffix and suffix not in FRAMED)):
+        raise ParameterError(f"frame={frame!r} was given for {source}; only {', '.join(FRAMED)} hold frames")
     try:
         if source.is_dir():
             return _read_folder(source, series)
@@ -67,6 +80,8 @@ def read_volume(path: str | os.PathLike[str], *, array: str | None = None, serie
         if not suffix:
             known = ", ".join(READERS)
             raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {known} or a folder of slices")
+        if frame is not None:
+            return FRAMED[suffix](source, frame)
         return read_npz(source, array) if suffix == ".npz" else READERS[suffix](source)
     except OSError as error:
         reason = error.strerror or one_line(error)
@@ -122,11 +137,17 @@ def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
     return FIELD_WRITERS[suffix]
 
 
-READERS: dict[str, Callable[[Path], Volume]] = {
+FRAMED: dict[str, Callable[..., Volume]] = {
+    **dict.fromkeys((".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm"), read_medical),
+    **dict.fromkeys((".mgz", ".mgh", ".mgh.gz"), read_mgh),
+    ".vtk": read_vtk,
+    ".vti": read_vti,
+}
+READERS: dict[str, Callable[..., Volume]] = {
     ".npy": read_npy,
     ".npz": read_npz,
     ".tif": read_tiff,
     ".tiff": read_tiff,
-    **dict.fromkeys((".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm"), read_medical),
+    **FRAMED,  # a frame may be left out
 }
 FIELD_WRITERS: dict[str, Callable[[Volume, BinaryIO], None]] = {".npz": write_npz, ".nrrd": write_nrrd}

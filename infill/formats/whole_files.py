@@ -124,10 +124,16 @@ def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
     paths = list(parts)
     if not paths:
         return paths
-    with whole_files(paths) as files:
-        for path, file in zip(paths, files, strict=True):
-            with told(path):
+    partials = [_partial(path) for path in paths]
+    try:
+        for path, partial in zip(paths, partials, strict=True):  # one after the other: there may be hundreds
+            with told(path), open(partial, "wb" if partial == path else "xb") as file:
                 parts[path](file)
+        _take_places([(partial, path) for partial, path in zip(partials, paths, strict=True) if partial != path])
+    finally:
+        for path, partial in zip(paths, partials, strict=True):
+            if partial != path:
+                _remove(partial)
     return paths
 
 

@@ -47,8 +47,17 @@ def way_inside(
     """
     points = start[:, None] + distance[:, None] * direction[:, None]
     values = np.asarray(value(points.reshape(-1, start.shape[1]))).reshape(points.shape[:2])
+    return first_stretch(values, distance, leeway=leeway)
+
+
+def first_stretch(values: NDArray[np.floating], distance: Floats, *, leeway: int = 0) -> Floats:
+    """Return what `way_inside` does, given the values at all positions along the rays, (N, n).
+
+    >>> first_stretch(np.array([[1.0, 1.0, -1.0], [-1.0, -1.0, -1.0]]), np.arange(3.0)).tolist()
+    [1.5, 0.0]
+    """
     inside = values > 0
-    row, place = np.arange(len(start)), np.arange(len(distance))
+    row, place = np.arange(len(values)), np.arange(len(distance))
     first = inside.argmax(axis=1)
     out = ~inside & (place > first[:, None])
     last = out.argmax(axis=1)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.inspection.rays import way_inside
-from infill.kernels.sparse import BRICK, SOLID_BRICK
+from infill.inspection.rays import first_stretch
+from infill.kernels.rays import follow
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 
@@ -57,11 +57,9 @@ def thinnest_walls(
     at = (np.arange(places, dtype=np.float64) + 0.5) * (STEP * float(size.min()))
 
     def thin(values: NDArray[np.generic], height: float, leeway: int) -> float | None:
-        def value(points: NDArray[np.float64]) -> NDArray[np.float64]:
-            solid = solid_at(field, values, np.floor(points / size).astype(np.int64), height)
-            return np.where(solid, 1.0, -1.0)
-
-        found = way_inside(value, start, inwards, at, leeway=leeway)
+        solid = np.empty((len(start), len(at)))
+        follow(field.slots, values, field.shape, start, inwards, at, size, height, solid)
+        found = first_stretch(solid, at, leeway=leeway)
         found = found[found > 0]
         if len(found) == 0:
             return None
@@ -69,17 +67,3 @@ def thinnest_walls(
         return thinnest if thinnest <= FARTHEST * float(size.min()) else None
 
     return thin(field.data, 0.0, LEEWAY_OF_DATA), thin(field.values, level, LEEWAY)
-
-
-def solid_at(
-    field: SparseField, values: NDArray[np.generic], cells: NDArray[np.int64], level: float
-) -> NDArray[np.bool_]:
-    """Return whether `values` of the bricks are above a level at cells (N, 3) of the grid; never beyond the grid."""
-    inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
-    place = np.where(inside[:, None], cells, 0) + 1
-    brick, cell = np.divmod(place, BRICK)
-    slot = field.slots[tuple(brick.T)]
-    kept = slot >= 0
-    solid: NDArray[np.bool_] = (slot == SOLID_BRICK) & inside
-    solid[kept] = (values[slot[kept], cell[kept, 0], cell[kept, 1], cell[kept, 2]] > level) & inside[kept]
-    return solid

@@ -15,11 +15,13 @@ from infill.checks import whole
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.formats.mesh_files import READERS, read_mesh
 from infill.formats.point_files import read_points
+from infill.formats.segmentations import Segmentation, read_segmentation
 from infill.formats.units import STATED, UNITS, guess_unit
 from infill.formats.volume_files import read_volume
 from infill.grid import spacing_of
 from infill.surface import Surface
 from infill.volume import Volume
+from infill.voxels.cropping import cropped
 
 if TYPE_CHECKING:
     from infill.result import Result
@@ -48,6 +50,8 @@ def read_source(
     spacing: float | tuple[float, ...] | None = None,
     array: str | None = None,
     series: str | None = None,
+    frame: int | None = None,
+    roi: tuple[float, ...] | None = None,
 ) -> Source:
     """Return the contents of a file or folder, in mm.
 
@@ -62,7 +66,10 @@ def read_source(
     spacing : float or (hx, hy, hz), optional
         Cell size of a volume, mm; if left out, the one stated in the file.
     array, series : str, optional
+    frame : int, optional
         See `infill.formats.volume_files.read_volume`.
+    roi : (x0, x1, y0, y1, z0, z1), optional
+        The part of a volume to take, mm: see `infill.voxels.cropping.cropped`.
 
     Raises
     ------
@@ -70,7 +77,7 @@ def read_source(
         For a file that cannot be read, or whose kind cannot be determined.
     ParameterError
         If no unit is given and the part would be smaller than 2 mm, as a part in metres would be (for one over
-        2 m there is only a warning); if a unit is given for a volume, or a spacing for anything else.
+        2 m there is only a warning); if a unit is given for a volume, or a spacing, frame or roi for anything else.
     """
     source = Path(path)
     if kind is not None and kind not in KINDS:
@@ -81,10 +88,9 @@ def read_source(
     if found == "volume":
         if units is not None:
             raise ParameterError("units are for meshes and points; give the spacing of a volume in mm")
-        volume = read_volume(source, array=array, series=series)
-        return volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
-    if spacing is not None or array is not None or series is not None:
-        raise ParameterError(f"spacing, array and series are for volumes, and {source} is read as {found}")
+        return _placed(read_volume(source, array=array, series=series, frame=frame), spacing, roi)
+    if any(each is not None for each in (spacing, array, series, frame, roi)):
+        raise ParameterError(f"spacing, array, series, frame and roi are for volumes, and {source} is read as {found}")
     if found == "points":
         points = read_points(source)
         return points * _scale(source, points, units)
@@ -93,6 +99,50 @@ def read_source(
     if stated is not None:
         return replace(mesh, vertices=mesh.vertices * (UNITS[units] / stated)) if units else mesh
     return replace(mesh, vertices=mesh.vertices * _scale(source, mesh.vertices, units))
+
+
+def read_labelled(
+    path: str | os.PathLike[str],
+    *,
+    kind: str | None = None,
+    spacing: float | tuple[float, ...] | None = None,
+    array: str | None = None,
+    series: str | None = None,
+    frame: int | None = None,
+    roi: tuple[float, ...] | None = None,
+) -> Segmentation:
+    """Return the labels of a file or folder, in mm, with their names and colours where the file has them.
+
+    Parameters
+    ----------
+    path, kind, spacing, array, series, frame, roi
+        See `read_source`.
+
+    Raises
+    ------
+    ParameterError
+        If the file is read as a mesh or as points, or the part holds no cell.
+    FormatError
+        As `read_source`.
+    """
+    source = Path(path)
+    found = kind or _kind_of(source)
+    if found != "volume":
+        raise ParameterError(f"labels are those of a volume, and {source} is read as {found}; leave them out")
+    read = read_segmentation(source, array=array, series=series, frame=frame)
+    return replace(read, layers=tuple(_placed(layer, spacing, roi, varied=False) for layer in read.layers))
+
+
+def _placed(
+    volume: Volume,
+    spacing: float | tuple[float, ...] | None,
+    roi: tuple[float, ...] | None,
+    *,
+    varied: bool = True,
+) -> Volume:
+    """Return a volume with another cell size, if one is given, and of that the part in a box."""
+    sized = volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
+    return sized if roi is None else cropped(sized, roi, varied=varied)
 
 
 def smooth_source(

@@ -14,7 +14,7 @@ from infill.checks import positive, within
 from infill.errors import ParameterError
 from infill.volume import Volume
 
-MASKS = ((0, 1), (-1, 1), (0, 255))  # two values that can only mean void and solid
+SIGNS = (-1, 1)  # void and solid, as in a phase field
 EXACT = 65536  # a histogram of whole numbers up to this range has one bin per value
 BINS = 4096  # bins otherwise
 NAMED = 12  # labels listed in a message
@@ -59,8 +59,8 @@ def threshold(
 
     Notes
     -----
-    If no way is given, booleans are used as they are, two values one of which must be void ({0, 1}, {-1, 1}, {0, 255})
-    are a mask, and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
+    If no way is given, booleans are used as they are; 0 and one value above it are a mask whose void is 0, and so are
+    −1 and 1, whose void is −1; and floating-point numbers in [-1, 1] of both signs are a phase field, solid above 0.
 
     >>> threshold(Volume(values=np.arange(8.0).reshape(2, 2, 2)), low=6)[1]["solid"]
     0.25
@@ -218,7 +218,8 @@ def contrast(volume: Volume, level: float) -> float:
 def _plain(volume: Volume, least: float, most: float) -> tuple[NDArray[np.bool_], dict[str, Any]]:
     """Return what the values mean by themselves, or raise ParameterError that offers the ways to choose."""
     values: NDArray[Any] = volume.values
-    if (least, most) in MASKS and all(bool(((part == least) | (part == most)).all()) for part in _slabs(values)):
+    masked = least == 0 < most or (least, most) == SIGNS
+    if masked and all(bool(((part == least) | (part == most)).all()) for part in _slabs(values)):
         return values == most, {"method": "mask"}
     if values.dtype.kind == "f" and -1 <= least < 0 < most <= 1:
         return values > 0, {"method": "phase", "low": 0.0}

@@ -1,0 +1,216 @@
+"""``infill smooth`` with ``{label}`` in a name, or with ``--each-label``: every label of a segmentation in one run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+
+import typer
+
+from infill.cli.console import as_bytes, log_said, print_json, progress_bar, say, table
+
+if TYPE_CHECKING:
+    from infill.result import Result
+    from infill.smoothing.labels import LabelStages
+    from infill.smoothing.request import Options
+
+LABELS = "Every label in one run"
+MOST_ROWS = 60  # labels in the summary
+
+EachLabel = Annotated[
+    bool,
+    typer.Option(
+        "--each-label",
+        help="A surface for every label, named and coloured, into one .3mf or .glb; {label} or {number} in the name of "
+        "an output implies it, and writes a file for each.",
+        rich_help_panel=LABELS,
+    ),
+]
+Labels = Annotated[
+    Path | None,
+    typer.Option(
+        "--labels",
+        help="Names and colours of the labels: label descriptions of ITK-SNAP, a lookup table of FreeSurfer, a .ctbl "
+        "of 3D Slicer. (default: as in a .seg.nrrd)",
+        rich_help_panel=LABELS,
+    ),
+]
+KeepGoing = Annotated[
+    bool,
+    typer.Option(
+        "--keep-going",
+        help="If a label fails, write the others, list what failed and exit with 1. (default: write nothing)",
+        rich_help_panel=LABELS,
+    ),
+]
+Frame = Annotated[
+    int | None,
+    typer.Option(
+        help="Which volume of a file with several, counted from 0: a frame of a series, a layer of segments.",
+        rich_help_panel="Files",
+    ),
+]
+Roi = Annotated[
+    str | None,
+    typer.Option(
+        help="Only the part of a volume in this box: X0,X1,Y0,Y1,Z0,Z1, mm, where the mesh will lie (LPS for medical "
+        "images). The surface is closed where the box cuts it.",
+        rich_help_panel="Grid",
+    ),
+]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Given:
+    """What is read, and how: see `infill.smoothing.sources.read_labelled`."""
+
+    source: Path
+    kind: str | None
+    array: str | None
+    series: str | None
+    frame: int | None
+    spacing: tuple[float, ...] | None
+    roi: tuple[float, ...] | None
+    labels: Path | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Written:
+    """Where the results go, and what is said."""
+
+    outputs: Sequence[Path]
+    ascii_stl: bool
+    force: bool
+    as_json: bool
+    quiet: bool
+    keep_going: bool
+
+
+def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
+    """Return whether every label is asked for; raise BadParameter for options that make no sense otherwise."""
+    from infill.formats.name_templates import is_template
+
+    if each_label or any(is_template(path) for path in outputs):
+        return True
+    for name, given in (("--labels", labels is not None), ("--keep-going", keep_going)):
+        if given:
+            raise typer.BadParameter(f"{name} goes with --each-label, or with {{label}} in the name of an output")
+    return False
+
+
+def refuse(**given: bool) -> None:
+    """Raise BadParameter for the first option that was given though it says nothing about labels."""
+    for name, used in given.items():
+        if used:
+            option = name.strip("_").replace("_", "-")
+            raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
+
+
+def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None, options: Options) -> None:
+    """Smooth every label, write the files and say what was done."""
+    from infill.formats.mesh_files import parts_writer, writer
+    from infill.formats.name_templates import is_template
+    from infill.formats.whole_files import check_targets, deliver
+
+    single = [path for path in written.outputs if not is_template(path)]
+    for path in written.outputs:
+        writer(path, ascii=written.ascii_stl)
+        if path in single:
+            parts_writer(path)
+    check_targets(single, overwrite=written.force)
+    with progress_bar(shown=not written.quiet) as progress, log_said(shown=not written.quiet):
+        from infill.formats.label_tables import read_labels
+        from infill.smoothing.labels import smooth_labels
+        from infill.smoothing.sources import read_labelled
+
+        if progress is not None:
+            progress("read", 0.0)
+        segments = () if given.labels is None else read_labels(given.labels)
+        segmentation = read_labelled(
+            given.source,
+            kind=given.kind,
+            array=given.array,
+            series=given.series,
+            frame=given.frame,
+            spacing=given.spacing,
+            roi=given.roi,
+        )
+        chosen: Options = {**options, "progress": _nearly(progress)}
+        result = smooth_labels(
+            segmentation,
+            label=label,
+            table=segments,
+            keep_going=written.keep_going,
+            **chosen,
+        )
+        if progress is not None:
+            progress("write", 0.9)
+        parts = _parts(result, written)
+        check_targets(parts, overwrite=written.force)
+        files = [str(path) for path in deliver(parts)]
+    if not written.quiet:
+        say(_summary(result, files, str(given.source)))
+    if written.as_json:
+        print_json({**result.report, "files": files})
+    failed = result.report["failed"]
+    if failed:
+        say(f"error: {len(failed)} of {len(failed) + len(result.surfaces)} labels failed; the others were written")
+        raise typer.Exit(1)
+
+
+def _nearly(progress: Callable[[str, float], None] | None) -> Callable[[str, float], None] | None:
+    """Return a listener that leaves room for what comes after smoothing."""
+    if progress is None:
+        return None
+    return lambda stage, share: progress(stage, 0.9 * share)
+
+
+def _parts(result: Result[LabelStages], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
+    """Return what writes each file."""
+    from infill.errors import OutputError
+    from infill.formats.mesh_files import parts_writer, writer
+    from infill.formats.name_templates import filled, is_template
+
+    # All names, also of labels that failed: what a file is called does not depend on the others.
+    every = list(result.stages.segments)
+    parts: dict[Path, Callable[[BinaryIO], object]] = {}
+    for output in written.outputs:
+        if not is_template(output):
+            parts[output] = partial(parts_writer(output), result.parts)
+            continue
+        write = writer(output, ascii=written.ascii_stl)
+        for name, path in zip(every, filled(output, every, list(result.stages.segments.values())), strict=True):
+            if name not in result.surfaces:
+                continue
+            if path in parts:
+                raise OutputError(f"{path} would be written for several labels; put {{label}} in the name")
+            parts[path] = partial(write, result.surfaces[name])
+    return parts
+
+
+def _summary(result: Result[LabelStages], files: Sequence[str], name: str) -> str:
+    """Return the short table for stderr: a row for each label, and what is wrong."""
+    report: dict[str, Any] = result.report
+    rows = {}
+    for each in report["labels"][:MOST_ROWS]:
+        own = each["report"]
+        rows[f"{each['number']} {each['name']}"] = (
+            f"{own['triangles']:,} triangles, {own['volume']:.6g} mm³, {own['volume_change']:+.4%} of the data"
+        )
+    if len(report["labels"]) > MOST_ROWS:
+        rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"
+    for each in report["failed"]:
+        rows[f"FAILED {each['number']} {each['name']}"] = each["error"]
+    if report["absent"]:
+        rows["without a cell"] = ", ".join(report["absent"])
+    if report["problems"]:
+        rows["PROBLEMS"] = "; ".join(report["problems"])
+    sizes = [Path(file).stat().st_size for file in files if Path(file).is_file()]
+    if len(files) == 1:
+        rows[f"wrote {files[0]}"] = as_bytes(sum(sizes))
+    elif files:
+        rows["wrote"] = f"{len(files)} files, {files[0]} to {files[-1]}, {as_bytes(sum(sizes))}"
+    return table(rows, title=name)

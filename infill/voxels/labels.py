@@ -1,0 +1,90 @@
+"""The labels of a volume of whole numbers: which there are, and where each of them lies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import ParameterError
+from infill.volume import Volume
+
+DIRECT = 65536  # labels up to here are looked up by their number
+MOST = 4096  # labels; a volume with more is one of grey values
+SLAB = 2**22  # cells examined in one go
+
+
+@dataclass(frozen=True, kw_only=True)
+class Extent:
+    """Where a label lies.
+
+    Parameters
+    ----------
+    value : int
+    low, high : (3,) int
+        The cells from `low` up to but without `high` hold all of it.
+    """
+
+    value: int
+    low: tuple[int, ...]
+    high: tuple[int, ...]
+
+
+def extents(volume: Volume) -> tuple[Extent, ...]:
+    """Return where every label lies, in the order of their numbers; 0 is none.
+
+    Raises
+    ------
+    ParameterError
+        If a value is no whole number, or there are more labels than any segmentation has.
+
+    >>> [each.value for each in extents(Volume(values=np.array([[[0, 7, 3, 7]]])))]
+    [3, 7]
+    """
+    from scipy.ndimage import find_objects
+
+    values = _whole(volume.values)
+    order = np.argsort([-abs(step) for step in values.strides], kind="stable")
+    ordered = values.transpose(order)  # as it lies in memory
+    least, most = int(ordered.min()), int(ordered.max())
+    if least < 0 or most > DIRECT:
+        names, numbers = np.unique(ordered, return_inverse=True)
+        index = numbers.reshape(ordered.shape) + 1
+    else:
+        names, index = np.arange(1, most + 1), ordered
+    found = [
+        (int(names[number]), [each[axis] for axis in np.argsort(order)])
+        for number, each in enumerate(find_objects(index))
+        if each is not None and names[number] != 0
+    ]
+    if len(found) > MOST:
+        raise ParameterError(
+            f"the volume holds {len(found)} values, more than the {MOST} labels of a segmentation; give --threshold X "
+            "for grey values, without {label}"
+        )
+    return tuple(
+        Extent(value=value, low=tuple(each.start for each in box), high=tuple(each.stop for each in box))
+        for value, box in found
+    )
+
+
+def _whole(values: NDArray[Any]) -> NDArray[Any]:
+    """Return values as whole numbers, or raise ParameterError."""
+    if values.dtype == bool:
+        return values.view(np.uint8)
+    if values.dtype.kind in "iu":
+        return values
+    for part in _slabs(values):
+        if not (part == np.rint(part)).all() or np.abs(part).max() > np.iinfo(np.int32).max:
+            raise ParameterError(
+                "the volume holds values that are no whole numbers, and so no labels; give --threshold X for grey "
+                "values, without {label}"
+            )
+    return values.astype(np.int32)
+
+
+def _slabs(values: NDArray[Any]) -> list[NDArray[Any]]:
+    rows = max(1, SLAB * len(values) // values.size)
+    return [values[start : start + rows] for start in range(0, len(values), rows)]
