@@ -30,7 +30,9 @@ SECTION = "data"
 FOLDERS = ("models", "medical", "printable", "nasty")
 ENDS = {".stl", ".off", ".obj", ".ply", ".3mf", ".xyz"}
 KEPT = "kept"  # what a report without a verdict says
-TOLD = 90  # characters of a message in the table
+TOLD = 110  # characters of a message in the table
+CORNER = 3.5  # voxels: the tip of a cube that 20 steps round is 3.3 away
+LEAST = 1e-3  # shares below are not told
 
 
 @dataclass(frozen=True)
@@ -110,20 +112,22 @@ def section(rows: dict[str, dict[str, Any]], made: str) -> str:
     refused = [name for name, row in rows.items() if row["status"]]
     silent = [name for name, row in rows.items() if unreported(row)]
     lost = [name for name, row in rows.items() if row.get("judged", {}).get("lost")]
+    deep = sum(rows[name]["judged"]["input_to_result"]["largest"] > CORNER for name in silent)
     mute = sum(not row["status"] and row["word"] is None for row in rows.values())
+    units = sum("unit" in row and not row["status"] for row in rows.values())
+    judged = [row["judged"] for row in rows.values() if "judged" in row]
     groups = dict.fromkeys(name.partition("/")[0] for name in rows)
     spread = ", ".join(f"{sum(name.startswith(each + '/') for name in refused)} in {each}" for each in groups)
-    open_ones = [
-        name for name, row in rows.items() if "judged" in row and not (row["judged"]["closed"][1])
-    ]  # of the results
     head = [
         f"Made with {made}.\n",
-        f"* **Refused: {len(refused)} of {len(rows)}** ({spread}).",
+        f"* **Refused: {len(refused)} of {len(rows)}** ({spread})."
+        + (f" {units} more asked for the unit first, and got `--units m` as the message advises." if units else ""),
         f"* **Losses that the report does not tell: {len(silent)}**, of {len(lost)} losses in "
-        f"{len(rows) - len(refused)} results."
+        f"{len(judged)} results that could be judged; {deep} of the {len(silent)} reach deeper than {CORNER:g} voxels, "
+        f"which is what smoothing takes from the corner of a cube."
         + (f" {mute} reports have no verdict, which counts as “{KEPT}”." if mute else ""),
-        f"* Results that are not closed: {len(open_ones)}; not manifold: "
-        f"{sum('judged' in row and not row['judged']['manifold'][1] for row in rows.values())}.\n",
+        f"* Results that are not closed: {sum(not each['closed'][1] for each in judged)}; "
+        f"not manifold: {sum(not each['manifold'][1] for each in judged)}.\n",
     ]
     return "\n".join(head) + "\n" + table(HEAD, [_line(name, row) for name, row in rows.items()]) + _losses(rows)
 
@@ -139,8 +143,8 @@ def _line(name: str, row: dict[str, Any]) -> tuple[str, ...]:
     judged = row.get("judged")
     if not judged:
         return (*start, *["-"] * 8)
-    notes = [f"{judged['capped']:.1%} over holes"] * (judged["capped"] > 0)
-    notes += [f"{judged['hidden']:.1%} hidden"] * (judged["hidden"] > 0)
+    notes = [f"{judged['capped']:.1%} over holes"] * (judged["capped"] > LEAST)
+    notes += [f"{judged['hidden']:.1%} hidden"] * (judged["hidden"] > LEAST)
     return (
         *start,
         " → ".join(f"{count:,}" for count in judged["triangles"]),
@@ -158,7 +162,7 @@ def _ended(row: dict[str, Any]) -> str:
     if row["status"]:
         text = row["message"].removeprefix("error: ")
         return f"{row['status']}: {text[:TOLD]}{'…' * (len(text) > TOLD)}"
-    return row.get("unread", "0")
+    return "0; not judged" if "unread" in row else "0, with `--units m`" if "unit" in row else "0"
 
 
 def _far(distances: dict[str, float]) -> str:
@@ -175,12 +179,11 @@ def _losses(rows: dict[str, dict[str, Any]]) -> str:
         judged = row.get("judged", {})
         if judged.get("lost"):
             patches = judged["patches"]
-            longest = f"{patches[0]['length']:.1f}" if patches else "-"
-            deepest = max(patches, key=lambda patch: patch["depth"], default=None)
-            place = ", ".join(f"{x:.4g}" for x in deepest["at"]) if deepest else "-"
-            depth = f"{deepest['depth']:.1f}" if deepest else "-"
+            longest, deepest = patches[0], max(patches, key=lambda patch: patch["depth"])
+            place = ", ".join(f"{x:.4g}" for x in deepest["at"])
             told = "; ".join(row["changes"]) or "nothing"
-            lines.append((name, f"{judged['input_to_result']['p999']:.2f}", longest, depth, place, told))
+            share = f"{judged['input_to_result']['p999']:.2f}"
+            lines.append((name, share, f"{longest['length']:.1f}", f"{deepest['depth']:.1f}", place, told))
     if not lines:
         return ""
     head = ("file", "99.9 %", "longest piece", "deepest", "there", "the report says")

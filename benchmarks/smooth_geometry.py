@@ -147,9 +147,9 @@ def _crossings(triangles, points, cells, starts, members):  # pragma: no cover
             a = (t[1, 0] - x) * (t[2, 1] - y) - (t[2, 0] - x) * (t[1, 1] - y)
             b = (t[2, 0] - x) * (t[0, 1] - y) - (t[0, 0] - x) * (t[2, 1] - y)
             c = (t[0, 0] - x) * (t[1, 1] - y) - (t[1, 0] - x) * (t[0, 1] - y)
-            if (a > 0 and b > 0 and c > 0) or (a < 0 and b < 0 and c < 0):
-                if (a * t[0, 2] + b * t[1, 2] + c * t[2, 2]) / (a + b + c) > z:
-                    out[n] += 1 if a > 0 else -1
+            crossed = (a > 0 and b > 0 and c > 0) or (a < 0 and b < 0 and c < 0)
+            if crossed and (a * t[0, 2] + b * t[1, 2] + c * t[2, 2]) / (a + b + c) > z:
+                out[n] += 1 if a > 0 else -1
     return out
 
 

@@ -29,6 +29,7 @@ SAMPLES = 200_000
 FAR = 1.5  # voxels: what of the input lies farther from the result is lost
 PATCH = 2.0  # voxels: how long a lost piece must be to count by itself
 SHARE = 99.9  # percentile that may not be farther than FAR
+MOST = 5  # pieces that are told, the longest
 STEP = 1e-3  # voxels, to either side of a face
 BORDER = 0.5  # voxels: a foot so near to an open border lies on it
 
@@ -175,7 +176,10 @@ def distances_of(far: NDArray[np.float64], largest: float | None = None) -> Dist
 
 
 def patches_of(points: Points, far: NDArray[np.float64], apart: float, spacing: Points) -> tuple[Patch, ...]:
-    """Return the five longest pieces that are far: points whose boxes of a voxel, or of two gaps between them, touch."""
+    """Return the longest pieces that are far, and the deepest.
+
+    A piece is points whose boxes touch; a box is a voxel, or twice the gap between points if that is more.
+    """
     points, far = points[far > FAR], far[far > FAR]
     if not len(points):
         return ()
@@ -189,7 +193,9 @@ def patches_of(points: Points, far: NDArray[np.float64], apart: float, spacing: 
         tip = where[np.argmax(far[inside])] * np.asarray(spacing)
         length = float(np.linalg.norm(np.ptp(where, axis=0)))
         found.append(Patch(length, float(far[inside].max()), [round(float(x), 4) for x in tip]))
-    return tuple(sorted(found, key=lambda patch: -patch.length)[:5])
+    found.sort(key=lambda patch: -patch.length)
+    deepest = max(found, key=lambda patch: patch.depth)
+    return (*found[:MOST], *([deepest] * (deepest not in found[:MOST])))
 
 
 def _labels(count: int, links: NDArray[np.integer]) -> NDArray[np.int32]:

@@ -74,9 +74,7 @@ def arguments(text: str) -> argparse.ArgumentParser:
     default = os.environ.get("INFILL_DATA", ROOT.parent / "shared" / "data")
     words.add_argument("folder", nargs="?", type=Path, default=Path(default), help="that of the test data")
     words.add_argument("--only", default="", metavar="REGEX", help="cases whose name matches")
-    words.add_argument(
-        "--jobs", type=int, default=1, metavar="N", help="cases at a time; more than one blurs the times"
-    )
+    words.add_argument("--jobs", type=int, default=1, metavar="N", help="cases at a time; more than one blur times")
     words.add_argument(
         "--command",
         default=os.environ.get("INFILL_COMMAND", COMMAND),
