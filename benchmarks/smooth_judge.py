@@ -187,8 +187,8 @@ def patches_of(points: Points, far: NDArray[np.float64], apart: float, spacing: 
     links = cKDTree(boxes).query_pairs(1.5, p=np.inf, output_type="ndarray")
     label = _labels(len(boxes), links)[member.ravel()]
     found = []
-    for piece in np.unique(label):
-        inside = label == piece
+    order = np.argsort(label, kind="stable")
+    for inside in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
         where = points[inside]
         tip = where[np.argmax(far[inside])] * np.asarray(spacing)
         length = float(np.linalg.norm(np.ptp(where, axis=0)))

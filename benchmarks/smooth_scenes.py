@@ -20,8 +20,11 @@ class Scan:
 
     @property
     def level(self) -> float:
-        """Where the surface lies between the values of the cells."""
-        return 0.5 if self.threshold is None else self.threshold
+        """Where the surface lies: just under the threshold, since a cell at it is solid; and off all ties.
+
+        Where four cells of a face tie, marching cubes takes different sides and leaves the surface open.
+        """
+        return 0.499 if self.threshold is None else self.threshold - 0.25  # values are whole
 
 
 SCANS = {
