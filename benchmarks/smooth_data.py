@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import multiprocessing
 import re
-import shlex
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -23,7 +22,7 @@ import trimesh
 from benchmarks.slicer_tables import table
 from benchmarks.smooth_judge import Judgement, judge, judge_points
 from benchmarks.smooth_page import put
-from benchmarks.smooth_runs import PAGE, Smoothed, arguments, keep, made_with, read_results, smoothed
+from benchmarks.smooth_runs import PAGE, Smoothed, arguments, command_of, keep, made_with, read_results, smoothed
 from benchmarks.smooth_scenes import SCANS, Scan, isosurface, read, write
 
 SECTION = "data"
@@ -194,7 +193,7 @@ def main() -> None:
     """Run the cases that are asked for, keep their results, and write the table."""
     words = arguments(__doc__ or "")
     given = words.parse_args()
-    command = shlex.split(given.command)
+    command = command_of(given.command)
     stored = read_results(given.results).get(SECTION, {"rows": {}, "made": ""})
     if not given.page:
         todo = [case for case in cases(given.folder) if re.search(given.only, case.name)]

@@ -7,7 +7,6 @@ against the model without noise. Results go to build/smooth-report.json, and the
 from __future__ import annotations
 
 import re
-import shlex
 import sys
 import tempfile
 import time
@@ -22,7 +21,7 @@ import trimesh
 from benchmarks.slicer_tables import table
 from benchmarks.smooth_geometry import Topology, nearest, sampled
 from benchmarks.smooth_page import put
-from benchmarks.smooth_runs import PAGE, arguments, keep, made_with, read_results, smoothed
+from benchmarks.smooth_runs import PAGE, arguments, command_of, keep, made_with, read_results, smoothed
 from benchmarks.smooth_scans import angle
 
 SECTION = "meshes"
@@ -67,6 +66,8 @@ def pairs(folder: Path, only: str = "") -> Iterator[Pair]:
 def roughened(name: str, mesh: trimesh.Trimesh, noise: float) -> Pair:
     """Return a model, scaled, and itself with noise of so many mean edge lengths (standard deviation)."""
     truth = trimesh.Trimesh(vertices=mesh.vertices * (SIZE / mesh.extents.max()), faces=mesh.faces, process=True)
+    if truth.volume < 0:
+        truth.invert()
     edge = float(truth.edges_unique_length.mean())
     along = np.random.default_rng(SEED).normal(scale=noise * edge, size=len(truth.vertices))
     moved = truth.vertices + along[:, None] * truth.vertex_normals
@@ -156,7 +157,7 @@ def _line(name: str, who: str, found: dict[str, Any]) -> tuple[str, ...]:
 def main() -> None:
     """Run the pairs that are asked for, keep their results, and write the table."""
     given = arguments(__doc__ or "").parse_args()
-    command = shlex.split(given.command)
+    command = command_of(given.command)
     stored = read_results(given.results).get(SECTION, {"rows": {}, "made": ""})
     if not given.page:
         stored["made"] = made_with(command)

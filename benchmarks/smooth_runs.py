@@ -52,7 +52,8 @@ def smoothed(command: Sequence[str], source: Path, output: Path, options: Sequen
     words = [*command, "smooth", str(source), "-o", str(output), "--json", "--force", *options]
     with tempfile.TemporaryFile() as told, tempfile.TemporaryFile() as talk, tempfile.TemporaryFile() as spent:
         runner = [sys.executable, "-I", "-S", "-c", RUNNER, str(spent.fileno()), str(LIMIT), *words]
-        subprocess.run(runner, stdout=told, stderr=talk, cwd=ROOT, pass_fds=[spent.fileno()], check=True)
+        where = {"cwd": output.parent, "env": environment(command)}
+        subprocess.run(runner, stdout=told, stderr=talk, pass_fds=[spent.fileno()], check=True, **where)
         for file in (told, talk, spent):
             file.seek(0)
         text, errors = told.read().decode(), talk.read().decode().strip().splitlines()
@@ -68,11 +69,25 @@ def smoothed(command: Sequence[str], source: Path, output: Path, options: Sequen
     )
 
 
+def environment(command: Sequence[str]) -> dict[str, str]:
+    """Return the variables for a command: ours finds the infill beside this file, any other its own."""
+    rest = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return rest | ({"PYTHONPATH": str(ROOT)} if list(command) == shlex.split(COMMAND) else {})
+
+
+def command_of(text: str) -> list[str]:
+    """Return the words of a command, the program by its full path, since it is run in another folder."""
+    first, *rest = shlex.split(text)
+    return [str(Path(first).absolute()) if os.sep in first else first, *rest]
+
+
 def arguments(text: str) -> argparse.ArgumentParser:
     """Return what the three benchmarks of the page have in common at the command line."""
     words = argparse.ArgumentParser(description=text.partition("\n")[0])
     default = os.environ.get("INFILL_DATA", ROOT.parent / "shared" / "data")
-    words.add_argument("folder", nargs="?", type=Path, default=Path(default), help="that of the test data")
+    words.add_argument(
+        "folder", nargs="?", type=lambda word: Path(word).resolve(), default=default, help="that of the test data"
+    )
     words.add_argument("--only", default="", metavar="REGEX", help="cases whose name matches")
     words.add_argument("--jobs", type=int, default=1, metavar="N", help="cases at a time; more than one blur times")
     words.add_argument(
@@ -87,7 +102,11 @@ def arguments(text: str) -> argparse.ArgumentParser:
 
 def version_of(command: Sequence[str]) -> str:
     """Return what the command says of itself."""
-    return subprocess.run([*command, "--version"], capture_output=True, text=True, check=True, cwd=ROOT).stdout.strip()
+    with tempfile.TemporaryDirectory() as folder:
+        where = {"cwd": folder, "env": environment(command)}
+        return subprocess.run(
+            [*command, "--version"], capture_output=True, text=True, check=True, **where
+        ).stdout.strip()
 
 
 def read_results(path: Path) -> dict[str, Any]:

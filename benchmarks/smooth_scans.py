@@ -7,7 +7,6 @@ only the judge sees. Results go to build/smooth-report.json, and the table to do
 from __future__ import annotations
 
 import re
-import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
@@ -23,7 +22,7 @@ from benchmarks.peers.meshers import Field, slicer, surface_nets
 from benchmarks.slicer_tables import table
 from benchmarks.smooth_geometry import Topology, nearest, sampled
 from benchmarks.smooth_page import put
-from benchmarks.smooth_runs import PAGE, arguments, keep, made_with, read_results, smoothed
+from benchmarks.smooth_runs import PAGE, arguments, command_of, keep, made_with, read_results, smoothed
 from benchmarks.smooth_scenes import SCANS, Image, isosurface, read, write
 from infill.surface import Surface
 
@@ -178,7 +177,7 @@ def _line(name: str, who: str, found: dict[str, Any]) -> tuple[str, ...]:
 def main() -> None:
     """Run the cases that are asked for, keep their results, and write the table."""
     given = arguments(__doc__ or "").parse_args()
-    command = shlex.split(given.command)
+    command = command_of(given.command)
     stored = read_results(given.results).get(SECTION, {"rows": {}, "made": ""})
     if not given.page:
         stored["made"] = made_with(command)

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from benchmarks.smooth_page import marked
-from benchmarks.smooth_runs import smoothed
+from benchmarks.smooth_runs import COMMAND, ROOT, command_of, environment, smoothed
 
 PAGE = Path(__file__).parents[1] / "docs" / "smooth-report.md"
 VOXEL = np.array([0.5, 0.5, 0.5])  # mm
@@ -263,6 +263,19 @@ def test_the_peak_of_a_process_is_not_that_of_the_one_that_starts_it(tmp_path: P
     assert (done.status, done.message, done.report) == (0, "", {})
     assert 2**20 < done.memory < 2**27 < large.nbytes
     assert done.seconds < 30
+
+
+def test_another_infill_is_not_mistaken_for_the_one_beside_the_report(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Neither the folder nor the path that this process has leads the command to the code here."""
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    telling = "import json, os, sys; print(json.dumps([os.getcwd(), os.environ.get('PYTHONPATH')]))"
+    done = smoothed([sys.executable, "-S", "-c", telling], tmp_path / "in.stl", tmp_path / "out.stl")
+    assert done.report == [str(tmp_path), None]
+    assert environment(command_of(COMMAND))["PYTHONPATH"] == str(ROOT)
+    assert command_of("bin/infill --x 'a b'") == [str(Path("bin/infill").absolute()), "--x", "a b"]
+    assert command_of("infill")[0] == "infill"
 
 
 def test_an_error_is_told_without_folders(tmp_path: Path) -> None:
