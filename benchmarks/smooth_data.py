@@ -22,7 +22,7 @@ import trimesh
 from benchmarks.slicer_tables import table
 from benchmarks.smooth_judge import Judgement, judge, judge_points
 from benchmarks.smooth_page import put
-from benchmarks.smooth_runs import PAGE, Smoothed, arguments, command_of, keep, made_with, read_results, smoothed
+from benchmarks.smooth_runs import Smoothed, arguments, command_of, keep, made_with, read_results, smoothed
 from benchmarks.smooth_scenes import SCANS, Scan, isosurface, read, write
 
 SECTION = "data"
@@ -210,7 +210,7 @@ def main() -> None:
                 print(" | ".join(_line(name, row)), flush=True)
     order = {case.name: n for n, case in enumerate(cases(given.folder))}
     rows = dict(sorted(stored["rows"].items(), key=lambda item: order.get(item[0], len(order))))
-    put(PAGE, SECTION, section(rows, stored["made"]))
+    put(given.into, SECTION, section(rows, stored["made"]))
 
 
 if __name__ == "__main__":

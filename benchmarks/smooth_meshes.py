@@ -21,7 +21,7 @@ import trimesh
 from benchmarks.slicer_tables import table
 from benchmarks.smooth_geometry import Topology, nearest, sampled
 from benchmarks.smooth_page import put
-from benchmarks.smooth_runs import PAGE, arguments, command_of, keep, made_with, read_results, smoothed
+from benchmarks.smooth_runs import arguments, command_of, keep, made_with, read_results, smoothed
 from benchmarks.smooth_scans import angle
 
 SECTION = "meshes"
@@ -167,7 +167,7 @@ def main() -> None:
             for who in ORDER:
                 if who in stored["rows"][pair.name]:
                     print(" | ".join(_line(pair.name, who, stored["rows"][pair.name][who])), flush=True)
-    put(PAGE, SECTION, section(stored["rows"], stored["made"]))
+    put(given.into, SECTION, section(stored["rows"], stored["made"]))
 
 
 if __name__ == "__main__":

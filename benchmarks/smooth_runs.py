@@ -96,6 +96,7 @@ def arguments(text: str) -> argparse.ArgumentParser:
         help="the infill under test: a path, or words as for a shell (default: $INFILL_COMMAND, else this one)",
     )
     words.add_argument("--page", action="store_true", help="only write the page, of what is there")
+    words.add_argument("--into", type=Path, default=PAGE, help="the page to write, with its markers")
     words.add_argument("--results", type=Path, default=RESULTS, help="where the results are kept")
     return words
 

@@ -22,7 +22,7 @@ from benchmarks.peers.meshers import Field, slicer, surface_nets
 from benchmarks.slicer_tables import table
 from benchmarks.smooth_geometry import Topology, nearest, sampled
 from benchmarks.smooth_page import put
-from benchmarks.smooth_runs import PAGE, arguments, command_of, keep, made_with, read_results, smoothed
+from benchmarks.smooth_runs import arguments, command_of, keep, made_with, read_results, smoothed
 from benchmarks.smooth_scenes import SCANS, Image, isosurface, read, write
 from infill.surface import Surface
 
@@ -187,7 +187,7 @@ def main() -> None:
                 keep(given.results, SECTION, stored)
                 for who, found in stored["rows"][case.name].items():
                     print(" | ".join(_line(case.name, who, found)), flush=True)
-    put(PAGE, SECTION, section(stored["rows"], stored["made"]))
+    put(given.into, SECTION, section(stored["rows"], stored["made"]))
 
 
 if __name__ == "__main__":
