@@ -106,6 +106,12 @@ def unreported(row: dict[str, Any]) -> bool:
     return bool(row.get("judged", {}).get("lost")) and (row.get("word") or KEPT) == KEPT
 
 
+def retied(row: dict[str, Any]) -> bool:
+    """Tell whether the result has more or fewer shells or tunnels than the input, where both are known."""
+    judged = row.get("judged", {})
+    return any(None not in judged[what] and len(set(judged[what])) > 1 for what in ("shells", "tunnels") if judged)
+
+
 def section(rows: dict[str, dict[str, Any]], made: str) -> str:
     """Return the head, the table, and the losses one by one."""
     refused = [name for name, row in rows.items() if row["status"]]
@@ -114,7 +120,10 @@ def section(rows: dict[str, dict[str, Any]], made: str) -> str:
     deep = sum(rows[name]["judged"]["input_to_result"]["largest"] > CORNER for name in silent)
     mute = sum(not row["status"] and row["word"] is None for row in rows.values())
     units = sum("unit" in row and not row["status"] for row in rows.values())
-    judged = [row["judged"] for row in rows.values() if "judged" in row]
+    found = [row for row in rows.values() if "judged" in row]
+    judged = [row["judged"] for row in found]
+    knots = [row for row in rows.values() if retied(row)]
+    alarms = sum((row.get("word") or KEPT) != KEPT and not row["judged"]["lost"] for row in found)
     groups = dict.fromkeys(name.partition("/")[0] for name in rows)
     spread = ", ".join(f"{sum(name.startswith(each + '/') for name in refused)} in {each}" for each in groups)
     head = [
@@ -125,6 +134,9 @@ def section(rows: dict[str, dict[str, Any]], made: str) -> str:
         f"{len(judged)} results that could be judged; {deep} of the {len(silent)} reach deeper than {CORNER:g} voxels, "
         f"which is what smoothing takes from the corner of a cube."
         + (f" {mute} reports have no verdict, which counts as “{KEPT}”." if mute else ""),
+        f"* Results with more or fewer shells or tunnels than the input: {len(knots)}, of which the report says "
+        f"“{KEPT}” of {sum((row['word'] or KEPT) == KEPT for row in knots)}. Verdicts other than “{KEPT}” where nothing "
+        f"is lost by this measure: {alarms}.",
         f"* Results that are not closed: {sum(not each['closed'][1] for each in judged)}; "
         f"not manifold: {sum(not each['manifold'][1] for each in judged)}.\n",
     ]

@@ -297,6 +297,19 @@ def test_losses_that_are_not_told_are_counted() -> None:
     assert not unreported({"status": 1})
 
 
+def test_a_change_of_topology_is_counted_where_it_is_known() -> None:
+    from benchmarks.smooth_data import retied
+
+    def row(shells: list, tunnels: list) -> dict:
+        return {"judged": {"shells": shells, "tunnels": tunnels}}
+
+    assert retied(row([2, 1], [0, 0]))
+    assert retied(row([1, 1], [3, 1]))
+    assert not retied(row([1, 1], [3, 3]))
+    assert not retied(row([None, 1], [None, 0]))
+    assert not retied({"status": 1})
+
+
 def test_sections_are_put_between_their_markers_and_nowhere_else() -> None:
     page = "head\n<!-- a: begin -->\nold\n<!-- a: end -->\n<!-- b: begin -->\n<!-- b: end -->\ntail\n"
     once = marked(page, "a", "new")
