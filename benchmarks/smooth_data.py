@@ -135,8 +135,8 @@ def section(rows: dict[str, dict[str, Any]], made: str) -> str:
         f"which is what smoothing takes from the corner of a cube."
         + (f" {mute} reports have no verdict, which counts as “{KEPT}”." if mute else ""),
         f"* Results with more or fewer shells or tunnels than the input: {len(knots)}, of which the report says "
-        f"“{KEPT}” of {sum((row['word'] or KEPT) == KEPT for row in knots)}. Verdicts other than “{KEPT}” where nothing "
-        f"is lost by this measure: {alarms}.",
+        f"“{KEPT}” of {sum((row['word'] or KEPT) == KEPT for row in knots)}. Verdicts other than “{KEPT}” where "
+        f"nothing is lost by this measure: {alarms}.",
         f"* Results that are not closed: {sum(not each['closed'][1] for each in judged)}; "
         f"not manifold: {sum(not each['manifold'][1] for each in judged)}.\n",
     ]
