@@ -25,12 +25,13 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make data      real meshes and scans for the tests, in data/
 ## make bench     the promised speeds
 ## make slicer-report  refill against the slicers, hours of slicing, and docs/slicer-report.md
+## make smooth-report  what smooth does with real files, beside its peers, and docs/smooth-report.md
 ## make paper     the paper's figures and tables, and docs/paper.md
 ## make pictures  the pictures of README and docs
 ## make clean     removes what these made
 
 .DELETE_ON_ERROR:
-.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench slicer-report paper pictures help clean
+.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -105,6 +106,15 @@ bench: .venv/test
 # `make slicer-report ONLY=--quick` takes some minutes, `ONLY=--page` writes the page of what is there.
 slicer-report: .venv/test
 	@$(BIN)/python -m benchmarks.slicer_report $(ONLY)
+
+# Smooth on real files, judged by others, and docs/smooth-report.md: a quarter of an hour. Results are kept in
+# build/smooth-report.json; `make smooth-report ONLY="--only bunny"` makes some of them again,
+# `ONLY="--command /path/to/infill"` those of another infill.
+smooth-report: .venv/test
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	@$(BIN)/python -m benchmarks.smooth_data $(ONLY)
+	@$(BIN)/python -m benchmarks.smooth_scans $(ONLY)
+	@$(BIN)/python -m benchmarks.smooth_meshes $(ONLY)
 
 # Every figure and table of the paper, and docs/paper.md: some minutes. Models are taken from $INFILL_DATA.
 paper: .venv/test

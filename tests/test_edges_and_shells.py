@@ -132,12 +132,12 @@ def test_a_stamp_is_what_a_filter_of_maxima_makes(seed: int, reach: int) -> None
 
 
 def test_distances_from_triangles_are_those_of_trimesh(rng: np.random.Generator) -> None:
-    from infill.surfaces.distance import squared
+    from infill.kernels.distances import squared_distance
 
     corners, points = rng.normal(size=(4000, 3, 3)), 2 * rng.normal(size=(4000, 3))
     corners[:100, 2] = corners[:100, 1]  # and some without area
     nearest = trimesh.triangles.closest_point(corners[100:], points[100:])
-    found = np.sqrt(squared(points, corners))
+    found = np.sqrt([squared_distance(*p, *abc) for p, abc in zip(points, corners, strict=True)])
     assert found[100:] == pytest.approx(np.linalg.norm(points[100:] - nearest, axis=1), abs=1e-12)
     along = np.linspace(0, 1, 20001)[:, None]
     for n in range(20):

@@ -190,7 +190,7 @@ def comb() -> np.ndarray:
 
 def test_thin_walls_survive_that_plain_smoothing_breaks() -> None:
     solid, thirty = comb(), Smoothing(steps=30)
-    plain = smooth_volume(solid, smoothing=thirty, allow_broken=True).report
+    plain = smooth_volume(solid, smoothing=thirty, method="plain", allow_broken=True).report
     result = smooth_volume(solid, smoothing=thirty, refine=True)
     assert plain["problems"]
     assert not plain["request"]["refine"]

@@ -31,7 +31,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         points, _ = trimesh.sample.sample_surface(bone.to_trimesh(), count, seed=19)
         voxel = float(np.ptp(bone.vertices, axis=0).max()) / cells
         shell = {"voxel": voxel, "shell": WIDTH * voxel, "allow_broken": True}
-        result = smooth_points(points, smoothing=Smoothing(steps=STEPS), **shell)
+        result = smooth_points(points, smoothing=Smoothing(steps=STEPS), method="plain", **shell)
         refined = smooth_points(points, refine=True, **shell)
         report, raw, counts = result.report, staircase(result.stages), result.report["topology"]
         surfaces = {"data": raw, "ours": result.surface, "refined": refined.surface}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 
 import typer
 
@@ -15,6 +15,7 @@ from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
     from infill.result import Result
+    from infill.smoothing.request import Method
     from infill.smoothing.stages import SmoothStages
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
@@ -108,14 +109,31 @@ def smooth(
     steps: Annotated[
         int, typer.Option(help="Smoothing steps: 20 for models, 30 for medical data.", rich_help_panel=SURFACE)
     ] = 20,
-    refine: Annotated[
-        bool,
+    method: Annotated[
+        str,
         typer.Option(
-            "--refine",
-            help="Keep edges, curvature and thin walls better: twice the time; for clean data, not for noise.",
+            "--smooth",
+            help="auto: by the data; plain: the paper's way, for noise; refine: keeps edges and thin walls; "
+            "grey: keeps the grey levels of a scan, too.",
             rich_help_panel=SURFACE,
         ),
+    ] = "auto",
+    refine: Annotated[
+        bool, typer.Option("--refine", help="The same as --smooth refine.", rich_help_panel=SURFACE)
     ] = False,
+    smooth_radius: Annotated[
+        float | None,
+        typer.Option(
+            help="Instead of steps: smooth as a Gaussian of this standard deviation, mm.", rich_help_panel=SURFACE
+        ),
+    ] = None,
+    crumbs: Annotated[
+        float | None,
+        typer.Option(
+            help="Remove pieces up to this volume that smoothing broke off, mm³. (default: 8 voxels)",
+            rich_help_panel=SURFACE,
+        ),
+    ] = None,
     fidelity: Annotated[
         float | None,
         typer.Option(
@@ -135,14 +153,23 @@ def smooth(
     ] = "volume",
     tolerance: Annotated[
         float | None,
-        typer.Option(help="Simplify the mesh: move it by at most about this, mm.", rich_help_panel=SURFACE),
+        typer.Option(
+            help="Simplify the mesh: move it by at most this, mm; 0 for all triangles. (default: 0.05 voxels)",
+            rich_help_panel=SURFACE,
+        ),
     ] = None,
     max_triangles: Annotated[
         int | None, typer.Option(help="Simplify the mesh to at most this many triangles.", rich_help_panel=SURFACE)
     ] = None,
     allow_broken: Annotated[
         bool,
-        typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN),
+        typer.Option("--allow-broken", help="Write the mesh even if something is lost.", rich_help_panel=RUN),
+    ] = False,
+    strict: Annotated[
+        bool,
+        typer.Option(
+            "--strict", help="Try no remedies, and refuse whatever breaks, fuses or vanishes.", rich_help_panel=RUN
+        ),
     ] = False,
     threads: Annotated[
         int | None, typer.Option(help="Threads to use. (default: one per core)", rich_help_panel=RUN)
@@ -164,8 +191,12 @@ def smooth(
     from infill.formats.whole_files import check_targets, deliver
 
     outputs = output or []
-    if refine and fidelity is not None:
-        raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
+    if refine and method not in ("auto", "refine"):
+        raise typer.BadParameter(f"--refine is --smooth refine, and --smooth {method} is given; leave one of them out")
+    if fidelity is not None:
+        if refine or method in ("refine", "grey"):
+            raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
+        method = "plain"  # the only way that has a fidelity
     if not (outputs or preview or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
     spaced = None if spacing is None else parse_numbers("spacing", spacing, (1, 3))
@@ -224,6 +255,7 @@ def smooth(
     check_targets(filter(None, (*outputs, preview)), overwrite=force)
     with progress_bar(shown=not quiet) as progress:
         from infill.phasefield.allen_cahn import Smoothing
+        from infill.smoothing.request import AUTO
         from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
@@ -254,11 +286,14 @@ def smooth(
                 otsu=otsu,
                 grey=grey,
                 smoothing=Smoothing(steps=steps, interface=interface, **held),
-                refine=refine,
+                method="refine" if refine else cast("Method", method),
+                radius=smooth_radius,
+                crumbs=crumbs,
+                strict=strict,
                 level=parse_level(level),
                 despeckle=despeckle,
                 allow_broken=allow_broken,
-                tolerance=tolerance,
+                tolerance=AUTO if tolerance is None else tolerance or None,
                 max_triangles=max_triangles,
                 threads=threads,
                 max_memory=None if max_memory is None else parse_bytes(max_memory),
@@ -286,7 +321,7 @@ def smooth(
 def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbose: bool) -> str:
     """Return the short table for stderr."""
     report: dict[str, Any] = result.report
-    request, grid, level, change = report["request"], report["grid"], report["solid"]["level"], report["changes"]
+    request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     now, was = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     moved = report["distance"]
@@ -300,21 +335,20 @@ def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbo
         f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
-        "distance": f"{moved['result']['rms']:.3g} mm rms, {moved['result']['max']:.3g} mm at most, "
-        f"from the {moved['from']}",
+        "distance": f"{moved['result']['p95']:.3g} mm (95 %), {moved['result']['max']:.3g} mm at most, "
+        f"from the {moved['from']}; back {moved['input']['p95']:.3g} mm, {moved['input']['max']:.3g} mm",
     }
-    gone = change["vanished_thin"]
-    if gone:
-        rows["gone"] = f"{gone} specks or flakes one voxel thick"
-    if specks := report["input"]["despeckled"]:
-        rows["despeckled"] = f"{specks} components taken out"
     if cost := report["mesh"].get("simplified"):
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
             f"volume {cost['volume_change']:+.4%}, {cost['shells']} shell(s)"
         )
-    if report["problems"]:
-        rows["PROBLEMS"] = "; ".join(report["problems"])
+    verdict = report["verdict"]
+    rows["verdict"] = "; ".join(
+        [verdict["word"].upper() if verdict["word"] == "lost" else verdict["word"], *verdict["changes"]]
+    )
+    if len(verdict["tried"]) > 1:
+        rows["tried"] = f"{', '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
         thin = report["walls"]["thinnest"]
         rows["thinnest wall"] = " -> ".join("none" if x is None else f"{x:.3g} mm" for x in thin.values())

@@ -206,3 +206,16 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
                     open_ = max(m / (m + bias), v / (v + spread))
                     own[first + k] += open_ * (other[first + k] - own[first + k])
         repeat_edges(own, where[s], shape)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def hold(values, data, bound, thread, threads):
+    """Keep `values` within a bound of the data, both distances; where those are cut off, on one side only."""
+    bound = np.float32(bound)
+    for s in range(thread, len(values), threads):
+        own, held = values[s], data[s]
+        for t in range(CELLS):
+            if held[t] < 1:
+                own[t] = min(own[t], held[t] + bound)
+            if held[t] > -1:
+                own[t] = max(own[t], held[t] - bound)

@@ -31,7 +31,7 @@ def require_room(data: Volume, request: Request) -> None:
     steps = max(1, values.shape[0] // SAMPLED)
     layers = values[::steps] > 0
     crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * FACES_PER_CROSSING
-    each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refine else 0)
+    each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refined else 0)
     advice = "use larger voxels, a part of the volume, or despeckle it"
     require_memory(int(crossings * each), request.max_memory, advice)
 

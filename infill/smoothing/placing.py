@@ -14,7 +14,7 @@ from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
 from infill.surfaces.distance import distances
-from infill.surfaces.simplification import simplified
+from infill.surfaces.simplification import simplified, with_volume
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
@@ -42,10 +42,14 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
     """
     if request.tolerance is None and request.max_triangles is None:
         return full, None
-    light = replace(
-        simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads),
-        space=full.space,
-    )
+    assert not isinstance(request.tolerance, str)  # it is a number by now
+    try:
+        fewer = simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads)
+    except GeometryError:
+        if request.lenient:
+            return full, None
+        raise
+    light = replace(with_volume(fewer, full.volume), space=full.space)
     change = light.volume / full.volume - 1
     if abs(change) > SIMPLER and not request.allow_broken:
         raise GeometryError(
@@ -82,20 +86,6 @@ def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surfac
     """Return the surface of the data in the bricks, placed in space."""
     grey = replace(field, values=field.data.astype(np.float32))
     return placed(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
-
-
-def moved(
-    surface: Surface, field: SparseField, data: Volume, reference: Surface | None, threads: int | None
-) -> dict[str, Any]:
-    """Return how far the voxels and the result lie from the mesh they were made from, or from each other, mm."""
-    raw = raw_surface(field, data, threads)
-    if reference is None:
-        return {"from": "voxels", "result": summary(distances(some(surface.vertices), raw, threads=threads))}
-    return {
-        "from": "mesh",
-        "data": summary(distances(some(raw.vertices), reference, threads=threads)),
-        "result": summary(distances(some(surface.vertices), reference, threads=threads)),
-    }
 
 
 def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:

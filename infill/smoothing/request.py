@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
-from infill.checks import within
+from infill.checks import positive, within
 from infill.errors import ParameterError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED, STRAIGHT, Profile
 
 if TYPE_CHECKING:
+    from infill.inspection.changes import Counts
     from infill.result import Progress
     from infill.surface import Surface
     from infill.volume import Volume
+    from infill.voxels.partial import Enclosed
 
 LevelMethod = Literal["volume"] | float
+Method = Literal["auto", "plain", "refine", "grey"]
+METHODS = ("auto", "plain", "refine", "grey")
+AUTO: Literal["auto"] = "auto"
+SIMPLER = 0.05  # of a cell: how far simplification by default may move the surface
+STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
+MOST_STEPS = 2000  # minutes
+FEWEST = 4  # steps of refinement
 HIGHEST, HIGHEST_REFINED = 0.999, 0.99  # of a fixed level of phi; beyond these, there is no profile to find it on
 
 
@@ -25,11 +34,15 @@ class Options(TypedDict, total=False):
     """The options that the three functions have in common; see `infill.smooth_volume`."""
 
     smoothing: Smoothing
-    refine: bool
+    method: Method
+    refine: bool | None
+    radius: float | None
     level: LevelMethod
     despeckle: float
+    crumbs: float | None
     allow_broken: bool
-    tolerance: float | None
+    strict: bool
+    tolerance: float | Literal["auto"] | None
     max_triangles: int | None
     threads: int | None
     max_memory: int | None
@@ -42,8 +55,13 @@ class Request:
 
     Parameters
     ----------
-    smoothing, refine, level, despeckle, allow_broken, tolerance, max_triangles, threads, max_memory, progress
+    smoothing, method, radius, level, despeckle, crumbs, allow_broken, strict, tolerance, max_triangles, threads,
+    max_memory, progress
         See `infill.smooth_volume`.
+    refine : bool, optional
+        True is `method="refine"`, False is `method="plain"`.
+    lenient : bool
+        Whether a surface that cannot be simplified to the tolerance is left as it is.
 
     Raises
     ------
@@ -52,41 +70,91 @@ class Request:
     """
 
     smoothing: Smoothing = Smoothing(steps=20)  # noqa: RUF009 - frozen
-    refine: bool = False
+    method: Method = "auto"
+    refine: bool | None = None
+    radius: float | None = None
     level: LevelMethod = "volume"
     despeckle: float = 0.0
+    crumbs: float | None = None
     allow_broken: bool = False
-    tolerance: float | None = None
+    strict: bool = False
+    tolerance: float | Literal["auto"] | None = None
     max_triangles: int | None = None
     threads: int | None = None
     max_memory: int | None = None
     progress: Progress | None = None
+    lenient: bool = False
 
     def __post_init__(self) -> None:
         """Check what does not depend on the data."""
+        if self.method not in METHODS:
+            raise ParameterError(f"there is no method {self.method!r}; choose from {', '.join(METHODS)}")
+        if self.refine is not None:
+            if self.method not in (AUTO, "refine" if self.refine else "plain"):
+                raise ParameterError(f"refine is {self.refine} and method {self.method}; give one of them")
+            object.__setattr__(self, "method", "refine" if self.refine else "plain")
+        if self.radius is not None:
+            object.__setattr__(self, "radius", positive("smooth-radius", self.radius, "mm"))
+        if isinstance(self.tolerance, str) and self.tolerance != AUTO:
+            raise ParameterError(f"tolerance is {self.tolerance!r}; give a number of mm, or auto")
+        if self.crumbs is not None:
+            object.__setattr__(self, "crumbs", within("crumbs", self.crumbs, 0, math.inf, "mm³"))
         if not isinstance(self.level, str):
-            highest = HIGHEST_REFINED if self.refine else HIGHEST
+            highest = HIGHEST_REFINED if self.refined else HIGHEST
             object.__setattr__(self, "level", within("level", float(self.level), -highest, highest))
         elif self.level != "volume":
             raise ParameterError(f"there is no level {self.level!r}; give volume, or a number between -1 and 1")
         object.__setattr__(self, "despeckle", within("despeckle", self.despeckle, 0, math.inf, "mm³"))
 
     @property
+    def refined(self) -> bool:
+        """Whether edges and thin walls are refined, once it is known how to smooth."""
+        return self.method in ("refine", "grey")
+
+    @property
     def profile(self) -> Profile:
         """The profile on which the level that keeps the volume is found."""
-        return REFINED if self.refine else STRAIGHT
+        return REFINED if self.refined else STRAIGHT
+
+    def at(self, cell: float) -> Request:
+        """Return the request with its lengths in cells of a size, mm: a radius becomes steps, `auto` a tolerance.
+
+        What n steps make of a field is about what a Gaussian of a standard deviation of sqrt(2 n / 7) cells does.
+        """
+        smoothing, tolerance = self.smoothing, self.tolerance
+        if self.radius is not None:
+            fewest = FEWEST if self.refined else 1
+            steps = max(fewest, round(STEPS_PER_VARIANCE * (self.radius / cell) ** 2))
+            if steps > MOST_STEPS:
+                raise ParameterError(
+                    f"smooth-radius is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "
+                    f"steps; give at most {cell * math.sqrt(MOST_STEPS / STEPS_PER_VARIANCE):.3g} mm, or larger voxels"
+                )
+            smoothing = replace(smoothing, steps=steps)
+        if isinstance(tolerance, str):
+            tolerance = SIMPLER * cell if self.max_triangles is None else None
+        return replace(
+            self,
+            smoothing=smoothing,
+            radius=None,
+            tolerance=tolerance,
+            refine=None,
+            lenient=isinstance(self.tolerance, str),
+        )
 
     def facts(self) -> dict[str, Any]:
         """Return the request as plain values; refinement does not use fidelity."""
         smoothing = self.smoothing
         return {
             "steps": smoothing.steps,
-            "fidelity": 0.0 if self.refine else smoothing.fidelity,
+            "fidelity": 0.0 if self.refined else smoothing.fidelity,
             "interface": smoothing.interface,
             "alpha": smoothing.alpha,
-            "refine": self.refine,
+            "method": self.method,
+            "refine": self.refined,
             "level": self.level,
             "despeckle": self.despeckle,
+            "crumbs": self.crumbs,
             "tolerance": self.tolerance,
             "max_triangles": self.max_triangles,
         }
@@ -104,14 +172,31 @@ class Given:
         For the report: `source`, and anything else worth reporting.
     reference : Surface, optional
         The closed mesh that the volume was made from, mm.
+    mesh : Surface, optional
+        The mesh as it was given, mm: the closed one without its caps.
+    enclosed : Enclosed, optional
+        What the mesh encloses; the data are then its distances, exactly, and not a staircase.
+    topology : Counts, optional
+        How the mesh is connected, if that is known.
+    raw : Surface, optional
+        The surface of the voxels that were given, mm, if the data are others.
     volume : float, optional
-        The volume that this mesh encloses, mm³.
-    overlapping : bool
-        Whether parts of the mesh may overlap: its volume then counts some places twice.
+        Volume of the voxels that were given, mm³, if the data are others.
+    cell : float, optional
+        What distances are judged by, mm; by default, the longest side of a cell of the data.
     """
 
     data: Volume
     facts: Mapping[str, Any]
     reference: Surface | None = None
+    mesh: Surface | None = None
+    enclosed: Enclosed | None = None
+    topology: Counts | None = None
+    raw: Surface | None = None
     volume: float | None = None
-    overlapping: bool = False
+    cell: float | None = None
+
+    @property
+    def exact(self) -> bool:
+        """Whether the data are exact distances."""
+        return self.enclosed is not None

@@ -2,55 +2,41 @@
 
     data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
-Each of the three functions finds what is solid in its own way. The rest is the same, five stages in `_smooth`:
-
-    cleaned     the data without specks
-    smoothed    the field in bricks
-    levelled    the surface at the level at which every component has its volume
-    judged      what smoothing did to components, cavities, tunnels and walls, and which of it is a problem
-    delivered   the surface in its place, simplified if requested, and how far it lies from the data
+Each of the three functions finds in its own way what is solid, and which ways of smoothing to try, the right one first:
+see `infill.smoothing.remedies`. What is done for each is the same: see `infill.smoothing.attempt`.
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from functools import partial
+from typing import TYPE_CHECKING, Literal, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from infill.errors import GeometryError, ParameterError
+from infill.errors import ParameterError
 from infill.grid import spacing_of
-from infill.inspection.bricks import Verdict, verdict
-from infill.inspection.thickness import thinnest_walls
-from infill.kernels.compiling import told_of_compiling
-from infill.phasefield.refining import refine_bricks
-from infill.phasefield.sparse import smooth_bricks
-from infill.report import report_of
-from infill.result import Clock, Result
-from infill.smoothing.cleaning import cleaned, require_room
-from infill.smoothing.levelling import Surfaced, levelled
-from infill.smoothing.placing import lightened, moved, placed
-from infill.smoothing.request import Given, Options, Request
+from infill.inspection.changes import Counts
+from infill.phasefield.refining import cut_off, on_profile
+from infill.result import Result
+from infill.smoothing.remedies import Way, best_of
+from infill.smoothing.request import AUTO, FEWEST, Given, Method, Options, Request
+from infill.smoothing.scans import ways_of_scan
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.volume import Volume
-from infill.voxels.from_mesh import voxelise_reported
+from infill.voxels.from_mesh import RESOLUTION, Voxelised, voxelise_reported
 from infill.voxels.from_points import voxelise_points
-from infill.voxels.segmentation import grey as grey_levels
 from infill.voxels.segmentation import threshold as segment
 
 if TYPE_CHECKING:
     import trimesh
 
-    from infill.phasefield.sparse import SparseField
-
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
-OFF = 0.01  # of the volume: how far the volume may be off, because of specks that are gone
-ROUGH = 0.03  # of the volume: how much more or less than a mesh its voxels may hold
-ADVICE = "use --refine, finer voxels, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
-ADVICE_REFINED = "use finer voxels or fewer steps (or --allow-broken, to have it anyway)"
+FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side: what is tried where something would be lost
 
 
 def smooth_volume(
@@ -130,16 +116,9 @@ def smooth_volume(
         raise ParameterError(f"there is no threshold {low!r}; give a number, two for a range, or otsu")
     number = None if otsu or low is None else float(low)
     solid, used = segment(scan, low=number, high=high, label=label, otsu=otsu)
-    data: Volume = solid
-    if grey:
-        level = used.get("low")
-        if level is None or high is not None:
-            raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
-        data = grey_levels(scan, level)
-    elif used["method"] == "phase":
-        data = scan
-    facts = {"source": "volume", "segmentation": used, "grey": grey}
-    return _smooth(Given(data=data, facts=facts), Request(**options))
+    request = Request(**options)
+    facts = {"source": "volume", "segmentation": used}
+    return best_of(ways_of_scan(scan, solid, used, facts, request, grey=grey), request)
 
 
 def _volume(values: ArrayLike, spacing: float | tuple[float, ...], origin: tuple[float, ...]) -> Volume:
@@ -170,18 +149,50 @@ def smooth_mesh(
     >>> smooth_mesh(trimesh.creation.icosphere(radius=10), voxel=0.5).report["components"]
     1
     """
-    surface = surface_of(mesh)
-    found = voxelise_reported(
-        surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=options.get("max_memory")
-    )
-    given = Given(
-        data=found.volume,
-        facts={"source": "mesh", "repairs": asdict(found.repairs)},
+    surface, request = surface_of(mesh), Request(**options)
+    return best_of(_ways_of_mesh(surface, resolution, voxel, request), request)
+
+
+def _ways_of_mesh(surface: Surface, resolution: int | None, voxel: float | None, request: Request) -> Iterator[Way]:
+    """Yield the ways to smooth a mesh: refined, and with finer voxels unless their size was given."""
+    auto: Method = "refine" if request.smoothing.steps >= FEWEST and request.level == "volume" else "plain"
+    first = replace(request, method=auto if request.method == AUTO else request.method, refine=None)
+    if first.method == "grey":
+        raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
+
+    def with_voxels(resolution: int | None, voxel: float | None) -> tuple[Given, Request]:
+        found = voxelise_reported(
+            surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
+        )
+        return _given_mesh(surface, found, first), first
+
+    yield Way(name=first.method, make=partial(with_voxels, resolution, voxel))
+    if request.method == AUTO and resolution is None and voxel is None:
+        for times in FINER:
+            finer = round(times * RESOLUTION)
+            yield Way(name=f"{finer} voxels", make=partial(with_voxels, finer, None), cost=times**2.5)
+
+
+def _given_mesh(surface: Surface, found: Voxelised, request: Request) -> Given:
+    """Return the distances from a mesh as data, and what is known about it."""
+    interface = request.smoothing.interface
+    distance = found.distances(cut_off(interface), threads=request.threads)
+    held = found.enclosed
+    # How the mesh is connected is known if its components neither touch nor overlap, and nothing had to be added.
+    whole = found.closed.closed and found.repairs.holes == 0 and (not found.several or len(held.excess) == 0)
+    topology = None
+    if whole:
+        solids, cavities = int((held.volumes > 0).sum()), int((held.volumes < 0).sum())
+        tunnels = solids + cavities - found.closed.euler_number // 2
+        topology = Counts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
+    return Given(
+        data=replace(found.volume, values=on_profile(distance, interface)),
+        facts={"source": "mesh", "repairs": asdict(found.repairs), "several": found.several},
         reference=found.closed,
-        volume=found.repairs.volume,
-        overlapping=found.repairs.components > 1,
+        mesh=surface,
+        enclosed=held,
+        topology=topology,
     )
-    return _smooth(given, Request(**options))
 
 
 def smooth_points(
@@ -201,129 +212,15 @@ def smooth_points(
     **options
         See `smooth_volume`.
     """
-    cloud = np.asarray(points, dtype=np.float64)
+    cloud, request = np.asarray(points, dtype=np.float64), Request(**options)
     solid = voxelise_points(
         cloud,
         voxel=voxel,
         shell=shell,
         margin=MARGIN,
-        max_memory=options.get("max_memory"),
-        threads=options.get("threads"),
+        max_memory=request.max_memory,
+        threads=request.threads,
     )
     facts = {"source": "points", "points": len(cloud), "shell": shell}
-    return _smooth(Given(data=solid, facts=facts), Request(**options))
-
-
-@told_of_compiling("the smoother")
-def _smooth(given: Given, request: Request) -> Result[SmoothStages]:
-    """Run the five stages, which all three functions have in common."""
-    clock = Clock(request.progress)
-    with clock.stage("smooth", 0.05):
-        require_room(given.data, request)
-        data, specks = cleaned(given.data, request)
-        field = _smoothed(data, request, clock)
-    spacing = tuple(data.cell_size.tolist())
-    with clock.stage("surface", 0.4):
-        surfaced = levelled(field, request, spacing=spacing)
-        if not surfaced.found.surface.closed:
-            raise GeometryError(f"the surface is not closed; {ADVICE}")
-    with clock.stage("check", 0.6):
-        judged, problems = _judged(surfaced, given, request, spacing=spacing)
-    with clock.stage("measure", 0.75):
-        full = placed(surfaced.found.surface, data)
-        distance = moved(full, field, data, given.reference, request.threads)
-        surface, simplified = lightened(full, request)
-        walls = _walls(judged, surfaced, data, spacing=spacing)
-    report = report_of(
-        product="smooth",
-        surface=surface,
-        request=request.facts(),
-        grid={
-            "shape": list(data.values.shape),
-            "spacing": list(spacing),
-            "origin": list(data.origin),
-            "space": data.space,
-        },
-        solid={"data": float(surfaced.targets.sum()), "level": _level(surfaced, request)},
-        data=judged.data,
-        result=judged.result,
-        changes=judged.changes,
-        walls=walls,
-        problems=problems,
-        seconds=clock.seconds,
-        simplified=simplified,
-        input={**given.facts, "despeckled": specks},
-        distance=distance,
-    )
-    stages = SmoothStages(data=data, levelled=surfaced.found)
-    return Result(surfaces={"solid": surface}, report=report, stages=stages)
-
-
-def _smoothed(data: Volume, request: Request, clock: Clock) -> SparseField:
-    """Return the field in bricks: the second stage."""
-    method = refine_bricks if request.refine else smooth_bricks
-    return method(
-        data.values,
-        request.smoothing,
-        spacing=tuple(data.cell_size.tolist()),
-        threads=request.threads,
-        progress=lambda share: clock.tell("smooth", 0.05 + 0.3 * share),
-    )
-
-
-def _judged(
-    surfaced: Surfaced, given: Given, request: Request, *, spacing: tuple[float, ...]
-) -> tuple[Verdict, list[str]]:
-    """Return what smoothing did, and which of it is a problem: the fourth stage.
-
-    Raises
-    ------
-    GeometryError
-        If there is a problem, unless broken results are allowed.
-    """
-    found = verdict(
-        surfaced.found,
-        surfaced.before,
-        spacing=spacing,
-        blur=request.smoothing.blur,
-        levels=surfaced.levels,
-        threads=request.threads,
-    )
-    total = float(surfaced.targets.sum())
-    problems = [*found.problems, *_of_voxels(total, given)]
-    off = surfaced.volume / total - 1
-    if request.level == "volume" and abs(off) > OFF:
-        problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
-    if problems and not request.allow_broken:
-        raise GeometryError(f"{'; '.join(problems)}; {ADVICE_REFINED if request.refine else ADVICE}")
-    return found, problems
-
-
-def _of_voxels(total: float, given: Given) -> list[str]:
-    """Report whether the voxels hold much more or less than the mesh they represent."""
-    if not given.volume:
-        return []
-    off = total / given.volume - 1
-    if off > ROUGH or (off < -ROUGH and not given.overlapping):  # overlapping components are united
-        word = "more" if off > 0 else "less"
-        return [f"the voxels hold {abs(off):.0%} {word} than the mesh, whose walls are thin for them"]
-    return []
-
-
-def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
-    """Return the levels of phi at which the surface lies, for the report."""
-    return {
-        "method": "volume" if request.level == "volume" else "fixed",
-        "common": surfaced.common,
-        "lowest": float(surfaced.levels.min()),
-        "highest": float(surfaced.levels.max()),
-        "components": len(surfaced.levels),
-    }
-
-
-def _walls(judged: Verdict, surfaced: Surfaced, data: Volume, *, spacing: tuple[float, ...]) -> dict[str, Any]:
-    """Return how thin the walls are, and which were lost, for the report."""
-    found = surfaced.found
-    before, after = thinnest_walls(found.against, found.surface, spacing, found.height)
-    lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in judged.lost]
-    return {"thinnest": {"data": before, "result": after}, "lost": lost}
+    used = {"method": "points"}
+    return best_of(ways_of_scan(solid, solid, used, facts, request, grey=False), request)

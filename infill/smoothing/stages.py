@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from infill.surface import Surface
     from infill.surfaces.levels import Levelled
     from infill.volume import Volume
 
@@ -20,7 +21,10 @@ class SmoothStages:
         What is solid on the grid, and where the grid lies in space.
     levelled : Levelled
         The smoothed field in bricks, the surface in cells of the grid, and the level of each component.
+    given : Surface, optional
+        The mesh that was given, mm.
     """
 
     data: Volume
     levelled: Levelled
+    given: Surface | None = None

@@ -116,6 +116,17 @@ def grown(
     return bits
 
 
+def set_at(field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Return which cells (N, 3) of the grid are set; beyond the grid none is."""
+    inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
+    brick, cell = np.divmod(np.where(inside[:, None], cells, 0) + 1, BRICK)
+    slot = field.slots[tuple(brick.T)]
+    row = bits[slot, cell[:, 0] * BRICK[1] + cell[:, 1]] if len(bits) else np.zeros(len(cells), dtype=np.uint16)
+    there = np.where(slot >= 0, (row >> cell[:, 2].astype(np.uint16)) & 1, slot == SOLID_BRICK)
+    found: NDArray[np.bool_] = inside & (there != 0)
+    return found
+
+
 def _meet_or_spread(
     field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BRICK
 ) -> NDArray[np.uint16]:

@@ -1,18 +1,79 @@
-"""How far points lie from a surface."""
+"""How far points lie from a surface, exactly: triangles are found by a tree of boxes."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.kernels.threads import thread_count
-from infill.ragged import spread
+from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 
-NEAREST = 6  # samples whose triangles are examined for every point
-FEW, PER_POINT, MOST = 10_000, 10, 200_000  # samples of a surface, roughly, in addition to one for each triangle
+LEAF = 4  # triangles in a leaf of the tree
+BITS = 10  # of each coordinate, for the order of the leaves
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Tree:
+    """The triangles of a surface in the leaves of a complete binary tree, in the order of a space-filling curve.
+
+    Parameters
+    ----------
+    corners : (F, 3, 3) float64, mm
+        Triangles, `LEAF` to a leaf.
+    low, high : (2 L - 1, 3) float64, mm
+        Boxes around what a branch holds, the root first; the children of box n are 2 n + 1 and 2 n + 2.
+    order : (F,) int64
+        Which face of the surface each triangle is.
+    """
+
+    corners: Floats
+    low: Floats
+    high: Floats
+    order: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, surface: Surface) -> Tree:
+        """Return the tree of a surface with at least one triangle.
+
+        Notes
+        -----
+        Neighbours on the curve of Morton (1966), which interleaves the bits of the coordinates, are near in space.
+        """
+        corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
+        order = np.argsort(_interleaved(corners.mean(axis=1)), kind="stable")
+        corners = np.ascontiguousarray(corners[order])
+        leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
+        low, high = np.full((leaves * LEAF, 3), np.inf), np.full((leaves * LEAF, 3), -np.inf)
+        low[: len(corners)], high[: len(corners)] = corners.min(axis=1), corners.max(axis=1)
+        low, high = low.reshape(leaves, LEAF, 3).min(axis=1), high.reshape(leaves, LEAF, 3).max(axis=1)
+        lows, highs = [low], [high]
+        while len(lows[0]) > 1:
+            lows.insert(0, lows[0].reshape(-1, 2, 3).min(axis=1))
+            highs.insert(0, highs[0].reshape(-1, 2, 3).max(axis=1))
+        return cls(corners=corners, low=np.concatenate(lows), high=np.concatenate(highs), order=order)
+
+    def nearest(self, points: NDArray[np.floating], *, threads: int | None = None) -> tuple[Floats, NDArray[np.int64]]:
+        """Return the distance of each point (N, 3) from the nearest triangle, (N,) mm, and the face it belongs to."""
+        from infill.kernels.distances import nearest_triangles
+
+        squared, face = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
+        given = np.ascontiguousarray(points, dtype=np.float64)
+        in_threads(
+            nearest_triangles,
+            given,
+            self.corners,
+            self.low,
+            self.high,
+            LEAF,
+            squared,
+            face,
+            threads=thread_count(threads),
+        )
+        return np.sqrt(squared), self.order[face]
 
 
 def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | None = None) -> Floats:
@@ -22,61 +83,24 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
     ----------
     points : (N, 3) float, mm
     surface : Surface, mm
+        With at least one triangle.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
-    Notes
-    -----
-    Triangles are found by the nearest samples on them; large triangles have many samples. Where the nearest triangle
-    is not among those found, the distance comes out too large, by less than the distance between samples.
+    >>> square = Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))
+    >>> distances(np.ones((1, 3)), square).round(6).tolist()
+    [1.154701]
     """
-    from scipy.spatial import cKDTree
-
-    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
-    sample, face = _samples(corners, min(MOST, FEW + PER_POINT * len(points)))
-    _, near = cKDTree(sample).query(points, k=min(NEAREST, len(sample)), workers=thread_count(threads))
-    near = near.reshape(len(points), -1)
-    best = np.full(len(points), np.inf)
-    for column in near.T:
-        best = np.minimum(best, squared(np.asarray(points, dtype=np.float64), corners[face[column]]))
-    found: Floats = np.sqrt(best)
-    return found
+    return Tree.of(surface).nearest(points, threads=threads)[0]
 
 
-def _samples(corners: Floats, count: int) -> tuple[Floats, NDArray[np.int64]]:
-    """Return points all over the triangles, and their triangles; a needle has one row of them, on its longest side."""
-    sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-    order = (sides.argmax(axis=1)[:, None] + np.arange(3)) % 3
-    corners = np.take_along_axis(corners, order[:, :, None], axis=1)  # the longest side comes first
-    a, b, c = (corners[:, i] for i in range(3))
-    longest = sides.max(axis=1)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)  # twice the area
-    height = np.divide(area, longest, out=np.zeros_like(area), where=longest > 0)
-    pitch = max(float(area.sum() / count) ** 0.5, float(longest.sum()) / count, 1e-300)
-    along, across = (np.maximum(1, np.ceil(each / pitch)).astype(np.int64) for each in (longest, height))
-    face, place = next(spread(along * across))
-    u, v = (place % along[face] + 0.5) / along[face], place // along[face] / across[face]
-    u *= 1 - v  # the row of points parallel to the longest side is as long as the triangle is wide there
-    return a[face] + u[:, None] * (b - a)[face] + v[:, None] * (c - a)[face], face
-
-
-def squared(p: Floats, triangles: Floats) -> Floats:
-    """Return the squared distance of point i from triangle i.
-
-    The same as trimesh.triangles.closest_point, without the time it takes to load trimesh, which is longer than
-    computing the distances.
-    """
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    normal = np.cross(b - a, c - a)
-    length = (normal**2).sum(axis=1)
-    best = np.full(len(p), np.inf)
-    inside = length > 0
-    for one, other in ((a, b), (b, c), (c, a)):
-        along, off = other - one, p - one
-        with np.errstate(divide="ignore", invalid="ignore"):
-            t = np.nan_to_num((off * along).sum(axis=1) / (along**2).sum(axis=1)).clip(0, 1)
-        best = np.minimum(best, ((off - t[:, None] * along) ** 2).sum(axis=1))
-        inside &= (np.cross(along, off) * normal).sum(axis=1) >= 0
-    with np.errstate(divide="ignore", invalid="ignore"):
-        flat = ((p - a) * normal).sum(axis=1) ** 2 / length
-    return np.where(inside, flat, best)
+def _interleaved(points: Floats) -> NDArray[np.uint64]:
+    """Return the bits of the coordinates, x, y and z in turn: the place of points on the curve of Morton."""
+    low = points.min(axis=0)
+    side = max(float(np.ptp(points, axis=0).max()), 1e-300)
+    cells = ((points - low) * ((2**BITS - 1) / side)).astype(np.uint64)
+    code = np.zeros(len(points), dtype=np.uint64)
+    for bit in range(BITS):
+        for axis in range(3):
+            code |= ((cells[:, axis] >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit + axis)
+    return code

@@ -306,6 +306,21 @@ def _joined(group: NDArray[np.integer], together: NDArray[np.integer]) -> NDArra
     return joined
 
 
+def component_of_shells(found: Levelled, data: Components, *, spacing: tuple[float, ...]) -> NDArray[np.int64]:
+    """Return for every shell of a surface the component of the data that it lies nearest to; -1 for none."""
+    return _component_of(found.shells, found.surface, found.against, data, spacing)[0]
+
+
+def nearest_components(points: NDArray[np.floating], field: SparseField, data: Components) -> NDArray[np.int32]:
+    """Return the component nearest to points (N, 3), in cells from the lower corner of the grid; -1 if none is near."""
+    place = np.floor(points + 1).astype(np.int32).clip(0, np.array(field.slots.shape) * BRICK - 1)
+    label = np.empty(len(points), dtype=np.int32)
+    components_kernels.label_cells(
+        place, field.slots, data.bits, data.bricks, data.starts, data.alone, data.names, REACH, label
+    )
+    return label
+
+
 def _component_of(
     parts: Shells, surface: Surface, field: SparseField, data: Components, spacing: tuple[float, ...]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -313,12 +328,7 @@ def _component_of(
 
     Also return pairs (n, 2) of components large enough for a level of their own that have a shell in common.
     """
-    cells = surface.vertices / np.array(spacing) + 0.5  # on the lattice of cells, whose first lies beyond the grid
-    place = np.floor(cells + 0.5).astype(np.int32).clip(0, np.array(field.slots.shape) * BRICK - 1)
-    label = np.empty(len(cells), dtype=np.int32)
-    components_kernels.label_cells(
-        place, field.slots, data.bits, data.bricks, data.starts, data.alone, data.names, REACH, label
-    )
+    label = nearest_components(surface.vertices / np.array(spacing), field, data)
     count = max(data.count, 1)
     known = label >= 0
     key, votes = np.unique(parts.names[known].astype(np.int64) * count + label[known], return_counts=True)

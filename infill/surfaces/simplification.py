@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from infill.surface import Surface
 from infill.surfaces.distance import distances
 
 FEWEST = 4
+SIDE = 100.0  # of the longest side while quadrics are computed
+SHIFT = 0.1  # of the mean edge: how far vertices may move so that the volume stays
 HALVINGS = 8
 COMPARED = 20_000  # vertices whose distance is measured
 
@@ -62,17 +65,49 @@ def simplified(
     return found
 
 
+def with_volume(surface: Surface, volume: float) -> Surface:
+    """Return the surface with its vertices moved along their normals, all equally far, so that it has a volume, mm³.
+
+    If it would have to move further than a tenth of its mean edge, it is returned as it is.
+
+    >>> points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> solid = Surface(vertices=points, faces=np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]))
+    >>> round(with_volume(solid, 0.167).volume, 4)
+    0.167
+    """
+    points = np.asarray(surface.vertices, dtype=np.float64)
+    corners = points[surface.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    area = float(np.linalg.norm(normals, axis=1).sum())
+    farthest = SHIFT * float(np.sqrt(area / max(len(surface.faces), 1)))
+    own = np.zeros_like(points)
+    for corner in range(3):
+        np.add.at(own, surface.faces[:, corner], normals)
+    own /= np.maximum(np.linalg.norm(own, axis=1, keepdims=True), 1e-300)
+    moved = surface
+    for _ in range(2):
+        by = (volume - moved.volume) / area
+        if abs(by) > farthest:
+            return surface
+        moved = replace(moved, vertices=np.asarray(moved.vertices, dtype=np.float64) + by * own)
+    return moved
+
+
 def _by_quadrics(
     surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
 ) -> Surface | None:
     """Return the surface with the requested number of triangles or as few as fit; None if it would not stay closed."""
     import fast_simplification
 
-    vertices, faces = np.asarray(surface.vertices, dtype=np.float64), np.asarray(surface.faces, dtype=np.int32)
+    faces = np.asarray(surface.faces, dtype=np.int32)
+    low, high = surface.bounds
+    size = float((high - low).max()) / SIDE
+    # Its limits are lengths: the same whatever unit the mesh is in.
+    vertices = (np.asarray(surface.vertices, dtype=np.float64) - low) / size
 
     def at(count: float) -> Surface | None:
         points, corners = fast_simplification.simplify(vertices, faces, target_count=int(count))
-        found = Surface(vertices=np.asarray(points, dtype=np.float64), faces=np.asarray(corners))
+        found = Surface(vertices=np.asarray(points, dtype=np.float64) * size + low, faces=np.asarray(corners))
         whole_still = found.closed and found.euler_number == surface.euler_number and found.volume > 0
         return found if whole_still else None
 

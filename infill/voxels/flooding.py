@@ -52,7 +52,11 @@ def enclosed(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
     order = np.argsort(index, kind="stable")
     row, place = np.divmod(index[order], width)
     ends = Crossings(
-        row=row.astype(np.int32), place=place.astype(np.int32), face=np.zeros_like(row, np.int32), sign=sign[order]
+        row=row.astype(np.int32),
+        place=place.astype(np.int32),
+        face=np.zeros_like(row, np.int32),
+        sign=sign[order],
+        depth=place.astype(np.float32),
     )
     return filled(ends, solid.shape)
 

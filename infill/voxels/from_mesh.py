@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
@@ -15,7 +16,8 @@ from infill.surfaces.capping import capped, components
 from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
 from infill.voxels.nesting import inside_out
-from infill.voxels.scanlines import SLAB, crossings, filled
+from infill.voxels.partial import Enclosed, distances_in_cells, enclosed
+from infill.voxels.scanlines import SLAB, crossings, wound
 
 RESOLUTION = 200  # cells along the longest side by default
 FEWEST = 2  # voxels along the longest side
@@ -38,7 +40,7 @@ class Repairs:
     hole_share : float
         Area of the caps over the area of mesh and caps. The inside is a guess where this is large.
     volume : float
-        Volume that the mesh and its caps enclose, mm³; where components overlap, it counts for each of them.
+        Volume that the mesh and its caps enclose, mm³; where components overlap, it counts once.
     """
 
     components: int
@@ -60,12 +62,22 @@ class Voxelised:
         What had to be assumed.
     closed : Surface
         The mesh whose inside these cells are, mm: equal vertices merged where that closes it, else with caps on its
-        holes.
+        holes. The caps are its last faces.
+    enclosed : Enclosed
+        What it encloses, exactly.
+    several : bool
+        Whether it has several components, or overlaps itself.
     """
 
     volume: Volume
     repairs: Repairs
     closed: Surface
+    enclosed: Enclosed
+    several: bool
+
+    def distances(self, reach: float, *, threads: int | None = None) -> NDArray[np.float32]:
+        """Return how far the centres of the cells lie from the mesh: see `infill.voxels.partial.distances_in_cells`."""
+        return distances_in_cells(self.closed, self.volume, reach, several=self.several, threads=threads)
 
 
 def voxelise(
@@ -179,20 +191,20 @@ def voxelise_reported(
     turned = inside_out(found, component, volumes)
     if turned.any():
         found = replace(found, sign=np.where(turned[component[found.face]], -found.sign, found.sign))
-    inside = filled(found, shape)
+    inside, most = wound(found, shape)
     if not inside.any():
         raise ParameterError(
             f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm: no centre of a "
             "cell lies inside; give a voxel of at most half the thinnest wall"
         )
+    closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
+    cells = Volume(values=inside, spacing=size, origin=tuple(origin.tolist()))
+    held = enclosed(closed, component, turned, volumes * size**3, cells, overlap=most > 1)
     repairs = Repairs(
         components=len(volumes),
         turned=int(turned.sum()),
         holes=holes,
         hole_share=float(areas[len(mesh.faces) :].sum() / areas.sum()),
-        volume=abs(float(np.where(turned, -volumes, volumes).sum())) * size**3,
+        volume=held.total,
     )
-    closed = Surface(vertices=(vertices + 0.5) * size + origin, faces=faces) if holes else mesh
-    return Voxelised(
-        volume=Volume(values=inside, spacing=size, origin=tuple(origin.tolist())), repairs=repairs, closed=closed
-    )
+    return Voxelised(volume=cells, repairs=repairs, closed=closed, enclosed=held, several=len(volumes) > 1 or most > 1)

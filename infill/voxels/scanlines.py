@@ -34,12 +34,15 @@ class Crossings:
         The triangle crossed.
     sign : (N,) int
         +1 where the row enters what the triangle bounds, -1 where it leaves it.
+    depth : (N,) float
+        Where exactly on the row, in cells: the centre of the first cell is 0.
     """
 
     row: NDArray[np.int32]
     place: NDArray[np.int32]
     face: NDArray[np.int32]
     sign: NDArray[np.int8]
+    depth: NDArray[np.float32]
 
 
 def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ...]) -> Crossings:
@@ -93,14 +96,17 @@ def crossings(vertices: Floats, faces: NDArray[np.integer], shape: tuple[int, ..
                     np.ceil(depth).astype(np.int32),
                     some[each].astype(np.int32),
                     np.where(even[some[each]] == leftwards[each], 1, -1).astype(np.int8),
+                    depth.astype(np.float32),
                 )
             )
     if not parts:
         nothing = np.empty(0, dtype=np.int32)
-        return Crossings(row=nothing, place=nothing, face=nothing, sign=nothing.astype(np.int8))
-    row, place, face, sign = (np.concatenate(each) for each in zip(*parts, strict=True))
+        return Crossings(
+            row=nothing, place=nothing, face=nothing, sign=nothing.astype(np.int8), depth=nothing.astype(np.float32)
+        )
+    row, place, face, sign, depth = (np.concatenate(each) for each in zip(*parts, strict=True))
     order = np.argsort(row, kind="stable")
-    return Crossings(row=row[order], place=place[order], face=face[order], sign=sign[order])
+    return Crossings(row=row[order], place=place[order], face=face[order], sign=sign[order], depth=depth[order])
 
 
 def _cut(
@@ -116,7 +122,13 @@ def _cut(
 
 def filled(found: Crossings, shape: tuple[int, ...]) -> NDArray[np.bool_]:
     """Return the cells (nx, ny, nz) where the sum of the signs up to their centre is not 0."""
+    return wound(found, shape)[0]
+
+
+def wound(found: Crossings, shape: tuple[int, ...]) -> tuple[NDArray[np.bool_], int]:
+    """Return the cells where the sum of the signs up to their centre is not 0, and the largest sum, signs aside."""
     nx, ny, nz = shape
+    most = 0
     inside = np.zeros(shape, dtype=bool)
     thick = max(1, SLAB // (ny * nz))
     for low in range(0, nx, thick):
@@ -130,4 +142,5 @@ def filled(found: Crossings, shape: tuple[int, ...]) -> NDArray[np.bool_]:
         index = (found.row[begin:end].astype(np.int64) - low * ny) * nz + place
         np.add.at(winding.reshape(-1), index[seen], found.sign[begin:end][seen].astype(np.int32))
         np.not_equal(np.cumsum(winding, axis=2, out=winding), 0, out=slab)
-    return inside
+        most = max(most, int(winding.max()), -int(winding.min()))
+    return inside, most

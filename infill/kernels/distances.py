@@ -1,0 +1,228 @@
+"""How far points lie from triangles: for all cells that are near some, and for single points the nearest of many.
+
+`lower_to_triangles` visits the cells around each triangle, row by row of its dilated box, and keeps the least distance.
+
+`nearest_triangles` goes down a tree of boxes, the nearer box first, and leaves out those that are further away than the
+nearest triangle so far.
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201, ANN202
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from infill.kernels.compiling import njit
+
+THICK = 16  # layers of cells along x that one thread fills at a time
+FLAT = 1e-12  # of a squared length: what is shorter is a point, and what is lower is a line
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def lower_to_triangles(corners, reach, squared, thread, threads):
+    """Lower the squared distance of each cell within `reach` of a triangle to that of the nearest triangle.
+
+    Parameters
+    ----------
+    corners : (F, 3, 3) float64
+        Triangles in cells: the centre of cell (0, 0, 0) is the origin.
+    reach : float
+        Cells further away than this are left as they are.
+    squared : (nx, ny, nz) float32
+    thread, threads : int
+        This call fills every `threads`-th slab of layers.
+    """
+    nx, ny, nz = squared.shape
+    limit = reach * reach
+    normal = np.empty(3)
+    for slab in range(thread, (nx + THICK - 1) // THICK, threads):
+        begin, end = slab * THICK, min(nx, (slab + 1) * THICK)
+        for face in range(len(corners)):
+            a, b, c = corners[face, 0], corners[face, 1], corners[face, 2]
+            low_x = min(a[0], b[0], c[0]) - reach
+            high_x = max(a[0], b[0], c[0]) + reach
+            if high_x < begin or low_x > end - 1:
+                continue
+            low_y = min(a[1], b[1], c[1]) - reach
+            high_y = max(a[1], b[1], c[1]) + reach
+            low_z = min(a[2], b[2], c[2]) - reach
+            high_z = max(a[2], b[2], c[2]) + reach
+            ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+            vx, vy, vz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+            normal[0], normal[1], normal[2] = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+            area = math.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+            flat = area <= FLAT * max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz)
+            if not flat:
+                normal /= area
+            offset = normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2]
+            for x in range(max(begin, math.ceil(low_x)), min(end, math.floor(high_x) + 1)):
+                first_y, last_y = _span(a, b, c, x - reach, x + reach)
+                for y in range(
+                    max(0, math.ceil(max(low_y, first_y - reach))), min(ny, math.floor(min(high_y, last_y + reach)) + 1)
+                ):
+                    first, last = low_z, high_z
+                    if not flat and abs(normal[2]) > 1e-3:
+                        middle = (offset - normal[0] * x - normal[1] * y) / normal[2]
+                        room = reach / abs(normal[2])
+                        first, last = max(first, middle - room), min(last, middle + room)
+                    for z in range(max(0, math.ceil(first)), min(nz, math.floor(last) + 1)):
+                        found = squared_distance(x, y, z, a, b, c)
+                        if found < limit and found < squared[x, y, z]:
+                            squared[x, y, z] = found
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _span(a, b, c, low, high):
+    """Return the lowest and the highest y of the part of a triangle between two values of x."""
+    first, last = math.inf, -math.inf
+    for edge in range(3):
+        p, q = (a, b) if edge == 0 else ((b, c) if edge == 1 else (c, a))
+        if p[0] > q[0]:
+            p, q = q, p
+        if q[0] < low or p[0] > high:
+            continue
+        along = q[0] - p[0]
+        for end in range(2):
+            x = max(low, p[0]) if end == 0 else min(high, q[0])
+            y = p[1] + (q[1] - p[1]) * ((x - p[0]) / along) if along > 0 else (p[1] if end == 0 else q[1])
+            first, last = min(first, y), max(last, y)
+    return first, last
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def squared_distance(x, y, z, a, b, c):
+    """Return the squared distance of a point from a triangle.
+
+    The regions of the plane of the triangle are told apart by barycentric coordinates: see Ericson, Real-Time Collision
+    Detection (2005), section 5.1.5.
+    """
+    abx, aby, abz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+    acx, acy, acz = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+    apx, apy, apz = x - a[0], y - a[1], z - a[2]
+    d1 = abx * apx + aby * apy + abz * apz
+    d2 = acx * apx + acy * apy + acz * apz
+    if d1 <= 0 and d2 <= 0:
+        return apx * apx + apy * apy + apz * apz
+    bpx, bpy, bpz = x - b[0], y - b[1], z - b[2]
+    d3 = abx * bpx + aby * bpy + abz * bpz
+    d4 = acx * bpx + acy * bpy + acz * bpz
+    if d3 >= 0 and d4 <= d3:
+        return bpx * bpx + bpy * bpy + bpz * bpz
+    cpx, cpy, cpz = x - c[0], y - c[1], z - c[2]
+    d5 = abx * cpx + aby * cpy + abz * cpz
+    d6 = acx * cpx + acy * cpy + acz * cpz
+    if d6 >= 0 and d5 <= d6:
+        return cpx * cpx + cpy * cpy + cpz * cpz
+    vc = d1 * d4 - d3 * d2
+    if vc <= 0 and d1 >= 0 and d3 <= 0:
+        v, w = (d1 / (d1 - d3) if d1 > d3 else 0.0), 0.0
+    else:
+        vb = d5 * d2 - d1 * d6
+        if vb <= 0 and d2 >= 0 and d6 <= 0:
+            v, w = 0.0, (d2 / (d2 - d6) if d2 > d6 else 0.0)
+        else:
+            va = d3 * d6 - d5 * d4
+            if va <= 0 and d4 - d3 >= 0 and d5 - d6 >= 0:
+                side = (d4 - d3) + (d5 - d6)
+                w = (d4 - d3) / side if side > 0 else 0.0
+                v = 1 - w
+            else:
+                whole = va + vb + vc
+                v, w = (vb / whole, vc / whole) if whole > 0 else (0.0, 0.0)
+    qx, qy, qz = apx - v * abx - w * acx, apy - v * aby - w * acy, apz - v * abz - w * acz
+    return qx * qx + qy * qy + qz * qz
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _to_box(x, y, z, low, high):
+    """Return the squared distance of a point from a box."""
+    dx = max(low[0] - x, x - high[0], 0.0)
+    dy = max(low[1] - y, y - high[1], 0.0)
+    dz = max(low[2] - z, z - high[2], 0.0)
+    return dx * dx + dy * dy + dz * dz
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def nearest_triangles(points, corners, low, high, leaf, squared, face, thread, threads):
+    """Find the triangle nearest to every `threads`-th point.
+
+    Parameters
+    ----------
+    points : (N, 3) float64
+    corners : (F, 3, 3) float64
+        In the order of the tree's leaves: see `infill.surfaces.distance.Tree`.
+    low, high : (2 L - 1, 3) float64
+        Boxes of the tree: the children of box n are 2 n + 1 and 2 n + 2, the last L are leaves.
+    leaf : int
+        Triangles in a leaf.
+    squared : (N,) float64, face : (N,) int64
+        What is found.
+    """
+    first = (len(low) - 1) // 2
+    stack, near = np.empty(64, dtype=np.int64), np.empty(64)
+    for n in range(thread, len(points), threads):
+        x, y, z = points[n]
+        best, found = math.inf, 0
+        stack[0], near[0], count = 0, 0.0, 1
+        while count > 0:
+            count -= 1
+            if near[count] >= best:
+                continue
+            box = stack[count]
+            if box >= first:
+                begin = (box - first) * leaf
+                for at in range(begin, min(begin + leaf, len(corners))):
+                    other = squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2])
+                    if other < best:
+                        best, found = other, at
+                continue
+            one, two = 2 * box + 1, 2 * box + 2
+            d1, d2 = _to_box(x, y, z, low[one], high[one]), _to_box(x, y, z, low[two], high[two])
+            if d1 < d2:  # the nearer one is looked at first: it lies on top
+                one, two, d1, d2 = two, one, d2, d1
+            if d1 < best:
+                stack[count], near[count], count = one, d1, count + 1
+            if d2 < best:
+                stack[count], near[count], count = two, d2, count + 1
+        squared[n], face[n] = best, found
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def wind(points, corners, sign, found, thread, threads):
+    """Set how often triangles (F, 3, 3), counted with their sign (F,), wind around every `threads`-th point.
+
+    Triangles above a point count, those that face upwards positively: over a closed surface, that is how often it winds
+    around the point. Of an edge that two triangles share and that passes exactly over a point, one of them has it.
+    """
+    for n in range(thread, len(points), threads):
+        x, y, z = points[n]
+        total = 0
+        for f in range(len(corners)):
+            ax, bx, cx = corners[f, 0, 0] - x, corners[f, 1, 0] - x, corners[f, 2, 0] - x
+            if (ax > 0 and bx > 0 and cx > 0) or (ax <= 0 and bx <= 0 and cx <= 0):
+                continue
+            ay, by, cy = corners[f, 0, 1] - y, corners[f, 1, 1] - y, corners[f, 2, 1] - y
+            if (ay > 0 and by > 0 and cy > 0) or (ay <= 0 and by <= 0 and cy <= 0):
+                continue
+            around = 0
+            around += _passed(ax, ay, bx, by) + _passed(bx, by, cx, cy) + _passed(cx, cy, ax, ay)
+            if around == 0:
+                continue
+            u, v, w = bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay
+            whole = u + v + w
+            if whole != 0 and (u * corners[f, 0, 2] + v * corners[f, 1, 2] + w * corners[f, 2, 2]) / whole > z:
+                total += around * sign[f]
+        found[n] = total
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _passed(px, py, qx, qy):
+    """Return +1 or -1 where an edge passes the positive x axis, upwards or downwards, else 0."""
+    if (py > 0) == (qy > 0):
+        return 0
+    if py > qy:
+        return -1 if qx * py - px * qy > 0 else 0
+    return 1 if px * qy - qx * py > 0 else 0

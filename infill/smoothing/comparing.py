@@ -1,0 +1,125 @@
+"""What a result is told to be: kept, changed a little or lost, and in which words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word
+from infill.surfaces.components import cores, data_bits, opened, set_at
+
+if TYPE_CHECKING:
+    from infill.inspection.bricks import Verdict
+    from infill.phasefield.sparse import SparseField
+    from infill.smoothing.request import Given
+
+JUST = 5e-4  # cells: how far from a face it is looked whether there is solid
+SLIT = 1.0  # cells: a slit as narrow as this may close
+CAPS = 0.001  # of the area: caps smaller than this are not worth a word
+
+
+@dataclass(frozen=True, kw_only=True)
+class Differences:
+    """The verdict on a result, and what it rests on, one phrase each.
+
+    Parameters
+    ----------
+    word : {"kept", "changed a little", "lost"}
+    losses : tuple of str
+        What makes it "lost".
+    problems : tuple of str
+        What broke, fused, opened or vanished, however small it is.
+    remarks : tuple of str
+        What else is not as it was given.
+    """
+
+    word: Word
+    losses: tuple[str, ...]
+    problems: tuple[str, ...]
+    remarks: tuple[str, ...]
+
+
+def kinds_of_places(given: Given, field: SparseField) -> Kinds:
+    """Return what tells which points of what was given count when it is asked whether they were lost.
+
+    Of a mesh, those with solid on one side: what lies inside the solid, and sheets without thickness, do not. Slits
+    narrower than a cell are told apart. Of voxels, those of walls more than one cell thick: what is one cell thick, the
+    equation removes, and it is told apart.
+    """
+    if given.enclosed is not None:
+        held, mesh = given.enclosed, given.reference
+        assert mesh is not None
+
+        def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
+            outside, inside = (held.solid_beside(mesh, points, faces, way) for way in (JUST, -JUST))
+            narrow = held.solid_beside(mesh, points, faces, SLIT)
+            sides = np.where(inside & outside, HIDDEN, np.where(inside | outside, COUNTS, SHEET))
+            return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
+
+        return bounding
+    bits = data_bits(field)
+    sturdy = opened(field, cores(field, bits))
+    data, turn = given.data, np.asarray(given.data.direction)
+
+    def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
+        cells = (points - np.array(data.origin)) @ turn / data.cell_size
+        near = np.zeros(len(points), dtype=bool)
+        for step in np.ndindex(2, 2, 2):
+            near |= set_at(field, sturdy, np.floor(cells - 0.5).astype(np.int64) + step)
+        return np.where(near, COUNTS, THIN)
+
+    return thick
+
+
+def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 0.0) -> Differences:
+    """Return the verdict.
+
+    Parameters
+    ----------
+    judged : Verdict
+        What smoothing did to the voxels.
+    found : Fidelity
+        How far the result lies from what was given.
+    given : Given
+    off : float
+        By which part of itself the volume is off.
+    """
+    problems = [*judged.problems, *_of_mesh(judged, given)]
+    if off:
+        problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
+    remarks = []
+    if gone := judged.changes.vanished_thin:
+        remarks.append(f"{gone} specks or flakes one voxel thick are gone")
+    if found.thin:
+        what = "walls one voxel thick are gone" if given.enclosed is None else "slits narrower than a voxel are closed"
+        remarks.append(f"{what}, {found.thin:.3g} mm² of their faces")
+    if found.sheet:
+        remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")
+    repairs = given.facts.get("repairs", {})
+    if (share := repairs.get("hole_share", 0.0)) > CAPS:
+        remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
+    lost = found.word == "lost"
+    losses = found.phrases if lost else ()
+    if not lost:
+        remarks = [*found.phrases, *remarks]
+    word: Word = "lost" if lost else "changed a little" if problems or remarks else "kept"
+    return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
+
+
+def _of_mesh(judged: Verdict, given: Given) -> list[str]:
+    """Return how the result is connected differently from the mesh, where that is known: voxels may have lost it."""
+    if given.topology is None:
+        return []
+    was, now = given.topology, judged.result
+    said = []
+    for name, one, before, after in (
+        ("components", "component", was.components, now.components),
+        ("cavities", "cavity", was.cavities, now.cavities),
+        ("holes through the part", "hole through the part", was.tunnels, now.tunnels),
+    ):
+        if before != after:
+            said.append(f"the mesh has {before} {one if before == 1 else name}, the result {after}")
+    return said

@@ -1,0 +1,112 @@
+"""How to smooth a scan: which of its values to keep, by which method, and what to try if that loses something."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import ParameterError
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.sparse import smooth_bricks
+from infill.smoothing.placing import raw_surface
+from infill.smoothing.remedies import Way, fewer_steps
+from infill.smoothing.request import AUTO, FEWEST, Given, Request
+from infill.volume import Volume
+from infill.voxels.noise import noise_share
+from infill.voxels.segmentation import grey as grey_levels
+from infill.voxels.slices import interpolated, layers_between
+
+NOISY = 0.2  # of the surface that a majority overrules: half of what flipping a tenth of all cells makes
+LAYERS = 16  # that are looked at for grey values
+SPECK = 27  # cells: specks up to this size are taken out of noisy data
+
+
+def ways_of_scan(
+    scan: Volume, solid: Volume, used: Mapping[str, Any], facts: Mapping[str, Any], request: Request, *, grey: bool
+) -> Iterator[Way]:
+    """Yield the ways to smooth a scan, the right one first.
+
+    Parameters
+    ----------
+    scan, solid : Volume
+        Its values, and which cells are solid.
+    used : mapping
+        How that was told: see `infill.voxels.segmentation.threshold`.
+    facts : mapping
+        For the report.
+    request : Request
+    grey : bool
+        Whether grey levels were asked for.
+
+    Raises
+    ------
+    ParameterError
+        If grey levels were asked for and there is no threshold.
+    """
+    level = used.get("low") if used.get("high") is None else None
+    if (grey or request.method == "grey") and level is None:
+        raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
+    noise = noise_share(np.asarray(solid.values))
+    facts = {**facts, "noise": noise}
+    method, despeckle, paper = request.method, request.despeckle, False
+    if method == AUTO:
+        kept = level is not None and used["method"] != "phase" and _shaded(np.asarray(scan.values), used["values"])
+        paper = request.level != "volume" or request.smoothing.steps < FEWEST
+        method = "plain" if noise > NOISY or paper else "grey" if grey or kept else "refine"
+        despeckle = despeckle or (SPECK * scan.cell_volume if noise > NOISY and not paper else 0.0)
+    axis, count = layers_between(solid)
+    given = _given(scan, solid, used, facts, grey=grey or method == "grey", axis=axis, count=count)
+    first = replace(request, method=method, refine=None, despeckle=despeckle)
+    yield Way(name=method, make=partial(_same, given, first))
+    if request.method == AUTO and method == "plain" and not paper:
+        kept_more = replace(first, method="refine")
+        yield Way(name="refine", make=partial(_same, given, kept_more), cost=2)
+    for steps in fewer_steps(first):
+        fewer = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
+        yield Way(name=f"{method}, {steps} steps", make=partial(_same, given, fewer))
+    if request.method == AUTO and method != "plain":
+        plain = replace(first, method="plain")
+        yield Way(name="plain", make=partial(_same, given, plain), cost=0.5)
+
+
+def _same(given: Given, request: Request) -> tuple[Given, Request]:
+    """Return both: what a way makes that needs no other data."""
+    return given, request
+
+
+def _shaded(values: NDArray[Any], ends: list[float]) -> bool:
+    """Return whether any of some layers has values between the least and the greatest: a mask has none."""
+    some = values[:: max(1, len(values) // LAYERS)]
+    return bool(((some > ends[0]) & (some < ends[1])).any())
+
+
+def _given(
+    scan: Volume,
+    solid: Volume,
+    used: Mapping[str, Any],
+    facts: Mapping[str, Any],
+    *,
+    grey: bool,
+    axis: int,
+    count: int,
+) -> Given:
+    """Return the data to smooth: grey levels where they tell more than a mask, and slices between thick ones."""
+    data = grey_levels(scan, float(used["low"])) if grey and used["method"] != "phase" else solid
+    if used["method"] == "phase":
+        data = scan
+    facts = {**facts, "grey": grey, "slices": count}
+    if count == 1:
+        return Given(data=data, facts=facts)
+    mask = smooth_bricks(solid.values, Smoothing(steps=0))
+    return Given(
+        data=interpolated(data, axis, count),
+        facts=facts,
+        raw=raw_surface(mask, solid, None),
+        volume=None if data is not solid else float(np.count_nonzero(solid.values)) * solid.cell_volume,
+        cell=float(solid.cell_size.max()),
+    )

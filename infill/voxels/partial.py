@@ -1,0 +1,196 @@
+"""Where inside a cell the surface of a mesh lies, and what the mesh encloses: exactly, whatever the cells are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.kernels.threads import in_threads, thread_count
+from infill.ragged import spread
+from infill.surface import Surface
+from infill.volume import Volume
+from infill.voxels.scanlines import crossings
+
+ROWS = 6  # rows of a cell along x, and along y, on which overlaps are measured
+LOOKED = 2_000_000_000  # triangles looked at, at most, to tell which points are hidden
+BESIDE = 0.5  # cells from a face to the point that is looked at to tell which solid it bounds
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Enclosed:
+    """What a closed mesh encloses, place by place, so that it can be counted for each component of the cells.
+
+    Parameters
+    ----------
+    beside : (F, 3) float64, mm
+        A point just inside each face.
+    area : (F,) float64, mm²
+    sign : (F,) int64
+        -1 for a face that had to be turned.
+    component : (F,) int
+        Component of the mesh that each face belongs to.
+    volumes : (B,) float64, mm³
+        Volume of each component; negative for a cavity.
+    over : (N, 3) float64, mm
+        Places that components enclose more than once.
+    excess : (N,) float64, mm³
+        How much of the sum of the volumes is counted too often there.
+    """
+
+    beside: Floats
+    area: Floats
+    sign: NDArray[np.int64]
+    component: NDArray[np.integer]
+    volumes: Floats
+    over: Floats
+    excess: Floats
+
+    def solid_beside(
+        self, mesh: Surface, points: Floats, faces: NDArray[np.integer], cells: float, *, threads: int | None = None
+    ) -> NDArray[np.bool_]:
+        """Return whether the mesh is solid a number of cells outwards from points (N, 3) on its faces (N,).
+
+        Below 0 is inwards. If the points are very many, some are looked at, and those after them taken to be alike.
+        """
+        from infill.kernels.distances import wind
+
+        if len(points) == 0:
+            return np.zeros(0, dtype=bool)
+        corners = np.ascontiguousarray(np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces])
+        beside = points + cells / BESIDE * (corners.mean(axis=1) - self.beside)[faces]
+        step = -(-len(points) * len(corners) // LOOKED)
+        winding = np.zeros(len(beside[::step]), dtype=np.int64)
+        in_threads(
+            wind, np.ascontiguousarray(beside[::step]), corners, self.sign, winding, threads=thread_count(threads)
+        )
+        return np.repeat(winding != 0, step)[: len(points)]
+
+    @property
+    def total(self) -> float:
+        """Volume of the union of all components, mm³."""
+        return float(self.volumes.sum() - self.excess.sum())
+
+
+def distances_in_cells(
+    mesh: Surface, inside: Volume, reach: float, *, several: bool, threads: int | None = None
+) -> NDArray[np.float32]:
+    """Return how far the centre of each cell lies from a mesh, (nx, ny, nz) in cells: above 0 inside, at most `reach`.
+
+    Parameters
+    ----------
+    mesh : Surface, mm
+        Closed.
+    inside : Volume
+        Which cells are inside, all sides of a cell equal.
+    reach : float
+        Cells.
+    several : bool
+        Whether components may overlap or touch: faces inside the solid are then passed over, as are gaps between
+        components that no centre of a cell lies in.
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
+
+    Notes
+    -----
+    A cell whose neighbours are inside up to k cells away is at least k cells from the surface.
+    """
+    from infill.kernels.distances import lower_to_triangles
+
+    solid: NDArray[np.bool_] = np.asarray(inside.values)
+    size = float(inside.cell_size[0])
+    corners = np.ascontiguousarray(((mesh.vertices - np.array(inside.origin)) / size - 0.5)[mesh.faces])
+    found = np.full(solid.shape, np.float32(reach * reach))
+    in_threads(lower_to_triangles, corners, reach, found, threads=thread_count(threads))
+    np.sqrt(found, out=found)
+    if several:
+        core = solid
+        for deep in range(1, int(np.ceil(reach)) + 1):
+            core = _shrunk(core)
+            np.maximum(found, np.float32(min(deep, reach)), out=found, where=core)
+    np.negative(found, out=found, where=~solid)
+    return found
+
+
+def _shrunk(solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the cells whose 26 neighbours are solid too; void is all around."""
+    for axis in range(3):
+        along = np.moveaxis(solid, axis, 0)
+        out = np.zeros_like(solid)
+        np.moveaxis(out, axis, 0)[1:-1] = along[1:-1] & along[:-2] & along[2:]
+        solid = out
+    return solid
+
+
+def enclosed(
+    mesh: Surface,
+    component: NDArray[np.integer],
+    turned: NDArray[np.bool_],
+    volumes: Floats,
+    inside: Volume,
+    *,
+    overlap: bool,
+) -> Enclosed:
+    """Return what a closed mesh encloses.
+
+    Parameters
+    ----------
+    mesh : Surface, mm
+    component : (F,) int
+    turned : (B,) bool
+        Components that must be turned inside out.
+    volumes : (B,) float64, mm³
+        Signed volumes before that.
+    inside : Volume
+        The cells inside.
+    overlap : bool
+        Whether any cell is enclosed more than once.
+    """
+    signed = np.where(turned, -volumes, volumes)
+    inverted = signed.sum() < 0
+    flip = turned != inverted
+    a, b, c = (np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces[:, i]] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    length = np.linalg.norm(normal, axis=1)
+    outwards = np.divide(normal, length[:, None], out=np.zeros_like(normal), where=length[:, None] > 0)
+    outwards[flip[component]] *= -1
+    size = float(inside.cell_size[0])
+    sign = np.where(flip, -1, 1)[component]
+    over, excess = _excess(mesh, sign, inside) if overlap else (np.empty((0, 3)), np.empty(0))
+    return Enclosed(
+        beside=(a + b + c) / 3 - BESIDE * size * outwards,
+        area=length / 2,
+        sign=sign,
+        component=component,
+        volumes=-signed if inverted else signed,
+        over=over,
+        excess=excess,
+    )
+
+
+def _excess(mesh: Surface, sign: NDArray[np.integer], inside: Volume) -> tuple[Floats, Floats]:
+    """Return places (N, 3) that are enclosed more than once, mm, and how much volume that is, mm³."""
+    size, (nx, ny, nz) = float(inside.cell_size[0]), inside.values.shape
+    points = (np.asarray(mesh.vertices, dtype=np.float64) - np.array(inside.origin)) / size
+    points *= (ROWS, ROWS, 1)
+    found = crossings(points - 0.5, mesh.faces, (nx * ROWS, ny * ROWS, nz))
+    order = np.lexsort((found.depth, found.row))
+    row, depth = found.row[order].astype(np.int64), found.depth[order].astype(np.float64)
+    winding = np.cumsum(found.sign[order] * sign[found.face[order]])  # 0 again at the end of every row
+    often = np.flatnonzero((row[:-1] == row[1:]) & (winding[:-1] != 0) & (winding[:-1] != 1))
+    amount = (depth[often + 1] - depth[often]) * (winding[often] - 1) * size**3 / ROWS**2
+    # In pieces of a cell, so that each is counted where it lies.
+    long = depth[often + 1] - depth[often]
+    pieces = np.maximum(1, np.ceil(long)).astype(np.int64)
+    places, shares = [], []
+    for some, step in spread(pieces):
+        i, j = np.divmod(row[often[some]], ny * ROWS)
+        z = depth[often[some]] + (step + 0.5) * (long[some] / pieces[some]) + 0.5
+        places.append(np.stack([(i + 0.5) / ROWS, (j + 0.5) / ROWS, z], axis=1) * size + np.array(inside.origin))
+        shares.append(amount[some] / pieces[some])
+    if not places:
+        return np.empty((0, 3)), np.empty(0)
+    return np.concatenate(places), np.concatenate(shares)
