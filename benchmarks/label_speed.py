@@ -3,7 +3,7 @@
 Forty blobs on 256³ cells, each with a label of its own, in one run of `smooth_labels` and each alone in the whole
 volume, as ``--label N`` does it. Two volumes: five large blobs among many small ones, as organs or the bones of a foot
 are, and a geometric series of radii. The promise: in the first, all forty take less than twice the slowest five alone.
-In the second that cannot be, whatever is done: the surface of all forty is more than twice that of the largest five.
+In the second nothing is promised: the surface of all forty is itself more than twice that of the largest five.
 """
 
 from __future__ import annotations
