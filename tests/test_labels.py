@@ -349,7 +349,10 @@ def test_a_segmentation_of_slicer_with_layers(folder: Path) -> None:
     assert names(folder) == {"a.seg.nrrd", "Femur, left_right.stl", "Cartilage.stl", "Plan.stl"}
     assert "without a cell" in done.stderr
     one_line_error(run("smooth", "a.seg.nrrd", "-o", "{number}.obj"), "1.obj would be written for several labels")
-    one_line_error(run("smooth", "a.seg.nrrd", "-o", "b.stl"), "choose one of its 2 frames: --frame 0 to --frame 1")
+    one_line_error(
+        run("smooth", "a.seg.nrrd", "-o", "b.stl"),
+        r"holds 2 layers of segments; write all with \{label\} .*; choose one of its 2 frames: --frame 0 to --frame 1",
+    )
     assert run("smooth", "a.seg.nrrd", "--frame", "1", "-o", "b.stl", "--allow-broken").exit_code == 0
     assert read_mesh("b.stl").volume == pytest.approx(VALUES[1].sum() * 0.5, rel=0.05)
 

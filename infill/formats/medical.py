@@ -24,6 +24,7 @@ from infill.volume import AXES, Volume
 
 UNEVEN = 0.05  # of a slice: how far DICOM slices may deviate from even spacing
 POSITION = "0020|0032"
+SEGMENTS = (".seg.nrrd", ".seg.nhdr")
 HEAD = 1024  # bytes that contain the storage class
 STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian like the rest of that header
 USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # among the headers that SimpleITK reports
@@ -83,6 +84,8 @@ def read_medical(path: Path, frame: int | None = None) -> Volume:
     size, numbers = found.size, found.components
     if numbers > 1:
         what = f"holds a {found.kind} per cell; save one grey value, magnitude or label per cell"
+        if path.name.lower().endswith(SEGMENTS):
+            what = f"holds {numbers} layers of segments; write all with {{label}} in the name of the output"
         component = chosen(path, frame, numbers, what=what)
     else:
         at = chosen(path, frame, math.prod(size[AXES:]), what=f"has {len(size)} axes, {_times(size)}")
