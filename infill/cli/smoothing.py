@@ -201,6 +201,25 @@ def smooth(
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
     spaced = None if spacing is None else parse_numbers("spacing", spacing, (1, 3))
     box = None if roi is None else parse_numbers("roi", roi, (6,))
+    from infill.phasefield.allen_cahn import Smoothing
+    from infill.smoothing.request import AUTO, Options
+
+    options: Options = {
+        "smoothing": Smoothing(
+            steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
+        ),
+        "method": "refine" if refine else cast("Method", method),
+        "radius": smooth_radius,
+        "crumbs": crumbs,
+        "strict": strict,
+        "level": parse_level(level),
+        "despeckle": despeckle,
+        "allow_broken": allow_broken,
+        "tolerance": AUTO if tolerance is None else tolerance or None,
+        "max_triangles": max_triangles,
+        "threads": threads,
+        "max_memory": None if max_memory is None else parse_bytes(max_memory),
+    }
     if wants_each(outputs, each_label=each_label, labels=labels, keep_going=keep_going):
         refuse(
             preview=preview is not None,
@@ -213,8 +232,6 @@ def smooth(
             otsu=otsu,
             grey=grey,
         )
-        from infill.phasefield.allen_cahn import Smoothing
-
         smooth_each(
             GivenLabels(
                 source=source,
@@ -230,19 +247,7 @@ def smooth(
                 outputs=outputs, ascii_stl=ascii_stl, force=force, as_json=as_json, quiet=quiet, keep_going=keep_going
             ),
             label=tuple(label) if label else None,
-            options={
-                "smoothing": Smoothing(
-                    steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
-                ),
-                "refine": refine,
-                "level": parse_level(level),
-                "despeckle": despeckle,
-                "allow_broken": allow_broken,
-                "tolerance": tolerance,
-                "max_triangles": max_triangles,
-                "threads": threads,
-                "max_memory": None if max_memory is None else parse_bytes(max_memory),
-            },
+            options=options,
         )
         return
     for path in outputs:
@@ -254,8 +259,6 @@ def smooth(
         check_preview(preview)
     check_targets(filter(None, (*outputs, preview)), overwrite=force)
     with progress_bar(shown=not quiet) as progress:
-        from infill.phasefield.allen_cahn import Smoothing
-        from infill.smoothing.request import AUTO
         from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
@@ -273,7 +276,6 @@ def smooth(
             )
         from infill.smoothing.placing import field_volume
 
-        held = {} if fidelity is None else {"fidelity": fidelity}
         with log_said(shown=not quiet):
             result = smooth_source(
                 given,
@@ -285,19 +287,7 @@ def smooth(
                 label=tuple(label) if label else None,
                 otsu=otsu,
                 grey=grey,
-                smoothing=Smoothing(steps=steps, interface=interface, **held),
-                method="refine" if refine else cast("Method", method),
-                radius=smooth_radius,
-                crumbs=crumbs,
-                strict=strict,
-                level=parse_level(level),
-                despeckle=despeckle,
-                allow_broken=allow_broken,
-                tolerance=AUTO if tolerance is None else tolerance or None,
-                max_triangles=max_triangles,
-                threads=threads,
-                max_memory=None if max_memory is None else parse_bytes(max_memory),
-                progress=progress,
+                **cast(Options, {**options, "progress": progress}),
             )
         if progress is not None:
             progress("write", 0.9)
