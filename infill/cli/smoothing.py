@@ -15,7 +15,7 @@ from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
     from infill.result import Result
-    from infill.smoothing.request import Method, Options
+    from infill.smoothing.request import Method
     from infill.smoothing.stages import SmoothStages
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
@@ -201,29 +201,25 @@ def smooth(
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
     spaced = None if spacing is None else parse_numbers("spacing", spacing, (1, 3))
     box = None if roi is None else parse_numbers("roi", roi, (6,))
+    from infill.phasefield.allen_cahn import Smoothing
+    from infill.smoothing.request import AUTO, Options
 
-    def chosen(progress: Callable[[str, float], None] | None = None) -> Options:
-        """Return the options that all kinds of input have in common."""
-        from infill.phasefield.allen_cahn import Smoothing
-        from infill.smoothing.request import AUTO
-
-        held = {} if fidelity is None else {"fidelity": fidelity}
-        return {
-            "smoothing": Smoothing(steps=steps, interface=interface, **held),
-            "method": "refine" if refine else cast("Method", method),
-            "radius": smooth_radius,
-            "crumbs": crumbs,
-            "strict": strict,
-            "level": parse_level(level),
-            "despeckle": despeckle,
-            "allow_broken": allow_broken,
-            "tolerance": AUTO if tolerance is None else tolerance or None,
-            "max_triangles": max_triangles,
-            "threads": threads,
-            "max_memory": None if max_memory is None else parse_bytes(max_memory),
-            "progress": progress,
-        }
-
+    options: Options = {
+        "smoothing": Smoothing(
+            steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
+        ),
+        "method": "refine" if refine else cast("Method", method),
+        "radius": smooth_radius,
+        "crumbs": crumbs,
+        "strict": strict,
+        "level": parse_level(level),
+        "despeckle": despeckle,
+        "allow_broken": allow_broken,
+        "tolerance": AUTO if tolerance is None else tolerance or None,
+        "max_triangles": max_triangles,
+        "threads": threads,
+        "max_memory": None if max_memory is None else parse_bytes(max_memory),
+    }
     if wants_each(outputs, each_label=each_label, labels=labels, keep_going=keep_going):
         refuse(
             preview=preview is not None,
@@ -234,7 +230,7 @@ def smooth(
             threshold=threshold is not None,
             range=between is not None,
             otsu=otsu,
-            grey=grey,
+            grey=grey or method == "grey",
         )
         smooth_each(
             GivenLabels(
@@ -251,7 +247,7 @@ def smooth(
                 outputs=outputs, ascii_stl=ascii_stl, force=force, as_json=as_json, quiet=quiet, keep_going=keep_going
             ),
             label=tuple(label) if label else None,
-            options=chosen(),
+            options=options,
         )
         return
     for path in outputs:
@@ -291,7 +287,7 @@ def smooth(
                 label=tuple(label) if label else None,
                 otsu=otsu,
                 grey=grey,
-                **chosen(progress),
+                **cast(Options, {**options, "progress": progress}),
             )
         if progress is not None:
             progress("write", 0.9)

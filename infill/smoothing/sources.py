@@ -76,8 +76,12 @@ def read_source(
     FormatError
         For a file that cannot be read, or whose kind cannot be determined.
     ParameterError
-        If no unit is given and the part would be smaller than 2 mm, as a part in metres would be (for one over
-        2 m there is only a warning); if a unit is given for a volume, or a spacing, frame or roi for anything else.
+        If a unit is given for a volume, or a spacing, frame or roi for anything else.
+
+    Notes
+    -----
+    If no unit is given and the part would be smaller than 2 mm, as a part in metres would be, or larger than 2 m, a
+    warning goes to the log "infill".
     """
     source = Path(path)
     if kind is not None and kind not in KINDS:
@@ -239,8 +243,10 @@ def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float
             "%s is %.4g mm long if its numbers are millimetres; give --units um if they are micrometres", path, longest
         )
     elif unit != "mm" and longest > 0:
-        raise ParameterError(
-            f"{path} is {longest:.3g} mm long if its numbers are millimetres; "
-            f"give --units m if they are metres ({longest * 1000:.3g} mm), or --units mm if it really is that small"
+        LOG.warning(
+            "%s is %.3g mm long if its numbers are millimetres; give --units m if they are metres (%.3g mm long)",
+            path,
+            longest,
+            longest * 1000,
         )
     return 1.0
