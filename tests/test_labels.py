@@ -410,7 +410,10 @@ def test_bad_input_is_one_clear_line(words: str, says: str, folder: Path) -> Non
     [
         "-o a.stl --keep-going",
         "-o a.stl --labels names.txt",
-        *(f"-o {{label}}.stl {more}" for more in ("--threshold 3", "--range 3,4", "--otsu", "--grey", "--voxel 1")),
+        *(
+            f"-o {{label}}.stl {more}"
+            for more in ("--threshold 3", "--range 3,4", "--otsu", "--grey", "--smooth grey", "--voxel 1")
+        ),
         "-o {label}.stl --preview a.png",
         "-o {label}.stl --units mm",
     ],
