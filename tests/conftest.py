@@ -89,6 +89,12 @@ def silent_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(logging.getLogger("infill"), "disabled", True)
 
 
+@pytest.fixture
+def log_heard(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Say again what `silent_compiler` hides: for tests of warnings, which do not mind other lines."""
+    monkeypatch.setattr(logging.getLogger("infill"), "disabled", False)
+
+
 @pytest.fixture(scope="session")
 def prints_of_all_kinds(tmp_path_factory: pytest.TempPathFactory) -> Mapping[str, Path]:
     """Sliced prints by name, as tests/gcode_corpus.py describes them; each is made when it is first asked for."""

@@ -143,6 +143,7 @@ def test_one_part_in_four_units_gives_one_mesh(folder: Path) -> None:
         assert np.allclose(vertices, meshes[0], atol=1e-3)  # 32-bit coordinates in the file
 
 
+@pytest.mark.usefixtures("log_heard")
 @pytest.mark.parametrize("name", ["nasty/metres_part_47um.stl", "medical/mandible_raw_m.stl"])
 def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> None:
     result = run("smooth", data / name, "-o", "a.stl", "--resolution", "40")
@@ -156,6 +157,7 @@ def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> 
     assert 10 < max(large["extents"]) < 200
 
 
+@pytest.mark.usefixtures("log_heard")
 def test_points_in_metres_are_questioned_too(folder: Path) -> None:
     np.savetxt("m.xyz", np.loadtxt("p.xyz") / 1000)
     asked = run("smooth", "m.xyz", "-o", "a.stl", "--resolution", "30")

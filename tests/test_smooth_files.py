@@ -70,6 +70,7 @@ def test_nasty_meshes_are_closed_or_told(name: str, data: Path, tmp_path: Path) 
         assert mesh.volume == pytest.approx(volume, rel=near)
 
 
+@pytest.mark.usefixtures("log_heard")
 @pytest.mark.parametrize(
     "name", ["unit_cube_1mm.stl", "metres_part_47um.stl", "nonmanifold.stl", "multibody_ascii.stl"]
 )

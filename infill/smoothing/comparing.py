@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word
-from infill.surfaces.components import cores, data_bits, opened, set_at
+from infill.surfaces.components import data_bits, set_at, sturdy
 
 if TYPE_CHECKING:
     from infill.inspection.bricks import Verdict
@@ -46,8 +46,8 @@ def kinds_of_places(given: Given, field: SparseField) -> Kinds:
     """Return what tells which points of what was given count when it is asked whether they were lost.
 
     Of a mesh, those with solid on one side: what lies inside the solid, and sheets without thickness, do not. Slits
-    narrower than a cell are told apart. Of voxels, those of walls more than one cell thick: what is one cell thick, the
-    equation removes, and it is told apart.
+    narrower than a cell are told apart. Of voxels, those between solid and void more than one cell thick: what is one
+    cell thick, the equation removes, and it is told apart.
     """
     if given.enclosed is not None:
         held, mesh = given.enclosed, given.reference
@@ -61,15 +61,17 @@ def kinds_of_places(given: Given, field: SparseField) -> Kinds:
 
         return bounding
     bits = data_bits(field)
-    sturdy = opened(field, cores(field, bits))
+    solid, empty = sturdy(field, bits), sturdy(field, bits, void=True)
     data, turn = given.data, np.asarray(given.data.direction)
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
         cells = (points - np.array(data.origin)) @ turn / data.cell_size
-        near = np.zeros(len(points), dtype=bool)
+        wall, gap = np.zeros((2, len(points)), dtype=bool)
         for step in np.ndindex(2, 2, 2):
-            near |= set_at(field, sturdy, np.floor(cells - 0.5).astype(np.int64) + step)
-        return np.where(near, COUNTS, THIN)
+            place = np.floor(cells - 0.5).astype(np.int64) + step
+            wall |= set_at(field, solid, place)
+            gap |= set_at(field, empty, place, void=True)
+        return np.where(wall & gap, COUNTS, THIN)
 
     return thick
 
@@ -94,7 +96,11 @@ def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 
     if gone := judged.changes.vanished_thin:
         remarks.append(f"{gone} specks or flakes one voxel thick are gone")
     if found.thin:
-        what = "walls one voxel thick are gone" if given.enclosed is None else "slits narrower than a voxel are closed"
+        what = (
+            "walls or gaps one voxel thick are gone"
+            if given.enclosed is None
+            else "slits narrower than a voxel are closed"
+        )
         remarks.append(f"{what}, {found.thin:.3g} mm² of their faces")
     if found.sheet:
         remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")

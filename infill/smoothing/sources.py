@@ -244,7 +244,7 @@ def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float
         )
     elif unit != "mm" and longest > 0:
         LOG.warning(
-            "%s is %.3g mm long if its numbers are millimetres; give --units m if they are metres (%.3g mm long)",
+            "%s is %.3g mm long if its numbers are millimetres; give --units m if they are metres (%.4g mm long)",
             path,
             longest,
             longest * 1000,

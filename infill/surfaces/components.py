@@ -107,6 +107,15 @@ def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None 
     return _meet_or_spread(field, core, False, -1, threads)
 
 
+def sturdy(
+    field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, threads: int | None = None
+) -> NDArray[np.uint16]:
+    """Return the cells of all 2 x 2 x 2 blocks that are solid, or void: what is more than one cell thick."""
+    kind = VOID_BRICK if void else SOLID_BRICK
+    core = _meet_or_spread(field, ~bits if void else bits, True, 1, threads, kind)
+    return _meet_or_spread(field, core, False, -1, threads, kind)
+
+
 def grown(
     field: SparseField, bits: NDArray[np.uint16], cells: int, *, threads: int | None = None
 ) -> NDArray[np.uint16]:
@@ -116,14 +125,18 @@ def grown(
     return bits
 
 
-def set_at(field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer]) -> NDArray[np.bool_]:
-    """Return which cells (N, 3) of the grid are set; beyond the grid none is."""
+def set_at(
+    field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer], *, void: bool = False
+) -> NDArray[np.bool_]:
+    """Return which cells (N, 3) of the grid are set: of solid, of which there is none beyond it, or of void."""
     inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
     brick, cell = np.divmod(np.where(inside[:, None], cells, 0) + 1, BRICK)
     slot = field.slots[tuple(brick.T)]
     row = bits[slot, cell[:, 0] * BRICK[1] + cell[:, 1]] if len(bits) else np.zeros(len(cells), dtype=np.uint16)
-    there = np.where(slot >= 0, (row >> cell[:, 2].astype(np.uint16)) & 1, slot == SOLID_BRICK)
-    found: NDArray[np.bool_] = inside & (there != 0)
+    there = np.where(
+        slot >= 0, (row >> cell[:, 2].astype(np.uint16)) & 1, slot == (VOID_BRICK if void else SOLID_BRICK)
+    )
+    found: NDArray[np.bool_] = (there != 0) & inside | (void & ~inside)
     return found
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from infill.volume import Volume
 
 THICK = 2.0  # times the width of a cell: slices further apart than this are interpolated
+BESIDE = 1.01  # half pixels: only those next to the outline are this near
 REACH = 1.0  # pixels from the outline within which the result is grey
 
 
@@ -91,6 +92,7 @@ def signed_distance(layer: NDArray[Any], size: NDArray[np.float64]) -> NDArray[n
     inside = distance_transform_edt(solid, sampling=size) if not solid.all() else np.full(layer.shape, reach)
     outside = distance_transform_edt(~solid, sampling=size) if solid.any() else np.full(layer.shape, reach)
     found: NDArray[np.float32] = np.where(solid, inside - half, half - outside).astype(np.float32)
-    if layer.dtype.kind == "f":  # grey edges are about a pixel wide
-        np.multiply(layer, np.float32(half), out=found, where=np.abs(layer) < 1)
+    if layer.dtype.kind == "f":  # beside the outline, grey tells where inside a pixel it lies
+        beside = (np.abs(found) <= half * BESIDE) & (np.abs(layer) < 1)
+        np.multiply(layer, np.float32(half), out=found, where=beside)
     return found
