@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
     from infill.smoothing.request import Given
 
-JUST = 5e-4  # cells: how far from a face it is looked whether there is solid
+JUST = 5e-5  # cells: how far from a face it is looked whether there is solid
 SLIT = 1.0  # cells: a slit as narrow as this may close
 CAPS = 0.001  # of the area: caps smaller than this are not worth a word
 
