@@ -138,8 +138,8 @@ def section(rows: dict[str, dict[str, Any]], made: str) -> str:
         f"* **Losses that the report does not tell: {len(silent)}**, of {len(lost)} losses in "
         f"{len(judged)} results that could be judged"
         + (
-            f"; {deep} of the {len(silent)} reach deeper than {CORNER:g} voxels, which is what smoothing takes from the "
-            "corner of a cube."
+            f"; {deep} of the {len(silent)} reach deeper than {CORNER:g} voxels, which is what smoothing takes from "
+            "the corner of a cube."
             if silent
             else "."
         )
