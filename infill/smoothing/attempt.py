@@ -173,7 +173,12 @@ def _smoothed(given: Given, request: Request, clock: Clock) -> SparseField:
 
     if request.refined:
         return refine_bricks(
-            values, request.smoothing, spacing=spacing, exact=given.exact, threads=request.threads, progress=progress
+            values,
+            request.smoothing,
+            spacing=spacing,
+            exact=given.exact and request.held,
+            threads=request.threads,
+            progress=progress,
         )
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 

@@ -17,11 +17,10 @@ from infill.smoothing.placing import raw_surface
 from infill.smoothing.remedies import Way, fewer_steps
 from infill.smoothing.request import AUTO, FEWEST, Given, Request
 from infill.volume import Volume
-from infill.voxels.noise import noise_share
+from infill.voxels.noise import NOISY, noise_share
 from infill.voxels.segmentation import grey as grey_levels
 from infill.voxels.slices import interpolated, layers_between
 
-NOISY = 0.2  # of the surface that a majority overrules: half of what flipping a tenth of all cells makes
 LAYERS = 16  # that are looked at for grey values
 SPECK = 27  # cells: specks up to this size are taken out of noisy data
 
