@@ -98,9 +98,8 @@ def blade(degrees: float) -> trimesh.Trimesh:
 
 
 def bust() -> tuple[trimesh.Trimesh, float]:
-    """A ball without its foot, open below; and the volume of a round one under a flat cap."""
-    height = 30.0
-    return ball(20).slice_plane([0, 0, -10], [0, 0, 1]), np.pi * height**2 * (3 * 20 - height) / 3
+    """A ball without its foot, open below; and the volume under a flat cap."""
+    return ball(20).slice_plane([0, 0, -10], [0, 0, 1]), less(ball(20), box(60, 60, 40, (0, 0, -30))).volume
 
 
 def every_shape() -> Iterator[tuple[str, Made]]:
