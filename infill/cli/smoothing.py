@@ -74,7 +74,9 @@ def smooth(
         int | None,
         typer.Option(help="Voxels along the longest side of a mesh or of points. (default: 200)", rich_help_panel=GRID),
     ] = None,
-    voxel: Annotated[float | None, typer.Option(help="Voxel size instead, mm.", rich_help_panel=GRID)] = None,
+    voxel: Annotated[
+        float | None, typer.Option(help="Voxel size instead, mm; of a scan: larger voxels.", rich_help_panel=GRID)
+    ] = None,
     spacing: Annotated[
         str | None,
         typer.Option(

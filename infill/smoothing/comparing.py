@@ -108,6 +108,8 @@ def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 
         remarks.append(f"{what}, {found.thin:.3g} mm² of their faces")
     if found.sheet:
         remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")
+    if given.facts.get("coarse"):
+        remarks.append("what is smaller than the voxels that were asked for was not compared")
     repairs = given.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > CAPS:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")

@@ -34,7 +34,7 @@ Source = Surface | Volume | NDArray[np.float64]
 LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
 FITTING = {
-    "volume": ("threshold", "range", "label", "otsu", "grey"),
+    "volume": ("threshold", "range", "label", "otsu", "grey", "voxel"),
     "mesh": ("resolution", "voxel"),
     "points": ("resolution", "voxel", "shell"),
 }
@@ -185,7 +185,7 @@ def smooth_source(
         if len(ways) > 1:
             raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
         chosen: Any = "otsu" if otsu else between if between is not None else threshold
-        return smooth_volume(source, threshold=chosen, label=label, grey=grey, **options)
+        return smooth_volume(source, threshold=chosen, label=label, grey=grey, voxel=voxel, **options)
     if isinstance(source, Surface):
         return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
     if voxel is None:

@@ -57,7 +57,7 @@ class Shells:
     Parameters
     ----------
     names : (V,) int32
-        Shell of each vertex.
+        Shell of each vertex; -1 for one that no face uses.
     volume : (s,) float64
         Enclosed volume, mm³; negative for the walls of a cavity.
     slope : (s,) float64
@@ -245,7 +245,8 @@ def shells(surface: Surface, rate: NDArray[np.float32], *, threads: int | None =
     shell = names[surface.faces[:, 0]]
     own, change = face_sums(surface, rate, threads=threads)
     volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
-    corners, sides = np.bincount(names, minlength=count), np.bincount(shell, minlength=count)
+    used = names if names.min(initial=0) >= 0 else names[names >= 0]
+    corners, sides = np.bincount(used, minlength=count), np.bincount(shell, minlength=count)
     return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
 
 
