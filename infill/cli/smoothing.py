@@ -156,7 +156,7 @@ def smooth(
     tolerance: Annotated[
         float | None,
         typer.Option(
-            help="Simplify the mesh: move it by at most this, mm; 0 for all triangles. (default: 0.05 voxels)",
+            help="Simplify the mesh: move it by at most this, mm; 0 for all triangles. (default: 0.1 voxels)",
             rich_help_panel=SURFACE,
         ),
     ] = None,

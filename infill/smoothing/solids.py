@@ -92,7 +92,7 @@ def smooth_volume(
     strict : bool
         Try no remedies, and raise whatever breaks, fuses or vanishes.
     tolerance, max_triangles : float (mm) or "auto", and int, optional
-        Simplify the mesh; "auto" moves it by at most a twentieth of a cell.
+        Simplify the mesh; "auto" moves it by at most a tenth of a cell.
     threads, max_memory : int, optional
         Threads and bytes to use; by default, all that are available.
     progress : callable, optional
