@@ -1,4 +1,4 @@
-"""One way from data to a surface, in five stages, whatever the data come from: see `attempted`.
+"""One way from data to a surface, in five stages, whatever the data come from: see `attempted` and `delivered`.
 
 cleaned     the data without specks
 smoothed    the field in bricks
@@ -17,7 +17,7 @@ import numpy as np
 
 from infill.errors import GeometryError
 from infill.inspection.bricks import Verdict, verdict
-from infill.inspection.fidelity import Fidelity, Word, fidelity
+from infill.inspection.fidelity import Fidelity, fidelity
 from infill.inspection.thickness import thinnest_walls
 from infill.kernels.compiling import told_of_compiling
 from infill.phasefield.refining import refine_bricks
@@ -25,7 +25,7 @@ from infill.phasefield.sparse import smooth_bricks
 from infill.report import report_of
 from infill.result import Clock, Result
 from infill.smoothing.cleaning import cleaned, require_room
-from infill.smoothing.comparing import differences, kinds_of_places
+from infill.smoothing.comparing import Differences, differences, kinds_of_places
 from infill.smoothing.crumbs import Crumbs, without_crumbs
 from infill.smoothing.levelling import Surfaced, levelled
 from infill.smoothing.placing import lightened, placed, raw_surface
@@ -44,44 +44,62 @@ COMPARED = 5_000  # vertices of the voxels whose distance from the mesh is told
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Attempt:
-    """A result, and what is to be said about it.
+    """A surface, before it is simplified, and what is to be said about it.
 
     Parameters
     ----------
-    result : Result
-    word : {"kept", "changed a little", "lost"}
-    losses : tuple of str
-        What makes it "lost".
-    problems : tuple of str
-        What broke, fused or vanished, large or small.
-    area : float
-        Area that was lost, mm².
-    apart : bool
-        Whether components or holes through the part are fewer or more than they were, or the volume is off: another way
-        may mend it.
+    given, request : Given, Request
+        Of which it was made; the data without specks, and lengths in cells.
+    field : SparseField
+    surfaced : Surfaced
+    crumbs, specks : Crumbs, int
+        What was taken out afterwards and beforehand.
+    judged : Verdict
+    found : Fidelity
+    told : Differences
+    full, raw : Surface, mm
+        The surface in its place, and that of the voxels that were given.
+    clock : Clock
     """
 
-    result: Result[SmoothStages]
-    word: Word
-    losses: tuple[str, ...]
-    problems: tuple[str, ...]
-    area: float
-    apart: bool = False
+    given: Given
+    request: Request
+    field: SparseField
+    surfaced: Surfaced
+    crumbs: Crumbs
+    specks: int
+    judged: Verdict
+    found: Fidelity
+    told: Differences
+    full: Surface
+    raw: Surface
+    clock: Clock
 
     @property
     def sound(self) -> bool:
         """Whether there is nothing that another attempt might mend."""
-        return self.word != "lost" and not self.apart
+        return self.told.word != "lost" and not self.apart
+
+    @property
+    def apart(self) -> bool:
+        """Whether parts ran together or came apart, holes of a mesh closed, or the volume is off."""
+        changes, was, now = self.judged.changes, self.given.topology, self.judged.result
+        if was is None:
+            broken = bool(changes.broken or changes.fused or changes.vanished)
+        else:
+            broken = now.components != was.components or now.tunnels < was.tunnels
+        return broken or off_by(self.surfaced, self.given, self.request) != 0
 
     @property
     def rank(self) -> tuple[bool, int, float]:
         """The lower, the better."""
-        return self.word == "lost", len(self.problems), self.area
+        area = float(sum(patch.area for patch in (*self.found.lost, *self.found.added)))
+        return self.told.word == "lost", len(self.told.problems), area
 
 
 @told_of_compiling("the smoother")
 def attempted(given: Given, request: Request) -> Attempt:
-    """Return one result, however good it is; the way to smooth is known by now.
+    """Return one result, however good it is; the way to smooth is known by now. The first four stages.
 
     Raises
     ------
@@ -96,7 +114,6 @@ def attempted(given: Given, request: Request) -> Attempt:
         data, specks = cleaned(given.data, request)
         given = replace(given, data=data)
         field = _smoothed(given, request, clock)
-    spacing = tuple(data.cell_size.tolist())
     with clock.stage("surface", 0.4):
         surfaced, crumbs = without_crumbs(levelled(field, given, request), given, request)
         if not surfaced.found.surface.closed:
@@ -105,32 +122,47 @@ def attempted(given: Given, request: Request) -> Attempt:
         judged = verdict(
             surfaced.found,
             surfaced.before,
-            spacing=spacing,
+            spacing=tuple(data.cell_size.tolist()),
             blur=request.smoothing.blur,
             levels=surfaced.levels,
             threads=request.threads,
         )
         full = placed(surfaced.found.surface, data)
-        surface, simplified = lightened(full, request)
         raw = given.raw or raw_surface(field, data, request.threads)
-        found = fidelity(
-            raw if given.mesh is None else given.mesh,
-            surface,
-            cell=given.cell or float(data.cell_size.max()),
-            closed=given.reference,
-            kinds=kinds_of_places(given, field),
-            threads=request.threads,
-        )
+        found = _compared(full, raw, given, field, request)
+    return Attempt(
+        given=given,
+        request=request,
+        field=field,
+        surfaced=surfaced,
+        crumbs=crumbs,
+        specks=specks,
+        judged=judged,
+        found=found,
+        told=differences(judged, found, given, off=off_by(surfaced, given, request)),
+        full=full,
+        raw=raw,
+        clock=clock,
+    )
+
+
+def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
+    """Return the result of an attempt, simplified, and what is to be said of what is delivered: the fifth stage."""
+    given, request, clock, data = best.given, best.request, best.clock, best.given.data
+    judged, surfaced, found, told = best.judged, best.surfaced, best.found, best.told
     with clock.stage("measure", 0.75):
+        surface, simplified = lightened(best.full, request)
+        if surface is not best.full:
+            found = _compared(surface, best.raw, given, best.field, request)
+            told = differences(judged, found, given, off=off_by(surfaced, given, request))
         walls = _walls(judged, surfaced, data)
-    told = differences(judged, found, given, off=_off(surfaced, given, request))
     report = report_of(
         product="smooth",
         surface=surface,
         request=request.facts(),
         grid={
             "shape": list(data.values.shape),
-            "spacing": list(spacing),
+            "spacing": data.cell_size.tolist(),
             "origin": list(data.origin),
             "space": data.space,
         },
@@ -142,25 +174,30 @@ def attempted(given: Given, request: Request) -> Attempt:
         problems=[*told.losses, *told.problems],
         seconds=clock.seconds,
         simplified=simplified,
-        input={**given.facts, "despeckled": specks},
-        distance=_distance(found, given, raw, request),
+        input={**given.facts, "despeckled": best.specks},
+        distance=_distance(found, given, best.raw, request),
         verdict={
             "word": told.word,
-            "changes": [*told.losses, *told.problems, *told.remarks, *_remarks(crumbs, specks)],
+            "changes": [*told.losses, *told.problems, *told.remarks, *_remarks(best.crumbs, best.specks)],
             "lost": [patch.facts() for patch in found.lost],
             "added": [patch.facts() for patch in found.added],
-            "crumbs": {"removed": crumbs.count, "volume": crumbs.volume, "limit": crumbs.limit},
+            "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": [],
         },
     )
     stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
-    return Attempt(
-        result=Result(surfaces={"solid": surface}, report=report, stages=stages),
-        word=told.word,
-        losses=told.losses,
-        problems=told.problems,
-        area=float(sum(patch.area for patch in (*found.lost, *found.added))),
-        apart=_apart(judged, given) or _off(surfaced, given, request) != 0,
+    return Result(surfaces={"solid": surface}, report=report, stages=stages), told
+
+
+def _compared(surface: Surface, raw: Surface, given: Given, field: SparseField, request: Request) -> Fidelity:
+    """Return how far a surface lies from what was given, both ways."""
+    return fidelity(
+        raw if given.mesh is None else given.mesh,
+        surface,
+        cell=given.cell or float(given.data.cell_size.max()),
+        closed=given.reference,
+        kinds=kinds_of_places(given, field),
+        threads=request.threads,
     )
 
 
@@ -183,15 +220,7 @@ def _smoothed(given: Given, request: Request, clock: Clock) -> SparseField:
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 
 
-def _apart(judged: Verdict, given: Given) -> bool:
-    """Return whether parts ran together or came apart, or holes of a mesh are closed."""
-    changes, was = judged.changes, given.topology
-    if was is None:
-        return bool(changes.broken or changes.fused or changes.vanished)
-    return judged.result.components != was.components or judged.result.tunnels < was.tunnels
-
-
-def _off(surfaced: Surfaced, given: Given, request: Request) -> float:
+def off_by(surfaced: Surfaced, given: Given, request: Request) -> float:
     """Return by which part of itself the volume is off, where a level was to keep it."""
     held = given.enclosed
     wanted = float(surfaced.targets.sum()) if held is None else held.total

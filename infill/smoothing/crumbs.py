@@ -39,7 +39,8 @@ def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[
     """Return the surface without crumbs, and what they were.
 
     A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default as much as 8 cells, and is not the
-    largest piece of what was one component of the data.
+    largest piece of what was one component of the data. Of a mesh none of whose components is so small, every such
+    piece is one, and so is every such cavity: the surface around it goes, and it is filled.
     """
     limit = CRUMB * given.data.cell_volume if request.crumbs is None else request.crumbs
     found = surfaced.found
@@ -47,9 +48,15 @@ def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[
     if found.shells.names.min(initial=0) < 0:  # vertices that no face uses
         found = _without_shells(found, np.zeros(len(volume), dtype=bool))
         surfaced = replace(surfaced, found=found)
-    small = (volume > 0) & (volume <= limit)
+    held = given.enclosed
+    every = held is not None and not (np.abs(held.volumes[held.volumes != 0]) <= limit).any()
+    small = (np.abs(volume) if every else np.where(volume > 0, volume, np.inf)) <= limit
     if not small.any() or small.all():
         return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
+    if every:
+        return replace(surfaced, found=_without_shells(found, small)), Crumbs(
+            count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
+        )
     spacing = tuple(given.data.cell_size.tolist())
     component = component_of_shells(found, surfaced.before, spacing=spacing)
     largest = np.full(surfaced.before.count, -math.inf)

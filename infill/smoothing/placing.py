@@ -14,7 +14,7 @@ from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
 from infill.surfaces.distance import distances
-from infill.surfaces.simplification import simplified, with_volume
+from infill.surfaces.simplification import lean, simplified, with_volume
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
@@ -43,12 +43,12 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
     if request.tolerance is None and request.max_triangles is None:
         return full, None
     assert not isinstance(request.tolerance, str)  # it is a number by now
-    try:
-        fewer = simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads)
-    except GeometryError:
-        if request.lenient:
+    if request.lenient and request.tolerance is not None:
+        fewer = lean(full, request.tolerance, threads=request.threads)
+        if fewer is full:
             return full, None
-        raise
+    else:
+        fewer = simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads)
     light = replace(with_volume(fewer, full.volume), space=full.space)
     change = light.volume / full.volume - 1
     if abs(change) > SIMPLER and not request.allow_broken:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
-from infill.smoothing.attempt import Attempt, attempted
+from infill.smoothing.attempt import Attempt, attempted, delivered
 
 if TYPE_CHECKING:
     from infill.result import Result
@@ -79,17 +79,17 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
                 best, taken = found, way.name
         tried.append(way.name)
         first = first or time.perf_counter() - begin
-        if best is not None and (best.sound or (best.word != "lost" and len(tried) > 1)):
+        if best is not None and (best.sound or (best.told.word != "lost" and len(tried) > 1)):
             break  # what is connected differently is worth one more run, what is lost all of them
     if best is None:
         assert failed is not None
         raise GeometryError(f"{failed}{_after(tried[1:])}") from failed
-    refused = best.losses if not request.strict else (*best.losses, *best.problems)
+    result, told = delivered(best)
+    refused = told.losses if not request.strict else (*told.losses, *told.problems)
     if refused and not request.allow_broken:
         raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(request)}")
-    report = best.result.report
-    verdict = {**report["verdict"], "tried": tried, "taken": taken}
-    return replace(best.result, report={**report, "verdict": verdict})
+    verdict = {**result.report["verdict"], "tried": tried, "taken": taken}
+    return replace(result, report={**result.report, "verdict": verdict})
 
 
 def _after(others: list[str]) -> str:

@@ -13,6 +13,8 @@ from infill.surface import Surface
 from infill.surfaces.distance import distances
 
 FEWEST = 4
+PART = 0.2  # of the tolerance, for the manifold library, which moves two or three times as far as it says
+SHARES = (0.25, 0.15, 0.1, 0.06)  # of the triangles: as few as fit
 SIDE = 100.0  # of the longest side while quadrics are computed
 SHIFT = 0.1  # of the mean edge: how far vertices may move so that the volume stays
 HALVINGS = 8
@@ -65,6 +67,50 @@ def simplified(
     return found
 
 
+def lean(surface: Surface, tolerance: float, *, threads: int | None = None) -> Surface:
+    """Return the surface with about as few triangles as a tolerance allows, found by a few tries.
+
+    Parameters
+    ----------
+    surface : Surface, closed, mm
+    tolerance : float, mm
+        No vertex lies further than this from the result.
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
+
+    Returns
+    -------
+    Surface
+        Closed, with the same Euler number; the surface itself if none of the tries is good enough.
+
+    Notes
+    -----
+    The manifold library collapses the shortest edges, which are as good as none, and keeps the mesh closed. Quadric
+    errors take it from there, as far as they keep it closed: see `simplified`.
+    """
+    near = positive("tolerance", tolerance, "mm")
+    points = np.asarray(surface.vertices, dtype=np.float64)
+
+    def good(found: Surface | None) -> bool:
+        return (
+            found is not None
+            and found.closed
+            and found.euler_number == surface.euler_number
+            and float(distances(points, found, threads=threads).max()) <= near
+        )
+
+    best = _collapse(surface)(PART * near)
+    best = best if best is not None and good(best) else surface
+    at = _quadrics(best)
+    for share in SHARES:
+        fewer = at(len(surface.faces) * share)
+        if not good(fewer):
+            break
+        assert fewer is not None
+        best = fewer
+    return best
+
+
 def with_volume(surface: Surface, volume: float) -> Surface:
     """Return the surface with its vertices moved along their normals, all equally far, so that it has a volume, mm³.
 
@@ -97,6 +143,26 @@ def _by_quadrics(
     surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
 ) -> Surface | None:
     """Return the surface with the requested number of triangles or as few as fit; None if it would not stay closed."""
+    at = _quadrics(surface)
+    if near is None:
+        found = surface if few is None or few >= len(surface.faces) else at(few)
+        return found if few is None or found is None or len(found.faces) <= few else None
+    low, high, best = float(FEWEST), float(len(surface.faces)), None
+    for _ in range(HALVINGS):
+        middle = float(np.sqrt(low * high))
+        found = at(middle)
+        if found is not None and fits(found):
+            best, high = found, middle
+        else:
+            low = middle
+    if few is not None and best is not None and len(best.faces) > few:
+        best = at(few)
+        best = best if fits(best) else None
+    return best
+
+
+def _quadrics(surface: Surface) -> Callable[[float], Surface | None]:
+    """Return what collapses edges down to a number of triangles by quadric errors; None if it would not stay whole."""
     import fast_simplification
 
     faces = np.asarray(surface.faces, dtype=np.int32)
@@ -111,27 +177,31 @@ def _by_quadrics(
         whole_still = found.closed and found.euler_number == surface.euler_number and found.volume > 0
         return found if whole_still else None
 
-    if near is None:
-        found = surface if few is None or few >= len(faces) else at(few)
-        return found if few is None or found is None or len(found.faces) <= few else None
-    low, high, best = float(FEWEST), float(len(faces)), None
-    for _ in range(HALVINGS):
-        middle = float(np.sqrt(low * high))
-        found = at(middle)
-        if found is not None and fits(found):
-            best, high = found, middle
-        else:
-            low = middle
-    if few is not None and best is not None and len(best.faces) > few:
-        best = at(few)
-        best = best if fits(best) else None
-    return best
+    return at
 
 
 def _by_collapse(
     surface: Surface, few: int | None, near: float | None, fits: Callable[[Surface | None], bool]
 ) -> Surface | None:
     """Return the surface with short edges collapsed, by the largest tolerance that fits or the least that suffices."""
+    at = _collapse(surface)
+    extent = float(np.ptp(surface.vertices, axis=0).max())
+    low, high, best = extent * 1e-7, near or extent / 4, None
+    for _ in range(HALVINGS):
+        middle = float(np.sqrt(low * high))
+        found = at(middle)
+        small = found is not None and (few is None or len(found.faces) <= few)
+        if small and fits(found):
+            best = found
+        if few is not None:  # the smallest tolerance that leaves this few
+            low, high = (low, middle) if small or found is None else (middle, high)
+        else:  # the largest that fits
+            low, high = (middle, high) if fits(found) else (low, middle)
+    return best
+
+
+def _collapse(surface: Surface) -> Callable[[float], Surface | None]:
+    """Return what collapses edges shorter than a tolerance by the manifold library; None if nothing would be left."""
     import manifold3d
 
     # In 64 bits: the mesh is closed by its indices, and vertices that are equal in 32 bits would be merged.
@@ -150,16 +220,4 @@ def _by_collapse(
             return None
         return Surface(vertices=mesh.vert_properties[:, :3], faces=mesh.tri_verts.astype(np.int64))
 
-    extent = float(np.ptp(surface.vertices, axis=0).max())
-    low, high, best = extent * 1e-7, near or extent / 4, None
-    for _ in range(HALVINGS):
-        middle = float(np.sqrt(low * high))
-        found = at(middle)
-        small = found is not None and (few is None or len(found.faces) <= few)
-        if small and fits(found):
-            best = found
-        if few is not None:  # the smallest tolerance that leaves this few
-            low, high = (low, middle) if small or found is None else (middle, high)
-        else:  # the largest that fits
-            low, high = (middle, high) if fits(found) else (low, middle)
-    return best
+    return at
