@@ -41,7 +41,11 @@ def smooth(
         ),
     ] = None,
     preview: Annotated[
-        Path | None, typer.Option(help="Picture of before and after to write: FILE.png.", rich_help_panel=FILES)
+        Path | None,
+        typer.Option(
+            help="Picture of before and after to write, what was lost in red, what was added in blue: FILE.png.",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
