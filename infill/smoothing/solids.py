@@ -21,6 +21,7 @@ from infill.grid import spacing_of
 from infill.inspection.changes import Counts
 from infill.phasefield.refining import cut_off, on_profile
 from infill.result import Result
+from infill.smoothing.hints import tell_of_filters
 from infill.smoothing.remedies import Way, best_of
 from infill.smoothing.request import AUTO, FEWEST, Given, Method, Options, Request
 from infill.smoothing.scans import ways_of_scan
@@ -160,13 +161,15 @@ def _ways_of_mesh(surface: Surface, resolution: int | None, voxel: float | None,
     if first.method == "grey":
         raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
 
-    def with_voxels(resolution: int | None, voxel: float | None) -> tuple[Given, Request]:
+    def with_voxels(resolution: int | None, voxel: float | None, *, hint: bool = False) -> tuple[Given, Request]:
         found = voxelise_reported(
             surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
         )
+        if hint:
+            tell_of_filters(surface, found)
         return _given_mesh(surface, found, first), first
 
-    yield Way(name=first.method, make=partial(with_voxels, resolution, voxel))
+    yield Way(name=first.method, make=partial(with_voxels, resolution, voxel, hint=True))
     if request.method == AUTO and resolution is None and voxel is None:
         for times in FINER:
             finer = round(times * RESOLUTION)
