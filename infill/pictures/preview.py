@@ -18,6 +18,7 @@ from infill.pictures.before_and_after import before_and_after
 from infill.pictures.render import render
 from infill.pictures.sheet import BACKGROUND, INK, PANEL, sheet
 from infill.result import Result
+from infill.smoothing.by_component import ComponentStages
 from infill.surface import Surface
 
 if TYPE_CHECKING:
@@ -53,7 +54,17 @@ def preview(result: Result[Any]) -> Image.Image:
     stages = result.stages
     if isinstance(stages, MakeStages):
         return _four_stages(stages, result)
+    if isinstance(stages, ComponentStages):
+        return _components(stages, result)
     return _before_and_after(stages, result)
+
+
+def _components(stages: ComponentStages, result: Result[Any]) -> Image.Image:
+    """Return a mesh and its components, smoothed one by one."""
+    report = result.report
+    before = f"given: {len(stages.given.faces):,} triangles"
+    after = f"smoothed: {len(result.surfaces)} components, {report['triangles']:,} triangles"
+    return before_and_after(stages.given, result.whole, cell=stages.voxel, report=report, captions=(before, after))
 
 
 def _before_and_after(stages: SmoothStages, result: Result[Any]) -> Image.Image:
