@@ -27,7 +27,8 @@ LOST: Colour = (214, 39, 40)
 ADDED: Colour = (31, 119, 220)
 MARGIN = 1.06  # of the frame
 ENOUGH = 0.6  # of the most that any view shows
-SMALL = 100  # pixels along a side of the pictures by which the view is chosen
+SEEN = 8  # quarters of a pixel: less than this nobody sees
+SMALL = 64  # pixels along a side of the pictures by which the view is chosen
 
 # From above at four corners, the usual one first, then from below, and straight from the sides.
 VIEWS = (
@@ -62,10 +63,6 @@ class Marked:
     def is_far(self, points: Floats) -> NDArray[np.bool_]:
         """Return which points (N, 3) lie far from the other surface."""
         return self._tree.nearest(points)[0] > self.far
-
-    def paint(self, points: Floats) -> NDArray[np.number]:
-        """Return the colour of points (N, 3) of the surface."""
-        return np.where(self.is_far(points)[:, None], np.array(self.colour), np.array(PLAIN))
 
     @cached_property
     def samples(self) -> tuple[Floats, NDArray[np.bool_], Floats]:
@@ -117,38 +114,41 @@ def before_and_after(
     added = Marked(surface=result, other=given, far=FAR * cell, colour=ADDED)
     view = _view(lost, added)
     window = _window((given, result), view)
-    panels = {
-        caption: Image.fromarray(
-            render(
-                each.surface,
-                width=PANEL,
-                height=PANEL,
-                azimuth=view[0],
-                elevation=view[1],
-                background=BACKGROUND,
-                window=window,
-                paint=each.paint if each.area else _plain,
-            )
-        )
-        for caption, each in zip(captions, (lost, added), strict=True)
-    }
+    pictures = [_picture(each, view, window) for each in (lost, added)]
+    panels = {caption: picture for caption, (picture, _) in zip(captions, pictures, strict=True)}
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     facts = f"{size} mm, volume {report['volume']:.6g} cubic mm ({report['volume_change']:+.4%})"
-    ends = f"(further apart than {FAR:g} voxels, {FAR * cell:.3g} mm)"
-    told = [_told(lost, "lost", view), _told(added, "added", view)]
-    return sheet(panels, facts, [(None, f"{report['verdict']['word']}:"), *told, (None, ends)])
+    told = [
+        (each.colour, f"{float(f'{each.area:.3g}'):,g} square mm {word}{'' if shown else ', not seen here'}")
+        if each.area
+        else (None, f"nothing {word}")
+        for each, word, (_, shown) in zip((lost, added), ("lost", "added"), pictures, strict=True)
+    ]
+    ends = f"{facts}; marked: what is {FAR:g} voxels, {FAR * cell:.3g} mm, apart"
+    return sheet(panels, ends, [(None, f"{report['verdict']['word']}:"), *told])
 
 
-def _told(marked: Marked, word: str, view: tuple[float, float]) -> tuple[Colour | None, str]:
-    """Return the colour and the words for what lies far away."""
-    if not marked.area:
-        return None, f"nothing {word}"
-    area = f"{float(f'{marked.area:.3g}'):,g}"
-    return marked.colour, f"{area} square mm {word}{'' if marked.shown(view) else ', not seen here'}"
+def _picture(marked: Marked, view: tuple[float, float], window: Window) -> tuple[Image.Image, bool]:
+    """Return a surface as it is seen from one side, and whether anything that is marked is seen."""
+    hits = 0
 
+    def paint(points: Floats) -> NDArray[np.number]:
+        nonlocal hits
+        far = marked.is_far(points) if marked.area else np.zeros(len(points), dtype=bool)
+        hits += int(far.sum())
+        return np.where(far[:, None], np.array(marked.colour), np.array(PLAIN))
 
-def _plain(points: Floats) -> NDArray[np.number]:
-    return np.broadcast_to(np.array(PLAIN), points.shape)
+    pixels = render(
+        marked.surface,
+        width=PANEL,
+        height=PANEL,
+        azimuth=view[0],
+        elevation=view[1],
+        background=BACKGROUND,
+        window=window,
+        paint=paint,
+    )
+    return Image.fromarray(pixels), hits >= SEEN
 
 
 def _view(lost: Marked, added: Marked) -> tuple[float, float]:
