@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -110,6 +110,8 @@ def before_and_after(
     captions : (str, str)
         What stands above the two.
     """
+    if given.volume < 0:  # inside out
+        given = replace(given, faces=given.faces[:, ::-1])
     lost = Marked(surface=given, other=result, far=FAR * cell, colour=LOST)
     added = Marked(surface=result, other=given, far=FAR * cell, colour=ADDED)
     view = _view(lost, added)
@@ -124,7 +126,7 @@ def before_and_after(
         else (None, f"nothing {word}")
         for each, word, (_, shown) in zip((lost, added), ("lost", "added"), pictures, strict=True)
     ]
-    ends = f"{facts}; marked: what is {FAR:g} voxels, {FAR * cell:.3g} mm, apart"
+    ends = f"{facts}; marked if more than {FAR * cell:.3g} mm ({FAR:g} voxels) apart"
     return sheet(panels, ends, [(None, f"{report['verdict']['word']}:"), *told])
 
 
