@@ -107,9 +107,14 @@ def unreported(row: dict[str, Any]) -> bool:
 
 
 def retied(row: dict[str, Any]) -> bool:
-    """Tell whether the result has more or fewer shells or tunnels than the input, where both are known."""
-    judged = row.get("judged", {})
-    return any(None not in judged[what] and len(set(judged[what])) > 1 for what in ("shells", "tunnels") if judged)
+    """Tell whether the result has more or fewer shells or tunnels than the input, where both are known.
+
+    Bodies that overlap become one, as they should.
+    """
+    judged = row.get("judged", {"hidden": 1.0})
+    if judged["hidden"] > LEAST:
+        return False
+    return any(None not in judged[what] and len(set(judged[what])) > 1 for what in ("shells", "tunnels"))
 
 
 def section(rows: dict[str, dict[str, Any]], made: str) -> str:
@@ -131,8 +136,13 @@ def section(rows: dict[str, dict[str, Any]], made: str) -> str:
         f"* **Refused: {len(refused)} of {len(rows)}** ({spread})."
         + (f" {units} more asked for the unit first, and got `--units m` as the message advises." if units else ""),
         f"* **Losses that the report does not tell: {len(silent)}**, of {len(lost)} losses in "
-        f"{len(judged)} results that could be judged; {deep} of the {len(silent)} reach deeper than {CORNER:g} voxels, "
-        f"which is what smoothing takes from the corner of a cube."
+        f"{len(judged)} results that could be judged"
+        + (
+            f"; {deep} of the {len(silent)} reach deeper than {CORNER:g} voxels, which is what smoothing takes from "
+            "the corner of a cube."
+            if silent
+            else "."
+        )
         + (f" {mute} reports have no verdict, which counts as “{KEPT}”." if mute else ""),
         f"* Results with more or fewer shells or tunnels than the input: {len(knots)}, of which the report says "
         f"“{KEPT}” of {sum((row['word'] or KEPT) == KEPT for row in knots)}. Verdicts other than “{KEPT}” where "

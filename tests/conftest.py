@@ -90,7 +90,7 @@ def silent_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def log_heard(silent_compiler: None, monkeypatch: pytest.MonkeyPatch) -> None:  # noqa: ARG001 - comes after it
+def log_heard(silent_compiler: None, monkeypatch: pytest.MonkeyPatch) -> None:
     """Say again what `silent_compiler` hides: for tests of warnings, which do not mind other lines."""
     monkeypatch.setattr(logging.getLogger("infill"), "disabled", False)
 

@@ -365,7 +365,9 @@ BAD = [
         for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")
     ],
     *[(f"s.stl --{option} 1", "for volumes, and s.stl is read as") for option in ("spacing", "array", "series")],
-    *[(f"ball.npy --{option} 2", f"{option} is for") for option in ("shell", "resolution", "voxel")],
+    *[(f"ball.npy --{option} 2", f"{option} is for") for option in ("shell", "resolution")],
+    ("ball.npy --voxel 0.5", "voxel is 0.5 mm and the volume has 1 mm; give no less, or leave it out"),
+    ("ball.npy --voxel 20", "voxel is 20 mm and the volume 26 mm long; give at most 13 mm"),
     ("ball.npy --units mm", "give the spacing of a volume in mm"),
     *[(f"p.xyz --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey")],
     *[
@@ -416,7 +418,7 @@ BAD = [
     ("ball.npy --max-triangles 3", "number of triangles is 3; .* at least 4"),
     ("ball.npy --threads 0", "number of threads is 0; .* at least 1"),
     ("ball.npy --max-memory lots", "the memory limit is 'lots'"),
-    ("ball.npy --max-memory 1K", "is allowed; use larger voxels"),
+    ("ball.npy --max-memory 1K", "is allowed; give --voxel"),
     ("s.stl --max-memory 1M", "is allowed; the grid has 216 x 216 x 216 cells; give larger voxels"),
     *[
         (f"gone{suffix}", f"there is no file gone{suffix}; check the name")

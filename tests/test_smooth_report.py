@@ -300,12 +300,13 @@ def test_losses_that_are_not_told_are_counted() -> None:
 def test_a_change_of_topology_is_counted_where_it_is_known() -> None:
     from benchmarks.smooth_data import retied
 
-    def row(shells: list, tunnels: list) -> dict:
-        return {"judged": {"shells": shells, "tunnels": tunnels}}
+    def row(shells: list, tunnels: list, hidden: float = 0.0) -> dict:
+        return {"judged": {"shells": shells, "tunnels": tunnels, "hidden": hidden}}
 
     assert retied(row([2, 1], [0, 0]))
     assert retied(row([1, 1], [3, 1]))
     assert not retied(row([1, 1], [3, 3]))
+    assert not retied(row([2, 1], [0, 0], hidden=0.1))  # one body inside another
     assert not retied(row([None, 1], [None, 0]))
     assert not retied({"status": 1})
 

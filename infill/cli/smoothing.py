@@ -80,7 +80,9 @@ def smooth(
         int | None,
         typer.Option(help="Voxels along the longest side of a mesh or of points. (default: 200)", rich_help_panel=GRID),
     ] = None,
-    voxel: Annotated[float | None, typer.Option(help="Voxel size instead, mm.", rich_help_panel=GRID)] = None,
+    voxel: Annotated[
+        float | None, typer.Option(help="Voxel size instead, mm; of a scan: larger voxels.", rich_help_panel=GRID)
+    ] = None,
     spacing: Annotated[
         str | None,
         typer.Option(
@@ -161,7 +163,7 @@ def smooth(
     tolerance: Annotated[
         float | None,
         typer.Option(
-            help="Simplify the mesh: move it by at most this, mm; 0 for all triangles. (default: 0.05 voxels)",
+            help="Simplify the mesh: move it by at most this, mm; 0 for all triangles. (default: 0.1 voxels)",
             rich_help_panel=SURFACE,
         ),
     ] = None,

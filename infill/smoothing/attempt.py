@@ -123,7 +123,7 @@ def attempted(given: Given, request: Request) -> Attempt:
         )
     with clock.stage("measure", 0.75):
         walls = _walls(judged, surfaced, data)
-    told = differences(judged, found, given, off=_off(surfaced, request))
+    told = differences(judged, found, given, off=_off(surfaced, given, request))
     report = report_of(
         product="smooth",
         surface=surface,
@@ -160,7 +160,7 @@ def attempted(given: Given, request: Request) -> Attempt:
         losses=told.losses,
         problems=told.problems,
         area=float(sum(patch.area for patch in (*found.lost, *found.added))),
-        apart=_apart(judged, given) or _off(surfaced, request) != 0,
+        apart=_apart(judged, given) or _off(surfaced, given, request) != 0,
     )
 
 
@@ -173,7 +173,12 @@ def _smoothed(given: Given, request: Request, clock: Clock) -> SparseField:
 
     if request.refined:
         return refine_bricks(
-            values, request.smoothing, spacing=spacing, exact=given.exact, threads=request.threads, progress=progress
+            values,
+            request.smoothing,
+            spacing=spacing,
+            exact=given.exact and request.held,
+            threads=request.threads,
+            progress=progress,
         )
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 
@@ -186,9 +191,11 @@ def _apart(judged: Verdict, given: Given) -> bool:
     return judged.result.components != was.components or judged.result.tunnels < was.tunnels
 
 
-def _off(surfaced: Surfaced, request: Request) -> float:
+def _off(surfaced: Surfaced, given: Given, request: Request) -> float:
     """Return by which part of itself the volume is off, where a level was to keep it."""
-    off = surfaced.volume / float(surfaced.targets.sum()) - 1
+    held = given.enclosed
+    wanted = float(surfaced.targets.sum()) if held is None else held.total
+    off = surfaced.volume / wanted - 1
     return off if request.level == "volume" and abs(off) > OFF else 0.0
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from infill.errors import ParameterError
-from infill.machine import require_memory
+from infill.machine import available_memory, require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.sparse import smooth_bricks
 from infill.surfaces.components import components, data_bits, without
@@ -32,8 +32,11 @@ def require_room(data: Volume, request: Request) -> None:
     layers = values[::steps] > 0
     crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * FACES_PER_CROSSING
     each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refined else 0)
-    advice = "use larger voxels, a part of the volume, or despeckle it"
-    require_memory(int(crossings * each), request.max_memory, advice)
+    needed = crossings * each
+    allowed = available_memory() if request.max_memory is None else request.max_memory
+    # Half the voxels along each side leave an eighth of a surface that is everywhere, as noise is.
+    larger = float(data.cell_size.max()) * 1.1 * (needed / max(allowed or needed, 1)) ** (1 / 3)
+    require_memory(int(needed), request.max_memory, f"give --voxel {larger:.2g} or more, or --roi for a part of it")
 
 
 def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:

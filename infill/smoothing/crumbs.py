@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.surface import Surface
 from infill.surfaces.levels import Levelled, component_of_shells
@@ -43,6 +44,9 @@ def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[
     limit = CRUMB * given.data.cell_volume if request.crumbs is None else request.crumbs
     found = surfaced.found
     volume = found.shells.volume
+    if found.shells.names.min(initial=0) < 0:  # vertices that no face uses
+        found = _without_shells(found, np.zeros(len(volume), dtype=bool))
+        surfaced = replace(surfaced, found=found)
     small = (volume > 0) & (volume <= limit)
     if not small.any() or small.all():
         return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
@@ -59,10 +63,10 @@ def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[
     return replace(surfaced, found=lean), Crumbs(count=int(crumb.sum()), volume=float(volume[crumb].sum()), limit=limit)
 
 
-def _without_shells(found: Levelled, gone: np.ndarray) -> Levelled:
+def _without_shells(found: Levelled, gone: NDArray[np.bool_]) -> Levelled:
     """Return the surface without some of its shells."""
     names = found.shells.names
-    vertices = ~gone[names]
+    vertices = (names >= 0) & ~gone[names]
     number = np.cumsum(vertices) - 1
     faces = found.surface.faces
     kept = faces[vertices[faces[:, 0]]]

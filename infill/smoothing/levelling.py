@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from infill.volume import Volume
     from infill.voxels.partial import Enclosed
 
-FEW = 0.02  # of the area of a component of a mesh: what lies nearer to another component of the data is by chance
+# Of the area of a component of a mesh that lies nearest to one component of the data: if less lies nearest to another
+# one, that is by chance, as where two of them touch.
+FEW = 0.02
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -106,8 +108,9 @@ def _enclosed(
     key, index = np.unique(held.component[known].astype(np.int64) * data.count + of_face[known], return_inverse=True)
     area = np.bincount(index, weights=held.area[known], minlength=len(key))
     of_mesh, of_data = np.divmod(key, data.count)
-    whole = np.bincount(of_mesh, weights=area, minlength=count)
-    real = area > FEW * whole[of_mesh]
+    most = np.zeros(count)
+    np.maximum.at(most, of_mesh, area)
+    real = area > FEW * most[of_mesh]
     graph = coo_array(
         (np.ones(int(real.sum()), dtype=np.int8), (of_mesh[real], count + of_data[real])),
         shape=(count + data.count,) * 2,

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from infill.smoothing.request import Given, Request
     from infill.smoothing.stages import SmoothStages
 
-PATIENCE = 45.0  # seconds: nothing more is begun that would end later than this
+PATIENCE = 45.0  # seconds: nothing that takes longer than the first way is begun if it would end later than this
 FEWEST = 4  # steps
 
 
@@ -64,7 +64,7 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
     for way in ways:
         if tried and (request.strict or (request.allow_broken and best is not None)):
             break
-        if first and time.perf_counter() - begin + way.cost * first > PATIENCE:
+        if way.cost > 1 and time.perf_counter() - begin + way.cost * first > PATIENCE:
             break
         try:
             found = attempted(*way.make())

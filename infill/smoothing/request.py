@@ -23,7 +23,7 @@ LevelMethod = Literal["volume"] | float
 Method = Literal["auto", "plain", "refine", "grey"]
 METHODS = ("auto", "plain", "refine", "grey")
 AUTO: Literal["auto"] = "auto"
-SIMPLER = 0.05  # of a cell: how far simplification by default may move the surface
+SIMPLER = 0.1  # of a cell: how far simplification by default may move the surface
 STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
 MOST_STEPS = 2000  # minutes
 FEWEST = 4  # steps of refinement
@@ -60,6 +60,8 @@ class Request:
         See `infill.smooth_volume`.
     refine : bool, optional
         True is `method="refine"`, False is `method="plain"`.
+    held : bool
+        Whether exact data hold the surface: see `infill.phasefield.refining.Exact`. A radius that is asked for is kept.
     lenient : bool
         Whether a surface that cannot be simplified to the tolerance is left as it is.
 
@@ -84,6 +86,7 @@ class Request:
     max_memory: int | None = None
     progress: Progress | None = None
     lenient: bool = False
+    held: bool = True
 
     def __post_init__(self) -> None:
         """Check what does not depend on the data."""
@@ -135,6 +138,7 @@ class Request:
             tolerance = SIMPLER * cell if self.max_triangles is None else None
         return replace(
             self,
+            held=self.radius is None,
             smoothing=smoothing,
             radius=None,
             tolerance=tolerance,

@@ -17,17 +17,23 @@ from infill.smoothing.placing import raw_surface
 from infill.smoothing.remedies import Way, fewer_steps
 from infill.smoothing.request import AUTO, FEWEST, Given, Request
 from infill.volume import Volume
-from infill.voxels.noise import noise_share
+from infill.voxels.noise import NOISY, noise_share
 from infill.voxels.segmentation import grey as grey_levels
 from infill.voxels.slices import interpolated, layers_between
 
-NOISY = 0.2  # of the surface that a majority overrules: half of what flipping a tenth of all cells makes
 LAYERS = 16  # that are looked at for grey values
 SPECK = 27  # cells: specks up to this size are taken out of noisy data
 
 
 def ways_of_scan(
-    scan: Volume, solid: Volume, used: Mapping[str, Any], facts: Mapping[str, Any], request: Request, *, grey: bool
+    scan: Volume,
+    solid: Volume,
+    used: Mapping[str, Any],
+    facts: Mapping[str, Any],
+    request: Request,
+    *,
+    grey: bool,
+    phase: bool,
 ) -> Iterator[Way]:
     """Yield the ways to smooth a scan, the right one first.
 
@@ -42,6 +48,8 @@ def ways_of_scan(
     request : Request
     grey : bool
         Whether grey levels were asked for.
+    phase : bool
+        Whether the values are a phase field, which is smoothed as it is.
 
     Raises
     ------
@@ -55,12 +63,15 @@ def ways_of_scan(
     facts = {**facts, "noise": noise}
     method, despeckle, paper = request.method, request.despeckle, False
     if method == AUTO:
-        kept = level is not None and used["method"] != "phase" and _shaded(np.asarray(scan.values), used["values"])
+        kept = level is not None and not phase and _shaded(np.asarray(scan.values), used["values"])
         paper = request.level != "volume" or request.smoothing.steps < FEWEST
         method = "plain" if noise > NOISY or paper else "grey" if grey or kept else "refine"
         despeckle = despeckle or (SPECK * scan.cell_volume if noise > NOISY and not paper else 0.0)
     axis, count = layers_between(solid)
-    given = _given(scan, solid, used, facts, grey=grey or method == "grey", axis=axis, count=count)
+    data = scan if phase else solid
+    if (grey or method == "grey") and not phase:
+        data = grey_levels(scan, float(used["low"]))
+    given = _given(data, solid, {**facts, "grey": grey or method == "grey"}, axis=axis, count=count)
     first = replace(request, method=method, refine=None, despeckle=despeckle)
     yield Way(name=method, make=partial(_same, given, first))
     if request.method == AUTO and method == "plain" and not paper:
@@ -85,21 +96,9 @@ def _shaded(values: NDArray[Any], ends: list[float]) -> bool:
     return bool(((some > ends[0]) & (some < ends[1])).any())
 
 
-def _given(
-    scan: Volume,
-    solid: Volume,
-    used: Mapping[str, Any],
-    facts: Mapping[str, Any],
-    *,
-    grey: bool,
-    axis: int,
-    count: int,
-) -> Given:
-    """Return the data to smooth: grey levels where they tell more than a mask, and slices between thick ones."""
-    data = grey_levels(scan, float(used["low"])) if grey and used["method"] != "phase" else solid
-    if used["method"] == "phase":
-        data = scan
-    facts = {**facts, "grey": grey, "slices": count}
+def _given(data: Volume, solid: Volume, facts: Mapping[str, Any], *, axis: int, count: int) -> Given:
+    """Return the data to smooth, slices between thick ones included."""
+    facts = {**facts, "slices": count}
     if count == 1:
         return Given(data=data, facts=facts)
     mask = smooth_bricks(solid.values, Smoothing(steps=0))

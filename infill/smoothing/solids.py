@@ -8,10 +8,11 @@ see `infill.smoothing.remedies`. What is done for each is the same: see `infill.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Unpack, overload
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from infill.errors import ParameterError
 from infill.grid import spacing_of
@@ -25,6 +26,7 @@ from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.volume import Volume
+from infill.voxels.coarsening import coarser
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.segmentation import threshold as segment
 
@@ -40,6 +42,7 @@ def smooth_volume(
     threshold: float | tuple[float | None, float | None] | Literal["otsu"] | None = None,
     label: int | tuple[int, ...] | None = None,
     grey: bool = False,
+    voxel: float | None = None,
     **options: Unpack[Options],
 ) -> Result[SmoothStages]:
     """Return a smooth surface around what is solid in a volume.
@@ -59,20 +62,31 @@ def smooth_volume(
         Solid is what has this label, or one of these labels.
     grey : bool
         Keep the grey levels around the threshold (2): they show where between two cells the surface lies.
+    voxel : float, optional
+        Larger cells than the volume has, mm: each has the mean of what it covers. What is smaller than that is gone
+        before anything is compared.
     smoothing : Smoothing
         By default 20 steps, which the paper uses for complex models; it uses 30 for medical data.
-    refine : bool
-        Preserve edges, curvature and thin walls better: see `infill.phasefield.refining`. Smoothing takes five times
-        as long, the whole run twice as long. Meant for clean data: specks are preserved too, so despeckle. Requires at
-        least 4 steps, and does not use fidelity.
+    method : {"auto", "plain", "refine", "grey"}
+        "plain" is the paper's way, for noise. "refine" preserves edges, curvature and thin walls: see
+        `infill.phasefield.refining`; smoothing takes five times as long, the whole run twice as long; specks are
+        preserved too, it takes at least 4 steps, and does not use fidelity. "grey" keeps grey levels, and is refined.
+        "auto" takes "grey" for values above one threshold, "refine" for labels, masks, meshes and points, and "plain"
+        for noise (which is despeckled) or a fixed level.
+    radius : float, optional
+        Instead of steps: smooth as a Gaussian of this standard deviation would, mm.
     level : "volume" or float
         "volume" puts the surface where every component has the volume it has in the data; 0 is the paper's surface.
     despeckle : float
         Components up to this volume are removed first, mm³.
+    crumbs : float, optional
+        Pieces up to this volume that smoothing broke off are removed, mm³; by default, those of up to 8 cells.
     allow_broken : bool
-        Return a result in which walls broke or components vanished, and say so in the report, instead of raising.
-    tolerance, max_triangles : float (mm) and int, optional
-        Simplify the mesh.
+        Return a result in which something was lost, and say so in the report, instead of raising.
+    strict : bool
+        Try no remedies, and raise whatever breaks, fuses or vanishes.
+    tolerance, max_triangles : float (mm) or "auto", and int, optional
+        Simplify the mesh; "auto" moves it by at most a tenth of a cell.
     threads, max_memory : int, optional
         Threads and bytes to use; by default, all that are available.
     progress : callable, optional
@@ -88,7 +102,7 @@ def smooth_volume(
     ParameterError
         If the values do not show what is solid, or a number is out of range.
     GeometryError
-        If a component or a wall more than one cell thick breaks or vanishes.
+        If something of more than two cells would be lost whatever was tried: fewer steps, finer cells for a mesh.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -110,8 +124,24 @@ def smooth_volume(
     number = None if otsu or low is None else float(low)
     solid, used = segment(scan, low=number, high=high, label=label, otsu=otsu)
     request = Request(**options)
-    facts = {"source": "volume", "segmentation": used}
-    return best_of(ways_of_scan(scan, solid, used, facts, request, grey=grey), request)
+    phase = used["method"] == "phase"
+    if voxel is not None:
+        if phase or used["method"] in ("range", "otsu"):
+            scan = coarser(scan, voxel)
+            solid = replace(scan, values=_between(np.asarray(scan.values), used["low"], used.get("high")))
+        else:  # a mask: what share of a larger voxel is solid tells where in it the surface lies
+            scan = coarser(solid, voxel)
+            scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
+            solid = replace(scan, values=np.asarray(scan.values) > 0)
+        if not np.asarray(solid.values).any():
+            raise ParameterError(f"voxel is {voxel:g} mm, and nothing of the solid fills half of one; give less")
+    facts = {"source": "volume", "segmentation": used, "coarse": voxel is not None}
+    return best_of(ways_of_scan(scan, solid, used, facts, request, grey=grey, phase=phase), request)
+
+
+def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
+    """Return which values lie between two ends; None is no end."""
+    return (values >= (-np.inf if low is None else low)) & (values <= (np.inf if high is None else high))
 
 
 def _volume(values: ArrayLike, spacing: float | tuple[float, ...], origin: tuple[float, ...]) -> Volume:
@@ -200,4 +230,4 @@ def smooth_points(
     )
     facts = {"source": "points", "points": len(cloud), "shell": shell}
     used = {"method": "points"}
-    return best_of(ways_of_scan(solid, solid, used, facts, request, grey=False), request)
+    return best_of(ways_of_scan(solid, solid, used, facts, request, grey=False, phase=False), request)

@@ -35,7 +35,7 @@ Source = Surface | Volume | NDArray[np.float64]
 LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
 FITTING = {
-    "volume": ("threshold", "range", "label", "otsu", "grey"),
+    "volume": ("threshold", "range", "label", "otsu", "grey", "voxel"),
     "mesh": ("resolution", "voxel", "by_component"),
     "points": ("resolution", "voxel", "shell"),
 }
@@ -189,7 +189,7 @@ def smooth_source(
         if len(ways) > 1:
             raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
         chosen: Any = "otsu" if otsu else between if between is not None else threshold
-        return smooth_volume(source, threshold=chosen, label=label, grey=grey, **options)
+        return smooth_volume(source, threshold=chosen, label=label, grey=grey, voxel=voxel, **options)
     if isinstance(source, Surface):
         if by_component:
             return smooth_mesh(source, resolution=resolution, voxel=voxel, by_component=True, **options)

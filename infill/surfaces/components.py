@@ -57,7 +57,7 @@ class Shells:
     Parameters
     ----------
     names : (V,) int32
-        Shell of each vertex.
+        Shell of each vertex; -1 for one that no face uses.
     volume : (s,) float64
         Enclosed volume, mm³; negative for the walls of a cavity.
     slope : (s,) float64
@@ -108,12 +108,21 @@ def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None 
 
 
 def sturdy(
-    field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, threads: int | None = None
+    field: SparseField,
+    bits: NDArray[np.uint16],
+    *,
+    void: bool = False,
+    cells: int = 2,
+    threads: int | None = None,
 ) -> NDArray[np.uint16]:
-    """Return the cells of all 2 x 2 x 2 blocks that are solid, or void: what is more than one cell thick."""
+    """Return the cells of all blocks of `cells` along each side that are solid, or void: what is that thick."""
     kind = VOID_BRICK if void else SOLID_BRICK
-    core = _meet_or_spread(field, ~bits if void else bits, True, 1, threads, kind)
-    return _meet_or_spread(field, core, False, -1, threads, kind)
+    found = ~bits if void else bits
+    for _ in range(cells - 1):
+        found = _meet_or_spread(field, found, True, 1, threads, kind)
+    for _ in range(cells - 1):
+        found = _meet_or_spread(field, found, False, -1, threads, kind)
+    return found
 
 
 def grown(
@@ -236,7 +245,8 @@ def shells(surface: Surface, rate: NDArray[np.float32], *, threads: int | None =
     shell = names[surface.faces[:, 0]]
     own, change = face_sums(surface, rate, threads=threads)
     volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
-    corners, sides = np.bincount(names, minlength=count), np.bincount(shell, minlength=count)
+    used = names if names.min(initial=0) >= 0 else names[names >= 0]
+    corners, sides = np.bincount(used, minlength=count), np.bincount(shell, minlength=count)
     return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
 
 

@@ -13,7 +13,8 @@ from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.scanlines import crossings
 
-ROWS = 6  # rows of a cell along x, and along y, on which overlaps are measured
+FEWEST_ROWS, MOST_ROWS = 3, 16  # rows of a cell along x, and along y, on which overlaps are measured
+CROSSED = 5_000_000  # crossings of these rows, roughly; more rows than that are too many
 LOOKED = 2_000_000_000  # triangles looked at, at most, to tell which points are hidden
 BESIDE = 0.5  # cells from a face to the point that is looked at to tell which solid it bounds
 
@@ -175,21 +176,23 @@ def _excess(mesh: Surface, sign: NDArray[np.integer], inside: Volume) -> tuple[F
     """Return places (N, 3) that are enclosed more than once, mm, and how much volume that is, mm³."""
     size, (nx, ny, nz) = float(inside.cell_size[0]), inside.values.shape
     points = (np.asarray(mesh.vertices, dtype=np.float64) - np.array(inside.origin)) / size
-    points *= (ROWS, ROWS, 1)
-    found = crossings(points - 0.5, mesh.faces, (nx * ROWS, ny * ROWS, nz))
+    (ax, ay), (bx, by), (cx, cy) = (points[mesh.faces[:, i], :2].T for i in range(3))
+    flat = float(np.abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).sum()) / 2  # as seen along the rows, cells²
+    rows = int(np.clip((CROSSED / max(flat, 1)) ** 0.5, FEWEST_ROWS, MOST_ROWS))
+    found = crossings(points * (rows, rows, 1) - 0.5, mesh.faces, (nx * rows, ny * rows, nz))
     order = np.lexsort((found.depth, found.row))
     row, depth = found.row[order].astype(np.int64), found.depth[order].astype(np.float64)
     winding = np.cumsum(found.sign[order] * sign[found.face[order]])  # 0 again at the end of every row
     often = np.flatnonzero((row[:-1] == row[1:]) & (winding[:-1] != 0) & (winding[:-1] != 1))
-    amount = (depth[often + 1] - depth[often]) * (winding[often] - 1) * size**3 / ROWS**2
-    # In pieces of a cell, so that each is counted where it lies.
     long = depth[often + 1] - depth[often]
+    amount = long * (winding[often] - 1) * size**3 / rows**2
+    # In pieces of a cell, so that each is counted where it lies.
     pieces = np.maximum(1, np.ceil(long)).astype(np.int64)
     places, shares = [], []
     for some, step in spread(pieces):
-        i, j = np.divmod(row[often[some]], ny * ROWS)
+        i, j = np.divmod(row[often[some]], ny * rows)
         z = depth[often[some]] + (step + 0.5) * (long[some] / pieces[some]) + 0.5
-        places.append(np.stack([(i + 0.5) / ROWS, (j + 0.5) / ROWS, z], axis=1) * size + np.array(inside.origin))
+        places.append(np.stack([(i + 0.5) / rows, (j + 0.5) / rows, z], axis=1) * size + np.array(inside.origin))
         shares.append(amount[some] / pieces[some])
     if not places:
         return np.empty((0, 3)), np.empty(0)
