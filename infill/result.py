@@ -12,10 +12,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from infill.formats.label_tables import Colour
-from infill.formats.mesh_files import parts_writer, save
+from infill.formats.mesh_files import PART_WRITERS, parts_writer, save
 from infill.formats.parts import Part
 from infill.formats.whole_files import whole_file
 from infill.surface import Surface
+from infill.surfaces.parting import joined
 
 if TYPE_CHECKING:
     import trimesh
@@ -35,21 +36,29 @@ class Result(Generic[Stages]):
     report : dict
         Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
     stages : frozen dataclass
-        What the surfaces came from: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages` or
-        `infill.smoothing.labels.LabelStages`.
+        What the surfaces came from: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages`,
+        `infill.smoothing.labels.LabelStages` or `infill.smoothing.by_component.ComponentStages`.
     colours : mapping of str to (red, green, blue)
         Of surfaces that have one, from 0 to 1, sRGB.
+    joins : bool
+        Whether several surfaces may go into a file that holds one mesh, one after the other: parts of one thing.
     """
 
     surfaces: Mapping[str, Surface]
     report: dict[str, Any]
     stages: Stages = field(repr=False)
     colours: Mapping[str, Colour] = field(default_factory=dict)
+    joins: bool = False
 
     @property
     def surface(self) -> Surface:
         """The only or main surface, mm."""
         return next(iter(self.surfaces.values()))
+
+    @cached_property
+    def whole(self) -> Surface:
+        """All surfaces as one, one after the other, mm."""
+        return joined(list(self.surfaces.values()))
 
     @cached_property
     def mesh(self) -> trimesh.Trimesh:
@@ -59,11 +68,11 @@ class Result(Generic[Stages]):
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the surface, the format by suffix, and return the path.
 
-        Several surfaces go into one .3mf or .glb, each by its name.
+        Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format.
         """
-        if len(self.surfaces) == 1:
-            return save(self.surface, path)
         target = Path(path)
+        if len(self.surfaces) == 1 or (self.joins and target.suffix.lower() not in PART_WRITERS):
+            return save(self.whole, target)
         write = parts_writer(target)
         with whole_file(target) as file:
             write(parts_of(self), file)

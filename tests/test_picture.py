@@ -10,9 +10,12 @@ import pytest
 import trimesh
 from PIL import Image
 
-from infill import FormatError, Surface, make
+from infill import FormatError, Smoothing, Surface, make, smooth_mesh, smooth_volume
+from infill.pictures.before_and_after import FAR, Marked
 from infill.pictures.preview import preview, save_preview
 from infill.pictures.render import render
+from infill.pictures.sheet import MARGIN, PANEL
+from infill.surfaces.winding import bounds_solid, winding
 
 WHITE = 255
 
@@ -91,3 +94,105 @@ def test_a_window_shows_lengths_where_they_are() -> None:
     rows, columns = np.nonzero(picture.min(axis=2) < 255)
     assert (columns.min(), columns.max()) == (20, 49)  # pixels of 1/40
     assert (rows.min(), rows.max()) == (20, 39)  # row 0 is at the top
+
+
+def test_a_surface_is_painted_where_it_is_seen() -> None:
+    """Red where x > 0, and the paint hears of points on the surface only."""
+    mesh = trimesh.creation.icosphere(subdivisions=4, radius=10.0)
+    ball = surface(mesh).moved(mesh.vertices + np.array([3e4, 0, 0]))
+    heard = []
+
+    def paint(points: np.ndarray) -> np.ndarray:
+        heard.append(points)
+        return np.where(points[:, :1] > 3e4, (255, 0, 0), (255, 255, 255))
+
+    picture = render(ball, width=80, height=80, azimuth=math.radians(-90), elevation=0, paint=paint).astype(int)
+    red = picture[..., 0] > picture[..., 1]
+    assert red[20:60, 41:70].all()
+    assert not red[:, :39].any()
+    assert np.linalg.norm(heard[0] - (3e4, 0, 0), axis=1) == pytest.approx(10, abs=0.3)  # a pixel, on steep triangles
+
+
+def test_paint_of_one_colour_is_that_colour() -> None:
+    box = surface(trimesh.creation.box((10, 10, 10)))
+    one = render(box, width=60, height=60, colour=(90, 120, 200))
+    painted = render(box, width=60, height=60, paint=lambda points: np.full((len(points), 3), (90, 120, 200)))
+    assert np.abs(one.astype(int) - painted).max() <= 1  # float32
+
+
+def panels(sheet: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The two pictures of a sheet."""
+    top, before, after = 34, MARGIN, 2 * MARGIN + PANEL
+    return tuple(sheet[top : top + PANEL, left : left + PANEL].astype(int) for left in (before, after))
+
+
+def reddish(picture: np.ndarray) -> int:
+    return int((picture[..., 0] > picture[..., 1] + 80).sum())
+
+
+def bluish(picture: np.ndarray) -> int:
+    return int((picture[..., 2] > picture[..., 0] + 60).sum())
+
+
+@pytest.mark.usefixtures("compiled")
+def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
+    """A fin of half a voxel on a plate: far too thin to last."""
+    plate, fin = trimesh.creation.box((20, 20, 4)), trimesh.creation.box((16, 0.1, 8))
+    fin.apply_translation((0, 0, 5.5))
+    result = smooth_mesh(trimesh.util.concatenate([plate, fin]), voxel=0.2, allow_broken=True)
+    before, after = panels(np.asarray(preview(result)))
+    assert reddish(before) > 5000
+    assert reddish(after) == bluish(before) == bluish(after) == 0
+
+
+@pytest.mark.usefixtures("compiled")
+def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
+    result = smooth_mesh(trimesh.creation.icosphere(subdivisions=4, radius=10), resolution=60)
+    both = panels(np.asarray(preview(result)))
+    assert [reddish(each) + bluish(each) for each in both] == [0, 0]
+    one, other = ((each < WHITE).any(axis=2) for each in both)
+    assert (one != other).mean() < 0.01
+
+
+@pytest.mark.usefixtures("compiled")
+def test_before_and_after_have_one_scale() -> None:
+    """At the level 0 a ball shrinks, and so does its picture."""
+    cells = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 81
+    result = smooth_volume(cells, smoothing=Smoothing(steps=60), method="plain", level=0, allow_broken=True)
+    before, after = (np.flatnonzero((each < WHITE).any(axis=(0, 2))) for each in panels(np.asarray(preview(result))))
+    shrunk = result.surface.bounds[1, 0] - result.surface.bounds[0, 0]
+    assert np.ptp(after) / np.ptp(before) == pytest.approx(shrunk / 18, abs=0.03)  # 18 cells wide, pixels of 1/400
+    assert shrunk < 17
+
+
+@pytest.mark.usefixtures("compiled")
+def test_only_what_lies_far_from_the_other_has_an_area() -> None:
+    one, other = trimesh.creation.box((10, 10, 10)), trimesh.creation.box((10, 10, 10))
+    other.apply_translation((0, 0, 14))
+    both, lone = surface(trimesh.util.concatenate([one, other])), surface(one)
+    added = Marked(surface=both, other=lone, far=FAR, colour=(0, 0, 255))
+    assert added.area == pytest.approx(600, rel=0.02)
+    assert Marked(surface=lone, other=both, far=FAR, colour=(255, 0, 0)).area == 0
+
+
+@pytest.mark.usefixtures("compiled")
+def test_faces_hidden_inside_the_solid_are_not_lost() -> None:
+    one, other = trimesh.creation.box((10, 10, 10)), trimesh.creation.box((10, 10, 10))
+    other.apply_translation((4, 4, 4))
+    both = surface(trimesh.util.concatenate([one, other]))
+    union = surface(trimesh.creation.box((60, 60, 60)))
+    lost = Marked(surface=both, other=union, far=FAR, colour=(255, 0, 0))
+    assert lost.area == pytest.approx(1200 - 6 * 36, rel=0.02)  # all of both but 6 x 6 mm of six faces
+
+
+@pytest.mark.usefixtures("compiled")
+def test_winding_counts_bodies() -> None:
+    one, other = trimesh.creation.box((10, 10, 10)), trimesh.creation.box((10, 10, 10))
+    other.apply_translation((4, 4, 4))
+    both = surface(trimesh.util.concatenate([one, other]))
+    points = np.array([[-3, -3.1, -3.2], [2, 2.1, 2.3], [8, 8.1, 8.2], [20, 0, 0.0]])
+    assert winding(points, both).tolist() == [1, 2, 1, 0]
+    inside = surface(trimesh.creation.box((10, 10, 10)))
+    face = np.flatnonzero(inside.vertices[inside.faces][..., 0].min(axis=1) == 5)[:1]
+    assert bounds_solid(np.array([[5.0, 1, 2]]), face, inside, 1e-3).all()
+    assert len(bounds_solid(np.zeros((0, 3)), np.zeros(0, int), inside, 1e-3)) == 0

@@ -35,6 +35,7 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "report.md"
 FREE = {"request.parameters", "sections.kept"}  # a pattern's own, by name; reasons
 REFILL = "\n## Refill: a sliced print\n"  # its keys stand below, and are its own
 ALL_LABELS = "\n## Labels: every label of a segmentation\n"  # likewise
+ALL_COMPONENTS = "\n## Components: every component of a mesh\n"
 ONLY_AT_THE_COMMAND_LINE = {"files"}
 
 BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64
@@ -178,7 +179,7 @@ def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
 
 def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result[Any]]) -> None:
     """But for the report of each label, which is that of smoothing."""
-    page = described(PAGE.read_text(encoding="utf-8").partition(ALL_LABELS)[2])
+    page = described(PAGE.read_text(encoding="utf-8").partition(ALL_LABELS)[2].partition(ALL_COMPONENTS)[0])
     assert len(page) > 20
     volume = Volume(values=LABELS)
     named = (Segment(value=3, name="ball", colour=(1.0, 0.0, 0.0)), Segment(value=9, name="none"))
@@ -197,6 +198,22 @@ def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result
         reports[name] = {**result.report, "labels": inner, "request": {}}
         assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
     assert differences(page, reports, ("labels",)) == []
+
+
+def test_the_page_lists_exactly_the_keys_of_all_components(results: dict[str, Result[Any]]) -> None:
+    """But for the report of each component, which is that of smoothing."""
+    page = described(PAGE.read_text(encoding="utf-8").partition(ALL_COMPONENTS)[2])
+    assert len(page) > 20
+    small = trimesh.creation.icosphere(radius=0.5).apply_translation((20, 0, 0))
+    mesh = trimesh.util.concatenate([SPHERE, small])
+    result = smooth_mesh(mesh, voxel=1.0, by_component=True, allow_broken=True)
+    assert result.report["failed"]
+    smooth = {key for key, _ in flat(results["mesh"].report)} | {key for key, _ in flat(results["simplified"].report)}
+    assert {key for key, _ in flat(result.report["components"][0]["report"])} <= smooth
+    inner = [{**each, "report": {}} for each in result.report["components"]]
+    report = {**result.report, "components": inner, "request": {}}
+    assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
+    assert differences(page, {"both": report}, ("components",)) == []
 
 
 def test_the_comparison_can_fail() -> None:

@@ -158,6 +158,33 @@ def test_a_part_in_metres_is_questioned(name: str, data: Path, folder: Path) -> 
 
 
 @pytest.mark.usefixtures("log_heard")
+def test_a_fine_closed_mesh_is_told_of_filters_and_nothing_else_is(folder: Path) -> None:
+    """A ball of 1280 triangles whose edges are 1.4 mm long, on the average."""
+    sphere = trimesh.creation.icosphere(subdivisions=3, radius=10.0)
+    (mesh := sphere.copy()).update_faces(np.arange(len(sphere.faces)) > 0)
+    mesh.export("open.stl")
+    trimesh.util.concatenate([sphere, sphere.copy().apply_translation((30, 0, 0))]).export("pair.stl")
+    trimesh.util.concatenate([sphere, sphere.copy().apply_translation((4, 0, 0))]).export("overlap.stl")
+
+    def hints(*words: str) -> int:
+        result = run("smooth", *words, "-o", "o.stl", "--force", "--allow-broken")
+        assert result.exit_code == 0
+        return result.stderr.count("hint: the mesh is closed, and its edges")
+
+    assert hints("s.stl", "--voxel", "2.0") == 1
+    for words in (
+        ("s.stl", "--voxel", "1.0"),
+        ("s.stl", "--voxel", "2.0", "--quiet"),
+        ("open.stl", "--voxel", "2.0"),
+        ("pair.stl", "--voxel", "2.0"),
+        ("overlap.stl", "--voxel", "2.0"),
+        ("p.xyz", "--voxel", "2.0"),
+        ("ball.npy",),
+    ):
+        assert hints(*words) == 0, words
+
+
+@pytest.mark.usefixtures("log_heard")
 def test_points_in_metres_are_questioned_too(folder: Path) -> None:
     np.savetxt("m.xyz", np.loadtxt("p.xyz") / 1000)
     asked = run("smooth", "m.xyz", "-o", "a.stl", "--resolution", "30")

@@ -69,17 +69,19 @@ def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None
 
 @contextlib.contextmanager
 def log_said(*, shown: bool) -> Iterator[None]:
-    """Print what the library logs, or nothing."""
+    """Print what the library logs, hints too, or nothing."""
     log = logging.getLogger("infill")
     told = _Said() if shown else logging.NullHandler()
-    spreads = log.propagate
+    spreads, level = log.propagate, log.level
     log.addHandler(told)
     log.propagate = False
+    log.setLevel(logging.INFO)
     try:
         yield
     finally:
         log.removeHandler(told)
         log.propagate = spreads
+        log.setLevel(level)
 
 
 class _Said(logging.Handler):

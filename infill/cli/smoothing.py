@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 
 import typer
 
+from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
 from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
 from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
     from infill.result import Result
+    from infill.smoothing.by_component import ComponentStages
     from infill.smoothing.request import Method
     from infill.smoothing.stages import SmoothStages
 
@@ -41,7 +43,11 @@ def smooth(
         ),
     ] = None,
     preview: Annotated[
-        Path | None, typer.Option(help="Picture of before and after to write: FILE.png.", rich_help_panel=FILES)
+        Path | None,
+        typer.Option(
+            help="Picture of before and after to write, what was lost in red, what was added in blue: FILE.png.",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
@@ -105,6 +111,7 @@ def smooth(
     grey: Annotated[
         bool, typer.Option("--grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
     ] = False,
+    by_component: ByComponent = False,
     despeckle: Annotated[
         float, typer.Option(help="First remove components up to this volume, mm³.", rich_help_panel=SOLID)
     ] = 0.0,
@@ -233,6 +240,7 @@ def smooth(
             range=between is not None,
             otsu=otsu,
             grey=grey or method == "grey",
+            by_component=by_component,
         )
         smooth_each(
             GivenLabels(
@@ -255,6 +263,8 @@ def smooth(
     for path in outputs:
         if path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
+    if by_component:
+        check_fields(outputs)
     if preview is not None:
         from infill.pictures.preview import check_preview
 
@@ -289,23 +299,29 @@ def smooth(
                 label=tuple(label) if label else None,
                 otsu=otsu,
                 grey=grey,
+                by_component=by_component,
                 **cast(Options, {**options, "progress": progress}),
             )
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
         for path in outputs:
-            if path.suffix.lower() in WRITERS:
+            if by_component:
+                parts[path] = component_writer(path, cast("Result[ComponentStages]", result), ascii_stl=ascii_stl)
+            elif path.suffix.lower() in WRITERS:
                 parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
             else:
-                parts[path] = partial(field_writer(path), field_volume(result))
+                parts[path] = partial(field_writer(path), field_volume(cast("Result[SmoothStages]", result)))
         if preview is not None:
             from infill.pictures.preview import write_preview
 
             parts[preview] = partial(write_preview, result)
         written = [str(path) for path in deliver(parts)]
     if not quiet:
-        say(_summary(result, written, str(source), verbose=verbose))
+        if by_component:
+            say(component_summary(cast("Result[ComponentStages]", result), written, str(source)))
+        else:
+            say(_summary(cast("Result[SmoothStages]", result), written, str(source), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": written})
 

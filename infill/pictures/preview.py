@@ -3,34 +3,28 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
 from infill.errors import FormatError
 from infill.formats.whole_files import whole_file
 from infill.grid import VOID, Grid
 from infill.making.stages import MakeStages
+from infill.pictures.before_and_after import before_and_after
 from infill.pictures.render import render
+from infill.pictures.sheet import BACKGROUND, INK, PANEL, sheet
 from infill.result import Result
+from infill.smoothing.by_component import ComponentStages
 from infill.surface import Surface
 
 if TYPE_CHECKING:
     from infill.smoothing.stages import SmoothStages
 
-PANEL = 420  # pixels
-MARGIN, CAPTION = 14, 34
-BACKGROUND, INK, SOLID_COLOUR, VOID_COLOUR, CONTOUR = (
-    (255,) * 3,
-    (40, 40, 40),
-    (240, 160, 60),
-    (246, 246, 246),
-    (190, 30, 30),
-)
+SOLID_COLOUR, VOID_COLOUR, CONTOUR = (240, 160, 60), (246, 246, 246), (190, 30, 30)
 SUFFIXES = (".png",)
 
 
@@ -60,21 +54,35 @@ def preview(result: Result[Any]) -> Image.Image:
     stages = result.stages
     if isinstance(stages, MakeStages):
         return _four_stages(stages, result)
+    if isinstance(stages, ComponentStages):
+        return _components(stages, result)
     return _before_and_after(stages, result)
 
 
+def _components(stages: ComponentStages, result: Result[Any]) -> Image.Image:
+    """Return a mesh and its components, smoothed one by one."""
+    report = result.report
+    before = f"given: {len(stages.given.faces):,} triangles"
+    after = f"smoothed: {len(result.surfaces)} components, {report['triangles']:,} triangles"
+    return before_and_after(stages.given, result.whole, cell=stages.voxel, report=report, captions=(before, after))
+
+
 def _before_and_after(stages: SmoothStages, result: Result[Any]) -> Image.Image:
-    """Return the voxels and the smoothed surface, at the same scale and from the same side."""
+    """Return what was given, a mesh or the surface of the voxels, and the smoothed surface."""
     from infill.smoothing.placing import staircase
 
     report = result.report
-    panels = {
-        f"data: {' x '.join(map(str, report['grid']['shape']))} voxels": _mesh(staircase(stages)),
-        f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles": _mesh(result.surface),
-    }
-    size = " x ".join(f"{length:.4g}" for length in report["extents"])
-    facts = f"{size} mm, volume {report['volume']:.6g} cubic mm ({report['volume_change']:+.4%})"
-    return _sheet(panels, facts)
+    shape = " x ".join(map(str, report["grid"]["shape"]))
+    given = staircase(stages) if stages.given is None else stages.given
+    before = f"data: {shape} voxels" if stages.given is None else f"given: {len(given.faces):,} triangles"
+    after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
+    return before_and_after(
+        given,
+        result.surface,
+        cell=float(stages.data.cell_size.max()),
+        report=report,
+        captions=(before, after),
+    )
 
 
 def _mesh(surface: Surface) -> Image.Image:
@@ -96,19 +104,7 @@ def _four_stages(stages: MakeStages, result: Result[Any]) -> Image.Image:
         f"{request['pattern']}, {size} mm, density {report['density']:.1%}, "
         f"walls {mean} of {request['line_width']:g} mm"
     )
-    return _sheet(panels, facts)
-
-
-def _sheet(panels: Mapping[str, Image.Image], facts: str) -> Image.Image:
-    """Return panels side by side, each with its caption, and a line of text below."""
-    sheet = Image.new("RGB", (len(panels) * (PANEL + MARGIN) + MARGIN, PANEL + 2 * CAPTION + MARGIN), BACKGROUND)
-    draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(16)
-    for i, (caption, panel) in enumerate(panels.items()):
-        left = MARGIN + i * (PANEL + MARGIN)
-        draw.text((left, 10), caption, fill=INK, font=font)
-        sheet.paste(panel, (left + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
-    draw.text((MARGIN, CAPTION + PANEL + 10), facts, fill=INK, font=font)
-    return sheet
+    return sheet(panels, facts)
 
 
 def _frame(shape: tuple[int, ...]) -> tuple[int, int]:

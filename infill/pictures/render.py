@@ -6,7 +6,8 @@ Every triangle is spread over the pixels of its bounding box, many triangles at 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,12 @@ from infill.ragged import spread
 from infill.surface import Surface
 
 Pixels = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+Colour = tuple[int, int, int]
+Window = tuple[float, float, float, float]
+Paint = Callable[[Floats], NDArray[np.number]]
 
+AZIMUTH, ELEVATION = math.radians(-60), math.radians(40)
 LIGHT = np.array([-0.45, -0.6, 0.9]) / np.linalg.norm([-0.45, -0.6, 0.9])
 AMBIENT = 0.35
 SAMPLES = 2  # along each side of a pixel
@@ -27,11 +33,12 @@ def render(
     *,
     width: int,
     height: int,
-    azimuth: float = math.radians(-60),
-    elevation: float = math.radians(40),
-    colour: tuple[int, int, int] = (240, 160, 60),
-    background: tuple[int, int, int] = (255, 255, 255),
-    window: tuple[float, float, float, float] | None = None,
+    azimuth: float = AZIMUTH,
+    elevation: float = ELEVATION,
+    colour: Colour = (240, 160, 60),
+    background: Colour = (255, 255, 255),
+    window: Window | None = None,
+    paint: Paint | None = None,
 ) -> Pixels:
     """Return a picture of `surface`: (height, width, 3) uint8.
 
@@ -43,22 +50,89 @@ def render(
         Pixels.
     azimuth, elevation : float
         Position of the eye, seen from the middle of the mesh, in radians: around z from +x, and up.
+    colour, background : (red, green, blue)
+        From 0 to 255.
     window : (left, right, bottom, top), optional
         What the frame shows, in units of the mesh along the first two of `directions`; by default the mesh is fitted to
-        the frame.
+        the frame. One window for several meshes shows them at one scale and in one place.
+    paint : callable, optional
+        Returns the colour of places of the surface that are seen, (N, 3) for (N, 3); by default all have `colour`.
     """
-    columns, rows = width * SAMPLES, height * SAMPLES
-    right, up, eye = directions(azimuth, elevation)
-    seen = surface.vertices @ np.stack([right, -up, eye], axis=1)  # column, row, nearness
-    if window is None:
-        low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
-        scale = 0.94 * min((columns, rows) / np.maximum(high - low, 1e-12))
+    frame = _Frame.of(surface, (width * SAMPLES, height * SAMPLES), (azimuth, elevation), window)
+    shade, depth = _drawn(surface, frame)
+    lit = (shade >= 0).astype(np.float64)[:, None]
+    if paint is None:
+        colours = np.maximum(shade, 0)[:, None]
     else:
-        low, high = np.array([window[0], -window[3]]), np.array([window[1], -window[2]])
-        scale = min((columns, rows) / (high - low))
-    place = (seen[:, :2] - (low + high) / 2) * scale + np.array([columns, rows]) / 2
-    corners = place[surface.faces].astype(np.float32)
-    nearness = seen[:, 2][surface.faces].astype(np.float32)
+        hit = np.flatnonzero(shade >= 0)
+        colours = np.zeros((len(shade), 3), dtype=np.float32)
+        colours[hit] = paint(frame.points(hit, depth[hit])) * shade[hit, None]
+    covered, mean = (
+        each.reshape(height, SAMPLES, width, SAMPLES, each.shape[1]).mean(axis=(1, 3)) for each in (lit, colours)
+    )
+    mixed = mean * (1.0 if paint is not None else np.array(colour)) + (1 - covered) * np.array(background)
+    rounded: Pixels = mixed.clip(0, 255).astype(np.uint8)
+    return rounded
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Frame:
+    """Where points of space lie in a picture.
+
+    Parameters
+    ----------
+    columns, rows : int
+    axes : (3, 3) float64
+        Directions in which columns, rows and nearness grow, one a column.
+    middle : (3,) float64
+        What lies in the middle of the picture, along these.
+    scale : float
+        Columns for a unit of the mesh.
+    """
+
+    columns: int
+    rows: int
+    axes: Floats
+    middle: Floats
+    scale: float
+
+    @classmethod
+    def of(cls, surface: Surface, size: tuple[int, int], eye: tuple[float, float], window: Window | None) -> _Frame:
+        """Return the frame of `size` that shows a window, or else all of the surface."""
+        right, up, towards = directions(*eye)
+        axes = np.stack([right, -up, towards], axis=1)
+        at = surface.vertices @ axes
+        low, high = at.min(axis=0), at.max(axis=0)
+        middle = (low + high) / 2
+        if window is None:
+            scale = 0.94 * min(np.array(size) / np.maximum(high[:2] - low[:2], 1e-12))
+        else:
+            corners = np.array([[window[0], -window[3]], [window[1], -window[2]]])
+            scale = min(np.array(size) / (corners[1] - corners[0]))
+            middle[:2] = corners.mean(axis=0)
+        return cls(columns=size[0], rows=size[1], axes=axes, middle=middle, scale=float(scale))
+
+    def place(self, points: NDArray[np.floating]) -> Floats:
+        """Return column, row and nearness of points (N, 3)."""
+        moved: Floats = points @ self.axes - self.middle
+        moved[:, :2] = moved[:, :2] * self.scale + np.array([self.columns, self.rows]) / 2
+        return moved
+
+    def points(self, pixel: NDArray[np.integer], nearness: NDArray[np.floating]) -> Floats:
+        """Return the points that lie in the middle of pixels, at some nearness: the way back from `place`."""
+        row, column = np.divmod(pixel, self.columns)
+        moved = np.column_stack([column + 0.5 - self.columns / 2, row + 0.5 - self.rows / 2, nearness])
+        moved[:, :2] /= self.scale
+        back: Floats = (moved + self.middle) @ self.axes.T
+        return back
+
+
+def _drawn(surface: Surface, frame: _Frame) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return how bright every pixel is, -1 where there is nothing, and how near, (rows * columns,) each."""
+    right, down, eye = frame.axes.T
+    at = frame.place(surface.vertices)
+    corners = at[:, :2][surface.faces].astype(np.float32)
+    nearness = at[:, 2][surface.faces].astype(np.float32)
     a, b, c = (surface.vertices[surface.faces[:, i]] for i in range(3))
     b, c = b - a, c - a
     normal = np.stack(
@@ -70,23 +144,18 @@ def render(
     )
     length = np.sqrt((normal**2).sum(axis=0))
     front = np.flatnonzero((eye @ normal > 0) & (length > 0))
-    camera_light = LIGHT[0] * right + LIGHT[1] * -up + LIGHT[2] * eye
+    camera_light = LIGHT[0] * right + LIGHT[1] * down + LIGHT[2] * eye
     lit = (camera_light @ normal[:, front] / length[front]).clip(0, 1)
     shade = (AMBIENT + (1 - AMBIENT) * lit).astype(np.float32)
-    picture = np.full(rows * columns, -1.0, dtype=np.float32)
-    depth = np.full(rows * columns, -np.inf, dtype=np.float32)
-    for pixel, near, face in _fragments(corners[front], nearness[front], columns, rows):
+    picture = np.full(frame.rows * frame.columns, -1.0, dtype=np.float32)
+    depth = np.full(frame.rows * frame.columns, -np.inf, dtype=np.float32)
+    for pixel, near, face in _fragments(corners[front], nearness[front], frame.columns, frame.rows):
         order = np.argsort(near, kind="stable")  # of several writes to one pixel, the last one, the nearest, remains
         pixel, near, face = pixel[order], near[order], face[order]
         nearer = near > depth[pixel]
         depth[pixel[nearer]] = near[nearer]
         picture[pixel[nearer]] = shade[face[nearer]]
-    lit_pixels = picture.reshape(height, SAMPLES, width, SAMPLES)
-    covered = (lit_pixels >= 0).mean(axis=(1, 3))[..., None]
-    brightness = np.where(lit_pixels >= 0, lit_pixels, 0).mean(axis=(1, 3))[..., None]
-    mixed = brightness * np.array(colour) + (1 - covered) * np.array(background)
-    rounded: Pixels = mixed.clip(0, 255).astype(np.uint8)
-    return rounded
+    return picture, depth
 
 
 def directions(azimuth: float, elevation: float) -> NDArray[np.float64]:

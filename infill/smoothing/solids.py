@@ -8,36 +8,30 @@ see `infill.smoothing.remedies`. What is done for each is the same: see `infill.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import asdict, replace
-from functools import partial
-from typing import TYPE_CHECKING, Any, Literal, Unpack
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from infill.errors import ParameterError
 from infill.grid import spacing_of
-from infill.inspection.changes import Counts
-from infill.phasefield.refining import cut_off, on_profile
 from infill.result import Result
-from infill.smoothing.remedies import Way, best_of
-from infill.smoothing.request import AUTO, FEWEST, Given, Method, Options, Request
+from infill.smoothing.by_component import ComponentStages, by_components
+from infill.smoothing.meshes import MARGIN, ways_of_mesh
+from infill.smoothing.remedies import best_of
+from infill.smoothing.request import Options, Request
 from infill.smoothing.scans import ways_of_scan
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.volume import Volume
 from infill.voxels.coarsening import coarser
-from infill.voxels.from_mesh import RESOLUTION, Voxelised, voxelise_reported
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.segmentation import threshold as segment
 
 if TYPE_CHECKING:
     import trimesh
-
-MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
-FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side: what is tried where something would be lost
 
 
 def smooth_volume(
@@ -154,13 +148,32 @@ def _volume(values: ArrayLike, spacing: float | tuple[float, ...], origin: tuple
     return Volume(values=np.asarray(values), spacing=spacing_of(spacing, 3), origin=origin)
 
 
+@overload
 def smooth_mesh(
     mesh: trimesh.Trimesh | Surface,
     *,
     resolution: int | None = None,
     voxel: float | None = None,
+    by_component: Literal[False] = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages]:
+) -> Result[SmoothStages]: ...
+@overload
+def smooth_mesh(
+    mesh: trimesh.Trimesh | Surface,
+    *,
+    resolution: int | None = None,
+    voxel: float | None = None,
+    by_component: Literal[True],
+    **options: Unpack[Options],
+) -> Result[ComponentStages]: ...
+def smooth_mesh(
+    mesh: trimesh.Trimesh | Surface,
+    *,
+    resolution: int | None = None,
+    voxel: float | None = None,
+    by_component: bool = False,
+    **options: Unpack[Options],
+) -> Result[SmoothStages] | Result[ComponentStages]:
     """Return the smooth surface of a mesh, by way of voxels.
 
     Parameters
@@ -171,6 +184,9 @@ def smooth_mesh(
         Cells along the longest side; 200 if neither this nor `voxel` is given.
     voxel : float, optional
         Cell size, mm.
+    by_component : bool
+        Smooth each component by itself, so that those that overlap or touch stay apart: see
+        `infill.smoothing.by_component`. The result then has a surface for each, "component_1" being the largest.
     **options
         See `smooth_volume`.
 
@@ -179,49 +195,11 @@ def smooth_mesh(
     1
     """
     surface, request = surface_of(mesh), Request(**options)
-    return best_of(_ways_of_mesh(surface, resolution, voxel, request), request)
-
-
-def _ways_of_mesh(surface: Surface, resolution: int | None, voxel: float | None, request: Request) -> Iterator[Way]:
-    """Yield the ways to smooth a mesh: refined, and with finer voxels unless their size was given."""
-    auto: Method = "refine" if request.smoothing.steps >= FEWEST and request.level == "volume" else "plain"
-    first = replace(request, method=auto if request.method == AUTO else request.method, refine=None)
-    if first.method == "grey":
-        raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
-
-    def with_voxels(resolution: int | None, voxel: float | None) -> tuple[Given, Request]:
-        found = voxelise_reported(
-            surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
-        )
-        return _given_mesh(surface, found, first), first
-
-    yield Way(name=first.method, make=partial(with_voxels, resolution, voxel))
-    if request.method == AUTO and resolution is None and voxel is None:
-        for times in FINER:
-            finer = round(times * RESOLUTION)
-            yield Way(name=f"{finer} voxels", make=partial(with_voxels, finer, None), cost=times**2.5)
-
-
-def _given_mesh(surface: Surface, found: Voxelised, request: Request) -> Given:
-    """Return the distances from a mesh as data, and what is known about it."""
-    interface = request.smoothing.interface
-    distance = found.distances(cut_off(interface), threads=request.threads)
-    held = found.enclosed
-    # How the mesh is connected is known if its components neither touch nor overlap, and nothing had to be added.
-    whole = found.closed.closed and found.repairs.holes == 0 and (not found.several or len(held.excess) == 0)
-    topology = None
-    if whole:
-        solids, cavities = int((held.volumes > 0).sum()), int((held.volumes < 0).sum())
-        tunnels = solids + cavities - found.closed.euler_number // 2
-        topology = Counts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
-    return Given(
-        data=replace(found.volume, values=on_profile(distance, interface)),
-        facts={"source": "mesh", "repairs": asdict(found.repairs), "several": found.several},
-        reference=found.closed,
-        mesh=surface,
-        enclosed=held,
-        topology=topology,
-    )
+    if by_component:
+        return by_components(surface, request, resolution=resolution, voxel=voxel)
+    fixed = resolution is not None or voxel is not None
+    ways = ways_of_mesh(surface, request, resolution=resolution, voxel=voxel, fixed=fixed, hint=True)
+    return best_of(ways, request)
 
 
 def smooth_points(

@@ -25,6 +25,7 @@ from infill.voxels.cropping import cropped
 
 if TYPE_CHECKING:
     from infill.result import Result
+    from infill.smoothing.by_component import ComponentStages
     from infill.smoothing.request import Options
     from infill.smoothing.stages import SmoothStages
 
@@ -35,7 +36,7 @@ LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
 FITTING = {
     "volume": ("threshold", "range", "label", "otsu", "grey", "voxel"),
-    "mesh": ("resolution", "voxel"),
+    "mesh": ("resolution", "voxel", "by_component"),
     "points": ("resolution", "voxel", "shell"),
 }
 RESOLUTION = 200  # voxels along the longest side
@@ -160,8 +161,9 @@ def smooth_source(
     label: tuple[int, ...] | None = None,
     otsu: bool = False,
     grey: bool = False,
+    by_component: bool = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages]:
+) -> Result[SmoothStages] | Result[ComponentStages]:
     """Smooth what `read_source` returned; raise ParameterError for options that do not fit its kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
@@ -175,11 +177,13 @@ def smooth_source(
         "label": label is not None,
         "otsu": otsu,
         "grey": grey,
+        "by_component": by_component,
     }
     wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
     if wrong:
         fits = [each for each in KINDS if wrong[0] in FITTING[each]]
-        raise ParameterError(f"{wrong[0]} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
+        name = wrong[0].replace("_", "-")
+        raise ParameterError(f"{name} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
     if isinstance(source, Volume):
         ways = [name for name in ("threshold", "range", "otsu") if given[name]]
         if len(ways) > 1:
@@ -187,6 +191,8 @@ def smooth_source(
         chosen: Any = "otsu" if otsu else between if between is not None else threshold
         return smooth_volume(source, threshold=chosen, label=label, grey=grey, voxel=voxel, **options)
     if isinstance(source, Surface):
+        if by_component:
+            return smooth_mesh(source, resolution=resolution, voxel=voxel, by_component=True, **options)
         return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
     if voxel is None:
         longest = float(np.ptp(source, axis=0).max())

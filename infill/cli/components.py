@@ -1,0 +1,69 @@
+"""``infill smooth --by-component``: every component of a mesh as a surface of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+
+import typer
+
+from infill.cli.console import as_bytes, table
+
+if TYPE_CHECKING:
+    from infill.result import Result
+    from infill.smoothing.by_component import ComponentStages
+
+MOST_ROWS = 60  # components in the summary
+
+ByComponent = Annotated[
+    bool,
+    typer.Option(
+        "--by-component",
+        help="Smooth each component of a mesh by itself: what overlaps or touches stays apart. A .3mf or .glb names "
+        "them.",
+        rich_help_panel="What is solid",
+    ),
+]
+
+
+def check_fields(outputs: Sequence[Path]) -> None:
+    """Raise BadParameter for an output that is a field: components have none in common."""
+    from infill.formats.volume_files import FIELD_WRITERS
+
+    for path in outputs:
+        if path.suffix.lower() in FIELD_WRITERS:
+            raise typer.BadParameter(f"--by-component makes meshes, and {path} is a field; leave one of them out")
+
+
+def component_writer(path: Path, result: Result[ComponentStages], *, ascii_stl: bool) -> Callable[[BinaryIO], object]:
+    """Return what writes all components into one file: by name if it can hold names, else one after the other."""
+    from infill.formats.mesh_files import PART_WRITERS, writer
+    from infill.result import parts_of
+
+    if path.suffix.lower() in PART_WRITERS:
+        return partial(PART_WRITERS[path.suffix.lower()], parts_of(result))
+    return partial(writer(path, ascii=ascii_stl), result.whole)
+
+
+def component_summary(result: Result[ComponentStages], files: Sequence[str], name: str) -> str:
+    """Return the short table for stderr: a row for each component, and what is wrong."""
+    report: dict[str, Any] = result.report
+    rows = {}
+    for each in report["components"][:MOST_ROWS]:
+        own = each["report"]
+        changes = "; ".join([own["verdict"]["word"], *own["verdict"]["changes"]])
+        rows[each["name"]] = (
+            f"{own['triangles']:,} triangles, {own['volume']:.6g} mm³, {own['volume_change']:+.4%}; {changes}"
+        )
+    if len(report["components"]) > MOST_ROWS:
+        rows["…"] = f"and {len(report['components']) - MOST_ROWS} more"
+    for each in report["failed"]:
+        rows[f"FAILED {each['name']}"] = each["error"]
+    if report["sheets"]:
+        rows["left out"] = f"{report['sheets']} components that enclose nothing"
+    rows["verdict"] = report["verdict"]["word"]
+    for file in files:
+        rows[f"wrote {file}"] = as_bytes(Path(file).stat().st_size) if Path(file).is_file() else ""
+    return table(rows, title=name)

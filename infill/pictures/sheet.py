@@ -1,0 +1,46 @@
+"""Panels side by side, each with its caption, and lines of text below."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from PIL import Image, ImageDraw, ImageFont
+
+from infill.pictures.render import Colour
+
+PANEL = 420  # pixels
+MARGIN, CAPTION, LINE = 14, 34, 24
+SWATCH = 12
+BACKGROUND: Colour = (255, 255, 255)
+INK: Colour = (40, 40, 40)
+
+Legend = Sequence[tuple[Colour | None, str]]
+
+
+def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) -> Image.Image:
+    """Return panels by their captions, a line of facts, and a line of what the colours mean.
+
+    Parameters
+    ----------
+    panels : mapping of str to Image
+        Of at most `PANEL` pixels each way.
+    facts : str
+    legend : sequence of (colour, str)
+        Words, each behind a patch of its colour unless that is None.
+    """
+    width = len(panels) * (PANEL + MARGIN) + MARGIN
+    whole = Image.new("RGB", (width, PANEL + 2 * CAPTION + MARGIN + (LINE if legend else 0)), BACKGROUND)
+    draw, font = ImageDraw.Draw(whole), ImageFont.load_default(16)
+    for i, (caption, panel) in enumerate(panels.items()):
+        left = MARGIN + i * (PANEL + MARGIN)
+        draw.text((left, 10), caption, fill=INK, font=font)
+        whole.paste(panel, (left + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
+    draw.text((MARGIN, CAPTION + PANEL + 10), facts, fill=INK, font=font)
+    x, top = float(MARGIN), CAPTION + PANEL + 10 + LINE
+    for colour, words in legend:
+        if colour is not None:
+            draw.rectangle((x, top + 4, x + SWATCH, top + 4 + SWATCH), fill=colour)
+            x += SWATCH + 8
+        draw.text((x, top), words, fill=INK, font=font)
+        x += draw.textlength(words, font=font) + 2 * MARGIN
+    return whole

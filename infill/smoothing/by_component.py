@@ -1,0 +1,177 @@
+"""Every component of a mesh as a surface of its own: what overlaps or touches in the file stays apart."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, get_args
+
+import numpy as np
+
+from infill.checks import length, whole
+from infill.errors import GeometryError, InfillError, ParameterError
+from infill.inspection.fidelity import Word
+from infill.report import FORM
+from infill.result import Clock, Result
+from infill.smoothing.meshes import ways_of_mesh
+from infill.smoothing.remedies import best_of
+from infill.smoothing.request import Request
+from infill.surface import Surface
+from infill.surfaces.parting import parted
+from infill.version import __version__
+from infill.voxels.from_mesh import RESOLUTION
+
+FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size was asked for
+SMALL = 100  # voxels along a component: one thread does it before others have begun
+WORDS: tuple[str, ...] = get_args(Word)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ComponentStages:
+    """What the surfaces of `infill.smooth_mesh` with `by_component` came from.
+
+    Parameters
+    ----------
+    given : Surface
+        The mesh that was given, mm.
+    voxel : float
+        Size of the voxels, mm.
+    components : mapping of str to Surface
+        The part of the mesh that each surface, by its name, was made from, mm.
+    failed : mapping of str to str
+        Why a component has no surface, by its name.
+    """
+
+    given: Surface
+    voxel: float
+    components: Mapping[str, Surface]
+    failed: Mapping[str, str] = field(default_factory=dict)
+
+
+def by_components(
+    surface: Surface, request: Request, *, resolution: int | None = None, voxel: float | None = None
+) -> Result[ComponentStages]:
+    """Return a smooth surface around every component of a mesh.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    request : Request
+    resolution : int, optional
+        Cells along the longest side of the whole mesh; 200 if neither this nor `voxel` is given.
+    voxel : float, optional
+        Cell size, mm.
+
+    Returns
+    -------
+    Result
+        A surface for each component, "component_1" the largest. docs/report.md lists the keys of the report.
+
+    Raises
+    ------
+    GeometryError
+        If something is lost of a component, with its name, or if no component encloses anything.
+    ParameterError, MemoryLimitError
+        As `infill.smooth_mesh`, with the name of the component.
+
+    Notes
+    -----
+    A cavity belongs to the component around it: see `infill.surfaces.parting`. All components are smoothed with voxels
+    of one size. If that was not asked for, those that are less than 8 voxels long get finer ones, and so do those of
+    which something would be lost. If broken results are allowed, a component that cannot be smoothed is left out, and
+    the report says so.
+    """
+    fixed = resolution is not None or voxel is not None
+    size = _voxel(surface, resolution, voxel)
+    clock = Clock(request.progress)
+    with clock.stage("components", 0.0):
+        parts = parted(surface, size)
+    if not parts.surfaces:
+        raise GeometryError(
+            f"none of the {parts.sheets} components of the mesh encloses anything (loose triangles or flat sheets); "
+            "give a closed mesh"
+        )
+    named = {f"component_{number}": part for number, part in enumerate(parts.surfaces, start=1)}
+    surfaces: dict[str, Surface] = {}
+    reports: dict[str, dict[str, Any]] = {}
+    failed: dict[str, str] = {}
+    shares = np.cumsum([0, *(len(part.faces) for part in parts.surfaces)]) / sum(len(p.faces) for p in parts.surfaces)
+    with clock.stage("smooth", 0.0):
+        for (name, part), begin, end in zip(named.items(), shares[:-1].tolist(), shares[1:].tolist(), strict=True):
+            longest = float(np.ptp(part.bounds, axis=0).max())
+            own = size if fixed else min(size, longest / FEWEST_ACROSS)
+            asked = replace(request, progress=_between(request.progress, begin, end))
+            if longest < SMALL * own:
+                asked = replace(asked, threads=1)
+            try:
+                result = best_of(ways_of_mesh(part, asked, voxel=own, fixed=fixed), asked)
+            except (GeometryError, ParameterError) as error:
+                if not request.allow_broken:
+                    raise type(error)(f"{name}: {error}") from error
+                failed[name] = str(error)
+                continue
+            except InfillError as error:
+                raise type(error)(f"{name}: {error}") from error
+            surfaces[name], reports[name] = result.surface, result.report
+    if not surfaces:
+        raise GeometryError(f"no component can be smoothed; component_1: {failed['component_1']}")
+    return Result(
+        surfaces=surfaces,
+        report=_report(request, surfaces, reports, failed, parts.sheets, clock),
+        stages=ComponentStages(given=surface, voxel=size, components=named, failed=failed),
+        joins=True,
+    )
+
+
+def _voxel(surface: Surface, resolution: int | None, voxel: float | None) -> float:
+    """Return the size of the voxels, mm."""
+    if voxel is not None:
+        if resolution is not None:
+            raise ParameterError("both voxel and resolution are given; give one of them")
+        return length("voxel", voxel)
+    count = whole("resolution", RESOLUTION if resolution is None else resolution, 1)
+    longest = float(np.ptp(surface.vertices[np.unique(surface.faces)], axis=0).max())
+    if not longest > 0:
+        raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
+    return longest / count
+
+
+def _between(
+    progress: Callable[[str, float], None] | None, begin: float, end: float
+) -> Callable[[str, float], None] | None:
+    """Return a listener that is told of a part of the work."""
+    if progress is None:
+        return None
+    return lambda stage, share: progress(stage, begin + share * (end - begin))
+
+
+def _report(
+    request: Request,
+    surfaces: Mapping[str, Surface],
+    reports: Mapping[str, dict[str, Any]],
+    failed: Mapping[str, str],
+    sheets: int,
+    clock: Clock,
+) -> dict[str, Any]:
+    """Return the report: what there is to say of all components, and the report of each."""
+    every = list(reports.values())
+    corners = np.array([surface.bounds for surface in surfaces.values()])
+    volume, data = sum(each["volume"] for each in every), sum(each["solid"]["data"] for each in every)
+    words = [each["verdict"]["word"] for each in every] + ["lost"] * bool(failed)
+    return {
+        "form": FORM,
+        "version": __version__,
+        "product": "components",
+        "triangles": sum(each["triangles"] for each in every),
+        "closed": all(each["closed"] for each in every),
+        "extents": (corners[:, 1].max(axis=0) - corners[:, 0].min(axis=0)).tolist(),
+        "volume": volume,
+        "volume_change": volume / data - 1,
+        "problems": [f"{name}: {each}" for name, report in reports.items() for each in report["problems"]],
+        "verdict": {"word": max(words, key=WORDS.index)},
+        "request": request.facts(),
+        "components": [{"name": name, "report": report} for name, report in reports.items()],
+        "failed": [{"name": name, "error": error} for name, error in failed.items()],
+        "sheets": sheets,
+        "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
+    }

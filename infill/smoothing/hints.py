@@ -1,0 +1,47 @@
+"""What is worth knowing before a mesh is smoothed by way of voxels: that something else may serve better."""
+
+from __future__ import annotations
+
+import logging
+
+import numpy as np
+
+from infill.surface import Surface
+from infill.voxels.from_mesh import Voxelised
+
+LOG = logging.getLogger("infill")
+
+
+def tell_of_filters(surface: Surface, found: Voxelised) -> None:
+    """Tell the log "infill", as information, if a filter of the mesh itself may be nearer than voxels.
+
+    That is so for a closed mesh of one component, without overlaps, whose edges are shorter than a voxel in the mean:
+    filters move the corners of such a mesh, while voxels first blur it by their own size.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+        The mesh as it was given.
+    found : Voxelised
+        The cells inside it.
+    """
+    edge, size = mean_edge(surface), float(found.volume.cell_size.max())
+    if edge >= size or found.several or found.repairs.holes:
+        return
+    LOG.info(
+        "hint: the mesh is closed, and its edges (%.3g mm in the mean) are shorter than a voxel (%.3g mm); if it is a "
+        "noisy scan, a filter of the mesh itself, such as Taubin's or Humphrey's in trimesh, keeps its triangles and "
+        "may be nearer",
+        edge,
+        size,
+    )
+
+
+def mean_edge(surface: Surface) -> float:
+    """Return the mean length of the sides of all faces, mm.
+
+    >>> round(mean_edge(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))), 6)
+    1.414214
+    """
+    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
+    return float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean())
