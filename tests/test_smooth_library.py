@@ -636,7 +636,7 @@ def test_what_cannot_be_smoothed_is_one_clear_line(values: Any, options: dict[st
 
 
 def test_too_little_memory_is_told_before_the_work() -> None:
-    with pytest.raises(MemoryLimitError, match=r"needs about .* GiB .* is allowed; use larger voxels"):
+    with pytest.raises(MemoryLimitError, match=r"needs about .* GiB .* is allowed; give --voxel"):
         smooth_volume(smooth_noise(np.random.default_rng(3), (60, 60, 60)) > 0, max_memory=10_000)
     cube = Surface(
         vertices=np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]]),
