@@ -38,8 +38,8 @@ def coarser(volume: Volume, voxel: float) -> Volume:
     ParameterError
         If the voxel is smaller than the cells there are, or larger than half of the volume.
 
-    >>> coarser(Volume(values=np.arange(8.0).reshape(2, 2, 2)), 2.0).values.tolist()
-    [[[3.5]]]
+    >>> coarser(Volume(values=np.arange(16.0).reshape(4, 2, 2)), 2.0).values.tolist()
+    [[[3.5]], [[11.5]]]
     """
     voxel, size = length("voxel", voxel), volume.cell_size
     least, most = float(size.min()), float((size * volume.values.shape).max())
