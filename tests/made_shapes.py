@@ -115,7 +115,7 @@ def every_shape() -> Iterator[tuple[str, Made]]:
 
     for size in (20, 40, 60):
         for n in range(8):
-            yield made(f"box of {size}, {n}", box(*rng.uniform(0.4 * size, size, 3)), turn=n > 3)
+            yield made(f"box of {size}, {n}", box(*rng.uniform(0.4 * size, size, 3)), 0.4 * size, turn=n > 3)
     for thick in (0.7, 0.85, 1.0, 1.3, 1.7, 2.0, 2.5, 3.0, 4.0):
         for turn in (False, True):
             yield made(f"plate {thick}{', turned' * turn}", box(50, 40, thick), thick, turn=turn)
@@ -125,25 +125,25 @@ def every_shape() -> Iterator[tuple[str, Made]]:
     for thick in (1.5, 2.0, 3.0):
         yield made(f"bowl {thick}", bowl(thick), thick)
     for n in range(3):
-        yield made(f"flange {n}", flange(), turn=n > 0)
-        yield made(f"gear {n}", gear(), turn=n > 0)
+        yield made(f"flange {n}", flange(), 2.4, turn=n > 0)
+        yield made(f"gear {n}", gear(), 2.6, turn=n > 0)
     for wide in (1.0, 1.5, 2.0, 3.0):
-        yield made(f"slits {wide}", slits(wide))
+        yield made(f"slits {wide}", slits(wide), 2.5)
         yield made(f"comb {wide}", comb(wide), wide)
     for n in range(2):
-        yield made(f"nested {n}", nested())
+        yield made(f"nested {n}", nested(), 4)
     for n in range(5):
         one, other = box(30, 24, 16), turned(box(18, 27, 16), rng)
         other.apply_translation(rng.uniform(-9, 9, 3))
-        yield made(f"overlapping {n}", together(one, other), volume=union(one, other).volume)
+        yield made(f"overlapping {n}", together(one, other), 10, volume=union(one, other).volume)
     for n in range(3):
         one, other = box(10, 10, 10), box(10, 14, 12, (10, 0, 0))
-        yield made(f"touching {n}", together(one, other), volume=one.volume + other.volume)
+        yield made(f"touching {n}", together(one, other), 10, volume=one.volume + other.volume)
     for n in range(3):
         mesh, volume = bust()
-        yield made(f"bust {n}", mesh, volume=volume, turn=n > 0)
+        yield made(f"bust {n}", mesh, 10, volume=volume, turn=n > 0)
     for degrees in (5, 10, 20, 30):
-        yield made(f"blade {degrees}", blade(degrees))
+        yield made(f"blade {degrees}", blade(degrees), 2.5)
     for n in range(9):
         parts = [box(*rng.uniform(6, 25, 3), tuple(rng.uniform(-8, 8, 3))) for _ in range(3)]
         yield made(f"union of boxes {n}", union(*parts), 1)
