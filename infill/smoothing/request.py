@@ -23,7 +23,7 @@ LevelMethod = Literal["volume"] | float
 Method = Literal["auto", "plain", "refine", "grey"]
 METHODS = ("auto", "plain", "refine", "grey")
 AUTO: Literal["auto"] = "auto"
-SIMPLER = 0.1  # of a cell: how far simplification by default may move the surface
+LEAN = 0.1  # of a cell: how far simplification by default may move the surface
 STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
 MOST_STEPS = 2000  # minutes
 FEWEST = 4  # steps of refinement
@@ -135,7 +135,7 @@ class Request:
                 )
             smoothing = replace(smoothing, steps=steps)
         if isinstance(tolerance, str):
-            tolerance = SIMPLER * cell if self.max_triangles is None else None
+            tolerance = LEAN * cell if self.max_triangles is None else None
         return replace(
             self,
             held=self.radius is None,
