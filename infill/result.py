@@ -86,6 +86,13 @@ def parts_of(result: Result[object]) -> list[Part]:
     ]
 
 
+def told_between(progress: Progress | None, begin: float, end: float) -> Progress | None:
+    """Return a listener for a part of the work, which lies between two shares of the whole; None if nobody listens."""
+    if progress is None:
+        return None
+    return lambda stage, share: progress(stage, begin + share * (end - begin))
+
+
 class Clock:
     """Seconds per stage."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, get_args
 
@@ -12,7 +12,7 @@ from infill.checks import length, whole
 from infill.errors import GeometryError, InfillError, ParameterError
 from infill.inspection.fidelity import Word
 from infill.report import FORM
-from infill.result import Clock, Result
+from infill.result import Clock, Result, told_between
 from infill.smoothing.meshes import ways_of_mesh
 from infill.smoothing.remedies import best_of
 from infill.smoothing.request import Request
@@ -100,7 +100,7 @@ def by_components(
         for (name, part), begin, end in zip(named.items(), shares[:-1].tolist(), shares[1:].tolist(), strict=True):
             longest = float(np.ptp(part.bounds, axis=0).max())
             own = size if fixed else min(size, longest / FEWEST_ACROSS)
-            asked = replace(request, progress=_between(request.progress, begin, end))
+            asked = replace(request, progress=told_between(request.progress, begin, end))
             if longest < SMALL * own:
                 asked = replace(asked, threads=1)
             try:
@@ -134,15 +134,6 @@ def _voxel(surface: Surface, resolution: int | None, voxel: float | None) -> flo
     if not longest > 0:
         raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
     return longest / count
-
-
-def _between(
-    progress: Callable[[str, float], None] | None, begin: float, end: float
-) -> Callable[[str, float], None] | None:
-    """Return a listener that is told of a part of the work."""
-    if progress is None:
-        return None
-    return lambda stage, share: progress(stage, begin + share * (end - begin))
 
 
 def _report(

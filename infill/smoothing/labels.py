@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Unpack
 
@@ -17,7 +17,7 @@ from infill.formats.segmentations import Segmentation
 from infill.grid import spacing_of
 from infill.kernels.sparse import BRICK
 from infill.report import FORM
-from infill.result import Clock, Result
+from infill.result import Clock, Result, told_between
 from infill.smoothing.request import Options, Request
 from infill.smoothing.solids import smooth_volume
 from infill.version import __version__
@@ -130,7 +130,7 @@ def smooth_labels(
     with clock.stage("smooth", 0.0):
         shares = np.cumsum([0, *(piece.cells for piece in pieces)]) / sum(piece.cells for piece in pieces)
         for piece, begin, end in zip(pieces, shares[:-1], shares[1:], strict=True):
-            told: Options = {**options, "progress": _between(request.progress, float(begin), float(end))}
+            told: Options = {**options, "progress": told_between(request.progress, float(begin), float(end))}
             try:
                 result = _smoothed(segmentation.layers[piece.segment.layer], piece, request, told)
             except InfillError as error:
@@ -220,15 +220,6 @@ def _smoothed(volume: Volume, piece: _Piece, request: Request, options: Options)
     box = part(volume, low, high)
     chosen: Options = {**options, "threads": 1} if box.values.size < SMALL else options
     return smooth_volume(box, label=piece.segment.value, **chosen)
-
-
-def _between(
-    progress: Callable[[str, float], None] | None, begin: float, end: float
-) -> Callable[[str, float], None] | None:
-    """Return a listener that is told of a part of the work."""
-    if progress is None:
-        return None
-    return lambda stage, share: progress(stage, begin + share * (end - begin))
 
 
 def _called(piece: _Piece) -> str:
