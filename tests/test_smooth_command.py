@@ -173,7 +173,7 @@ def test_a_fine_closed_mesh_is_told_of_filters_and_nothing_else_is(folder: Path)
 
     assert hints("s.stl", "--voxel", "2.0") == 1
     for words in (
-        ("s.stl", "--voxel", "1.0"),
+        ("s.stl", "--voxel", "0.6"),
         ("s.stl", "--voxel", "2.0", "--quiet"),
         ("open.stl", "--voxel", "2.0"),
         ("pair.stl", "--voxel", "2.0"),

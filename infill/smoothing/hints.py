@@ -10,13 +10,14 @@ from infill.surface import Surface
 from infill.voxels.from_mesh import Voxelised
 
 LOG = logging.getLogger("infill")
+DENSE = 2  # voxels: a mesh whose edges are longer in the mean has no detail to keep
 
 
 def tell_of_filters(surface: Surface, found: Voxelised) -> None:
     """Tell the log "infill", as information, if a filter of the mesh itself may be nearer than voxels.
 
-    That is so for a closed mesh of one component, without overlaps, whose edges are shorter than a voxel in the mean:
-    filters move the corners of such a mesh, while voxels first blur it by their own size.
+    That is so for a closed mesh of one component, without overlaps, whose edges are shorter than two voxels in the
+    mean: filters move the corners of such a mesh, while voxels take its noise for its shape.
 
     Parameters
     ----------
@@ -26,10 +27,10 @@ def tell_of_filters(surface: Surface, found: Voxelised) -> None:
         The cells inside it.
     """
     edge, size = mean_edge(surface), float(found.volume.cell_size.max())
-    if edge >= size or found.several or found.repairs.holes:
+    if edge >= DENSE * size or found.several or found.repairs.holes:
         return
     LOG.info(
-        "hint: the mesh is closed, and its edges (%.3g mm in the mean) are shorter than a voxel (%.3g mm); if it is a "
+        "hint: the mesh is closed, and its edges (%.3g mm in the mean) are short for voxels of %.3g mm; if it is a "
         "noisy scan, a filter of the mesh itself, such as Taubin's or Humphrey's in trimesh, keeps its triangles and "
         "may be nearer",
         edge,
