@@ -7,18 +7,19 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from infill.filling.contact import TOUCHING
 from infill.filling.corners import COARSEST, Machine, rounded
+from infill.filling.curves import MOST_BULGE, recut
 from infill.filling.families.hilbert import Hilbert
 from infill.filling.families.protocol import TOUCH
 from infill.filling.rounding import Rounding, corners_of
 from infill.filling.surroundings import BESIDE, walls_of
 from infill.filling.wide import ASIDE, HAIRPIN
 from infill.ragged import packed, parted
-from tests.test_corners_and_curves import length_of, one, turns, walks
+from tests.test_corners_and_curves import length_of, one, turns, walk, walks
 
 WIDTH = 0.45  # mm
 NOTHING = walls_of(np.empty((0, 2)))
@@ -69,9 +70,15 @@ def test_length_is_kept_and_arcs_are_larger(deviation: float) -> None:
 
 
 @given(path=walks(171, shortest=1.0), deviation=st.floats(0.02, 0.5))
+@example(path=walk([(1.0, 0.0), (5.0, 5.0), (1.0, 0.0)]), deviation=0.03125)  # a curve, whose sagitta is 0.055 mm
 def test_no_path_moves_farther_than_told(path: np.ndarray, deviation: float) -> None:
-    """Both ways: neither is the new path far from the old one, nor any of the old one from the new; ends stay."""
+    """Both ways: neither is the new path far from the old one, nor any of the old one from the new; ends stay.
+
+    Chords that stand for a curve are not moved, but the curve leaves them by their own sagitta: see `curves`.
+    """
     (done,) = taken([path], deviation=deviation)
+    if recut(*packed([path]), Machine(acceleration=1000.0, speed=80.0, corner=9.0)).curved.any():
+        deviation = max(deviation, MOST_BULGE)
     assert np.allclose(done[[0, -1]], path[[0, -1]], atol=0.0006)
     new, old = shapely.linestrings(done), shapely.linestrings(path)
     assert shapely.distance(shapely.points(done), old).max() <= deviation + COARSEST
