@@ -108,6 +108,13 @@ def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 
         remarks.append(f"{what}, {found.thin:.3g} mm² of their faces")
     if found.sheet:
         remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")
+    if given.enclosed is not None and given.topology is None:
+        parts, now = int((given.enclosed.volumes > 0).sum()), judged.result.components
+        if now < parts:
+            remarks.append(
+                f"the mesh has {parts} components, some of which overlap or touch, and the result {now}; "
+                "--by-component keeps them apart"
+            )
     if given.facts.get("coarse"):
         remarks.append("what is smaller than the voxels that were asked for was not compared")
     repairs = given.facts.get("repairs", {})
