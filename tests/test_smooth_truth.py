@@ -137,7 +137,7 @@ def assemblies(draw: st.DrawFn) -> trimesh.Trimesh:
     return union(box(8, 8, 8), *parts)
 
 
-@settings(max_examples=25)
+@settings(max_examples=16)
 @given(assemblies())
 def test_no_loss_is_called_kept(mesh: trimesh.Trimesh) -> None:
     """Whatever is given: points found by trimesh that lie far away are told."""
@@ -146,7 +146,7 @@ def test_no_loss_is_called_kept(mesh: trimesh.Trimesh) -> None:
         assert apart(mesh, result.mesh) < FAR + DENSE
 
 
-@settings(max_examples=15)
+@settings(max_examples=8)
 @given(st.floats(2.5, 12), st.floats(2, 9), st.integers(0, 99))
 def test_a_planted_loss_is_found(long: float, wide: float, seed: int) -> None:
     """A knob on a box, of which the result knows nothing; and the other way, a knob that was not given."""
