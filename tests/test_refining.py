@@ -11,14 +11,8 @@ from scipy.ndimage import gaussian_filter
 from infill import ParameterError, Smoothing, smooth_volume
 from infill.phasefield.allen_cahn import STEEPNESS
 from infill.phasefield.profile import REFINED
-from infill.phasefield.refining import (
-    FILTERS,
-    Schedule,
-    filtered_bricks,
-    filtered_reference,
-    refine_bricks,
-    refine_reference,
-)
+from infill.phasefield.refining import filtered_bricks, filtered_reference, refine_bricks, refine_reference
+from infill.phasefield.schedule import FILTERS, Schedule
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.smoothing.placing import field_volume
 from infill.surface import Surface

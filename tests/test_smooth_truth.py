@@ -163,6 +163,16 @@ def test_a_planted_loss_is_found(long: float, wide: float, seed: int) -> None:
     assert fidelity(surface_of(knob), surface_of(knob), cell=1.0).word == "kept"
 
 
+def test_every_place_that_is_lost_counts() -> None:
+    """Eight knobs, however few are listed: each of 2 x 2 x 4, of which what is more than two away is lost."""
+    block = box(60, 30, 10)
+    knobs = [box(2, 2, 10, (x, y, 4)) for x in (-24, -8, 8, 24) for y in (-10, 10)]
+    found = fidelity(surface_of(union(block, *knobs)), surface_of(block), cell=1.0)
+    assert len(found.lost) == 8
+    assert found.phrases[0].startswith("8 places, ")
+    assert sum(patch.area for patch in found.lost) == pytest.approx(8 * (4 * 2 * 2 + 4), rel=0.1)
+
+
 def test_a_loss_planted_in_the_field_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """As if smoothing had eaten a corner: the report compares with what was given, not with a stage in between."""
     eaten = surface_of(box(40, 30, 20))

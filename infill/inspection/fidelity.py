@@ -30,7 +30,6 @@ PATCH = 4.0  # cells², as large as a face of 2 x 2: if less than this is lost i
 PITCH = 0.7  # cells between points
 MOST = 80_000  # points on a surface, beside as many vertices
 FINEST = 250  # boxes along a side, by which points are told to lie in one place
-NAMED = 5  # places that are listed
 GOLDEN = (0.7548776662466927, 0.5698402909980532)  # 1 / p and 1 / p², p³ = p + 1: fills a square evenly
 
 
@@ -253,10 +252,10 @@ def _patches(points: Floats, away: Floats, area: Floats, cell: float) -> tuple[P
     numbers, count = label(there, np.ones((3, 3, 3)))
     name = numbers[tuple(place.T)] - 1
     size = np.bincount(name, weights=area[far], minlength=count)
+    order = np.lexsort((-away[far], name))
+    worst = far[order[np.flatnonzero(np.diff(name[order], prepend=-1))]]  # of each place, the point furthest away
     found = []
-    for each in np.argsort(-size)[:NAMED]:
-        own = far[name == each]
-        worst = own[away[own].argmax()]
-        x, y, z = points[worst].tolist()
-        found.append(Patch(at=(x, y, z), area=float(size[each]), distance=float(away[worst])))
+    for each in np.argsort(-size, kind="stable"):
+        x, y, z = points[worst[each]].tolist()
+        found.append(Patch(at=(x, y, z), area=float(size[each]), distance=float(away[worst[each]])))
     return tuple(found)

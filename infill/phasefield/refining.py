@@ -38,7 +38,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.kernels import refining as kernels
 from infill.kernels.sparse import BRICK, CELLS
@@ -46,15 +45,9 @@ from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import STEEPNESS, Smoothing, diffused, reacted
 from infill.phasefield.dense import Field, Numbers, numbers_of, on_three_axes
 from infill.phasefield.profile import REFINED
+from infill.phasefield.schedule import Schedule
 from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
 
-# The steps at which a snapshot is taken, in quarters of `Smoothing.steps`, and which of them go into the mild, the
-# middle and the strong filter: two snapshots cancel x, three cancel x² as well. Filters share snapshots, and all of
-# them share one run.
-QUARTERS = (1, 2, 3, 5, 7, 13)
-FILTERS = ((0, 1), (2, 3, 4), (4, 5))
-MOMENTUM = 0.5  # after half of `Smoothing.steps`: for long waves, a step then counts 1 / (1 - 1/2), twice as much
-FEWEST = 4  # steps: with fewer, two of the six would coincide
 TINY = 1e-6  # of a weight: where no surface is near, the means are 0
 
 
@@ -136,77 +129,6 @@ def noise_of(weight: NDArray[np.floating], mean: NDArray[np.floating], square: N
     return float(np.sqrt(np.quantile(np.maximum(square[near] / weight[near] - each**2, 0.0), QUIET)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Schedule:
-    """How many steps are done, which of them are kept, and for what.
-
-    Parameters
-    ----------
-    plain : int
-        Steps without momentum.
-    weights : per filter, dict of int to float
-        The share of the field after each number of steps.
-    """
-
-    plain: int
-    weights: tuple[dict[int, float], ...]
-
-    @classmethod
-    def of(cls, steps: int) -> Schedule:
-        """Return the schedule that corresponds to a number of plain steps.
-
-        Raises
-        ------
-        ParameterError
-            If there are fewer than 4 steps.
-
-        >>> schedule = Schedule.of(20)
-        >>> schedule.last, [list(weights) for weights in schedule.weights]
-        (65, [[5, 10], [15, 25, 35], [35, 65]])
-        >>> [round(weight, 4) for weight in schedule.weights[0].values()]
-        [2.0, -1.0]
-        """
-        if steps < FEWEST:
-            raise ParameterError(f"refining was given {steps} steps; it takes at least {FEWEST}, and 20 as a rule")
-        kept = [int(steps * quarters / 4 + 0.5) for quarters in QUARTERS]
-        shares = _shares(kept[-1], kept[1], max(len(each) for each in FILTERS))
-        return cls(
-            plain=kept[1],
-            weights=tuple(_flat({kept[n]: shares[kept[n], : len(each)] for n in each}) for each in FILTERS),
-        )
-
-    @property
-    def last(self) -> int:
-        """Total number of steps."""
-        return max(max(weights) for weights in self.weights)
-
-    def momentum(self, step: int) -> float:
-        """Return b of a step, counting from 0."""
-        return 0.0 if step < self.plain else MOMENTUM
-
-
-def _shares(steps: int, plain: int, powers: int) -> NDArray[np.float64]:
-    """Return the lowest coefficients of T_0, T_1, ... in powers of x."""
-    share = np.zeros((steps + 1, powers))
-    share[0, 0] = 1
-    before = share[0]
-    for k in range(steps):
-        now, damped = share[k], np.append(0, share[k, :-1])
-        share[k + 1] = now - damped + (0 if k < plain else MOMENTUM) * (now - before)
-        before = now
-    return share
-
-
-def _flat(shares: dict[int, NDArray[np.float64]]) -> dict[int, float]:
-    """Return the weights for which the sum of polynomials is 1 + O(x^n), n being their number."""
-    powers = np.stack(list(shares.values()), axis=1)
-    size = np.abs(powers).max(axis=1)
-    wanted = np.zeros(len(powers))
-    wanted[0] = 1
-    solution = np.linalg.solve(powers / size[:, None], wanted / size)
-    return dict(zip(shares, solution.tolist(), strict=True))
-
-
 def refine_bricks(
     f: NDArray[np.generic],
     smoothing: Smoothing,
@@ -253,22 +175,23 @@ def refine_bricks(
     """
     threads = thread_count(threads)
     mild, middle, strong = filtered_bricks(f, smoothing, spacing=spacing, threads=threads, progress=progress)
-    result, unit = replace(strong, values=REFINED.distance(strong.values, threads=threads)), _unit(smoothing)
-    _blend(result, middle.values, OUTER, unit, threads)
-    del middle
-    if not exact:
-        _blend(result, mild.values, INNER, unit, threads)
-        return result
+    result = replace(strong, values=REFINED.distance(strong.values, threads=threads))
+    unit = cut_off(smoothing.interface)
+    for milder, limits in ((middle, OUTER), (mild, INNER)):
+        _blend(result, milder.values, limits, unit, threads)
+    if exact:
+        _hold(result, mild.values, unit, threads)
+    return result
+
+
+def _hold(result: SparseField, mild: Field, unit: float, threads: int) -> None:
+    """Do in place what `Exact` says with the data, which are exact; `mild` is P_0."""
     data = np.asarray(result.data, dtype=np.float32)
-    distance = REFINED.distance(data, threads=threads).reshape(-1, CELLS)
-    noise = _averages(
-        result, REFINED.distance(mild.values, threads=threads).reshape(-1, CELLS), data, NOISE_SIZE, unit, threads
-    )
+    distance, below = (REFINED.distance(each, threads=threads).reshape(-1, CELLS) for each in (data, mild))
+    noise = _averages(result, below, distance, data, NOISE_SIZE, unit, threads)
     held = Exact(noise=noise_of(noise[:, 0], noise[:, 1], noise[:, 2]))
-    _blend(result, mild.values, INNER, unit, threads)
     _blend(result, data, held.gate, unit, threads)
     in_threads(kernels.hold, result.values.reshape(-1, CELLS), distance, held.bound / unit, threads=threads)
-    return result
 
 
 def on_profile(distance: NDArray[np.floating], interface: float) -> Field:
@@ -394,17 +317,11 @@ def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> N
     bricks.flat, bricks.next_flat = bricks.next_flat, bricks.flat
 
 
-def _unit(smoothing: Smoothing) -> float:
-    """Return the distance that +-1 represents, cells."""
-    return cut_off(smoothing.interface)
-
-
 def _averages(
-    bricks: SparseField, below: Field, phase: Field, size: int, unit: float, threads: int
+    bricks: SparseField, below: Field, above: Field, phase: Field, size: int, unit: float, threads: int
 ) -> NDArray[np.float32]:
-    """Return <w>, <w r> and <w r²> of `gate` on coarse cells; `phase` is the milder field, `below` another distance."""
+    """Return <w>, <w r> and <w r²> of `gate` on coarse cells; `phase` is the milder field, of distance `above`."""
     sums = np.empty((len(bricks.values), kernels.SUMS, *(count // size for count in BRICK)), dtype=np.float32)
-    above = REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
     in_threads(kernels.collect, below, above, phase.reshape(-1, CELLS), np.float32(unit), size, sums, threads=threads)
     blurred = np.empty_like(sums)
     in_threads(kernels.blur, sums, bricks.slots, bricks.where, blurred, threads=threads)
@@ -413,12 +330,12 @@ def _averages(
 
 def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: int) -> None:
     """Do in place what `gate` does, with averages from coarse cells; `phase` is the milder field."""
-    below = low.values.reshape(-1, CELLS)
-    blurred = _averages(low, below, phase, limits.size, unit, threads)
+    below, above = low.values.reshape(-1, CELLS), REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
+    blurred = _averages(low, below, above, phase, limits.size, unit, threads)
     in_threads(
         kernels.blend,
         below,
-        REFINED.distance(phase, threads=threads).reshape(-1, CELLS),
+        above,
         blurred,
         low.slots,
         low.where,
@@ -486,7 +403,7 @@ def refine_reference(
 ) -> NDArray[np.float64]:
     """Return the refined distance in float64, +-1 far away: the specification of `refine_bricks`."""
     fields = [np.clip(each, -1, 1) for each in filtered_reference(f, smoothing, spacing=spacing)]
-    unit = _unit(smoothing)
+    unit = cut_off(smoothing.interface)
     mild, middle, strong = (
         np.arctanh(np.clip(each, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale) for each in fields
     )

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from infill.volume import Volume
 
 OFF = 0.01  # of the volume: how far the volume may be off, because of specks that are gone
+NAMED = 5  # of the places that were lost or added are listed
 COMPARED = 5_000  # vertices of the voxels whose distance from the mesh is told
 
 
@@ -179,8 +180,8 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
         verdict={
             "word": told.word,
             "changes": [*told.losses, *told.problems, *told.remarks, *_remarks(best.crumbs, best.specks)],
-            "lost": [patch.facts() for patch in found.lost],
-            "added": [patch.facts() for patch in found.added],
+            "lost": [patch.facts() for patch in found.lost[:NAMED]],
+            "added": [patch.facts() for patch in found.added[:NAMED]],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": [],
         },
@@ -196,7 +197,7 @@ def _compared(surface: Surface, raw: Surface, given: Given, field: SparseField, 
         surface,
         cell=given.cell or float(given.data.cell_size.max()),
         closed=given.reference,
-        kinds=kinds_of_places(given, field),
+        kinds=kinds_of_places(given, field, threads=request.threads),
         threads=request.threads,
     )
 

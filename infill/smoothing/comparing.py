@@ -45,7 +45,7 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def kinds_of_places(given: Given, field: SparseField) -> Kinds:
+def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = None) -> Kinds:
     """Return what tells which points of what was given count when it is asked whether they were lost.
 
     Of a mesh, those with solid on one side: what lies inside the solid, and sheets without thickness, do not. Slits
@@ -57,15 +57,16 @@ def kinds_of_places(given: Given, field: SparseField) -> Kinds:
         assert mesh is not None
 
         def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
-            outside, inside = (held.solid_beside(mesh, points, faces, way) for way in (JUST, -JUST))
-            narrow = held.solid_beside(mesh, points, faces, SLIT)
+            outside, inside, narrow = (
+                held.solid_beside(mesh, points, faces, way, threads=threads) for way in (JUST, -JUST, SLIT)
+            )
             sides = np.where(inside & outside, HIDDEN, np.where(inside | outside, COUNTS, SHEET))
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
         return bounding
-    bits = data_bits(field)
+    bits = data_bits(field, threads=threads)
     cells = THICK_IN_NOISE if given.facts.get("noise", 0.0) > NOISY else THICK
-    solid, empty = sturdy(field, bits, cells=cells), sturdy(field, bits, void=True, cells=cells)
+    solid, empty = (sturdy(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
     data, turn = given.data, np.asarray(given.data.direction)
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001

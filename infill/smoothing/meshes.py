@@ -9,9 +9,10 @@ from functools import partial
 from infill.errors import ParameterError
 from infill.inspection.changes import Counts
 from infill.phasefield.refining import cut_off, on_profile
+from infill.phasefield.schedule import FEWEST
 from infill.smoothing.hints import tell_of_filters
 from infill.smoothing.remedies import Way
-from infill.smoothing.request import AUTO, FEWEST, Given, Method, Request
+from infill.smoothing.request import AUTO, Given, Method, Request
 from infill.surface import Surface
 from infill.voxels.from_mesh import RESOLUTION, Voxelised, voxelise_reported
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
+from infill.phasefield.schedule import FEWEST
 from infill.smoothing.attempt import Attempt, attempted, delivered
 
 if TYPE_CHECKING:
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 # Seconds of all cores together: nothing that takes longer than the first way is begun if it would end later than this.
 # Not seconds on the clock: what is tried must not depend on what else the machine does.
 PATIENCE = 100.0
-FEWEST = 4  # steps
 
 
 @dataclass(frozen=True, kw_only=True)

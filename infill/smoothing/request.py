@@ -11,6 +11,7 @@ from infill.checks import positive, within
 from infill.errors import ParameterError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED, STRAIGHT, Profile
+from infill.phasefield.schedule import FEWEST
 
 if TYPE_CHECKING:
     from infill.inspection.changes import Counts
@@ -26,7 +27,6 @@ AUTO: Literal["auto"] = "auto"
 LEAN = 0.1  # of a cell: how far simplification by default may move the surface
 STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
 MOST_STEPS = 2000  # minutes
-FEWEST = 4  # steps of refinement
 HIGHEST, HIGHEST_REFINED = 0.999, 0.99  # of a fixed level of phi; beyond these, there is no profile to find it on
 
 

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.schedule import FEWEST
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.placing import raw_surface
 from infill.smoothing.remedies import Way, fewer_steps
-from infill.smoothing.request import AUTO, FEWEST, Given, Request
+from infill.smoothing.request import AUTO, Given, Request
 from infill.volume import Volume
 from infill.voxels.noise import NOISY, noise_share
 from infill.voxels.segmentation import grey as grey_levels

@@ -9,10 +9,10 @@ see `infill.smoothing.remedies`. What is done for each is the same: see `infill.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, Unpack, overload
+from typing import TYPE_CHECKING, Literal, Unpack, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from infill.errors import ParameterError
 from infill.grid import spacing_of
@@ -128,7 +128,7 @@ def smooth_volume(
     if voxel is not None:
         if phase or used["method"] in ("range", "otsu"):
             scan = coarser(scan, voxel)
-            solid = replace(scan, values=_between(np.asarray(scan.values), used["low"], used.get("high")))
+            solid, _ = segment(scan, low=used["low"], high=used.get("high"))
         else:  # a mask: what share of a larger voxel is solid tells where in it the surface lies
             scan = coarser(solid, voxel)
             scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
@@ -137,11 +137,6 @@ def smooth_volume(
             raise ParameterError(f"voxel is {voxel:g} mm, and nothing of the solid fills half of one; give less")
     facts = {"source": "volume", "segmentation": used, "coarse": voxel is not None}
     return best_of(ways_of_scan(scan, solid, used, facts, request, grey=grey, phase=phase), request)
-
-
-def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
-    """Return which values lie between two ends; None is no end."""
-    return (values >= (-np.inf if low is None else low)) & (values <= (np.inf if high is None else high))
 
 
 def _volume(values: ArrayLike, spacing: float | tuple[float, ...], origin: tuple[float, ...]) -> Volume:

@@ -13,7 +13,13 @@ Floats = NDArray[np.float64]
 LOOKED = 500_000_000  # triangles looked at, at most, to tell which points are hidden: half a second
 
 
-def winding(points: NDArray[np.floating], surface: Surface, *, threads: int | None = None) -> NDArray[np.int64]:
+def winding(
+    points: NDArray[np.floating],
+    surface: Surface,
+    *,
+    sign: NDArray[np.int64] | None = None,
+    threads: int | None = None,
+) -> NDArray[np.int64]:
     """Return how often a surface winds around each point, (N,).
 
     Parameters
@@ -21,6 +27,8 @@ def winding(points: NDArray[np.floating], surface: Surface, *, threads: int | No
     points : (N, 3) float, mm
     surface : Surface, mm
         Closed: for an open one, the number is right where no hole lies straight above a point.
+    sign : (F,) int64, optional
+        -1 for a face that counts as if it were turned, else 1.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
@@ -36,7 +44,8 @@ def winding(points: NDArray[np.floating], surface: Surface, *, threads: int | No
         return found
     corners = np.ascontiguousarray(np.asarray(surface.vertices, dtype=np.float64)[surface.faces])
     given = np.ascontiguousarray(points, dtype=np.float64)
-    in_threads(wind, given, corners, np.ones(len(corners), dtype=np.int64), found, threads=thread_count(threads))
+    sign = np.ones(len(corners), dtype=np.int64) if sign is None else sign
+    in_threads(wind, given, corners, sign, found, threads=thread_count(threads))
     return found
 
 

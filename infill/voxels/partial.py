@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from infill.kernels.threads import in_threads, thread_count
 from infill.ragged import spread
 from infill.surface import Surface
+from infill.surfaces.winding import winding
 from infill.volume import Volume
 from infill.voxels.scanlines import crossings
 
@@ -57,18 +58,13 @@ class Enclosed:
 
         Below 0 is inwards. If the points are very many, some are looked at, and those after them taken to be alike.
         """
-        from infill.kernels.distances import wind
-
         if len(points) == 0:
             return np.zeros(0, dtype=bool)
-        corners = np.ascontiguousarray(np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces])
-        beside = points + cells / BESIDE * (corners.mean(axis=1) - self.beside)[faces]
-        step = -(-len(points) * len(corners) // LOOKED)
-        winding = np.zeros(len(beside[::step]), dtype=np.int64)
-        in_threads(
-            wind, np.ascontiguousarray(beside[::step]), corners, self.sign, winding, threads=thread_count(threads)
-        )
-        return np.repeat(winding != 0, step)[: len(points)]
+        middle = np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces[faces]].mean(axis=1)
+        beside = points + cells / BESIDE * (middle - self.beside[faces])
+        step = -(-len(points) * len(mesh.faces) // LOOKED)
+        found = winding(beside[::step], mesh, sign=self.sign, threads=threads)
+        return np.repeat(found != 0, step)[: len(points)]
 
     @property
     def total(self) -> float:
@@ -182,10 +178,10 @@ def _excess(mesh: Surface, sign: NDArray[np.integer], inside: Volume) -> tuple[F
     found = crossings(points * (rows, rows, 1) - 0.5, mesh.faces, (nx * rows, ny * rows, nz))
     order = np.lexsort((found.depth, found.row))
     row, depth = found.row[order].astype(np.int64), found.depth[order].astype(np.float64)
-    winding = np.cumsum(found.sign[order] * sign[found.face[order]])  # 0 again at the end of every row
-    often = np.flatnonzero((row[:-1] == row[1:]) & (winding[:-1] != 0) & (winding[:-1] != 1))
+    wound = np.cumsum(found.sign[order] * sign[found.face[order]])  # 0 again at the end of every row
+    often = np.flatnonzero((row[:-1] == row[1:]) & (wound[:-1] != 0) & (wound[:-1] != 1))
     long = depth[often + 1] - depth[often]
-    amount = long * (winding[often] - 1) * size**3 / rows**2
+    amount = long * (wound[often] - 1) * size**3 / rows**2
     # In pieces of a cell, so that each is counted where it lies.
     pieces = np.maximum(1, np.ceil(long)).astype(np.int64)
     places, shares = [], []

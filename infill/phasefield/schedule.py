@@ -1,0 +1,92 @@
+"""Which steps of a run with momentum go into the three filters of refining, and with what weight.
+
+See `infill.phasefield.refining` for the scheme and the polynomials T_k.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import ParameterError
+
+# The steps at which a snapshot is taken, in quarters of `Smoothing.steps`, and which of them go into the mild, the
+# middle and the strong filter: two snapshots cancel x, three cancel x² as well. Filters share snapshots, and all of
+# them share one run.
+QUARTERS = (1, 2, 3, 5, 7, 13)
+FILTERS = ((0, 1), (2, 3, 4), (4, 5))
+MOMENTUM = 0.5  # after half of `Smoothing.steps`: for long waves, a step then counts 1 / (1 - 1/2), twice as much
+FEWEST = 4  # steps: with fewer, two of the six would coincide
+
+
+@dataclass(frozen=True, kw_only=True)
+class Schedule:
+    """How many steps are done, which of them are kept, and for what.
+
+    Parameters
+    ----------
+    plain : int
+        Steps without momentum.
+    weights : per filter, dict of int to float
+        The share of the field after each number of steps.
+    """
+
+    plain: int
+    weights: tuple[dict[int, float], ...]
+
+    @classmethod
+    def of(cls, steps: int) -> Schedule:
+        """Return the schedule that corresponds to a number of plain steps.
+
+        Raises
+        ------
+        ParameterError
+            If there are fewer than 4 steps.
+
+        >>> schedule = Schedule.of(20)
+        >>> schedule.last, [list(weights) for weights in schedule.weights]
+        (65, [[5, 10], [15, 25, 35], [35, 65]])
+        >>> [round(weight, 4) for weight in schedule.weights[0].values()]
+        [2.0, -1.0]
+        """
+        if steps < FEWEST:
+            raise ParameterError(f"refining was given {steps} steps; it takes at least {FEWEST}, and 20 as a rule")
+        kept = [int(steps * quarters / 4 + 0.5) for quarters in QUARTERS]
+        shares = _shares(kept[-1], kept[1], max(len(each) for each in FILTERS))
+        return cls(
+            plain=kept[1],
+            weights=tuple(_flat({kept[n]: shares[kept[n], : len(each)] for n in each}) for each in FILTERS),
+        )
+
+    @property
+    def last(self) -> int:
+        """Total number of steps."""
+        return max(max(weights) for weights in self.weights)
+
+    def momentum(self, step: int) -> float:
+        """Return b of a step, counting from 0."""
+        return 0.0 if step < self.plain else MOMENTUM
+
+
+def _shares(steps: int, plain: int, powers: int) -> NDArray[np.float64]:
+    """Return the lowest coefficients of T_0, T_1, ... in powers of x."""
+    share = np.zeros((steps + 1, powers))
+    share[0, 0] = 1
+    before = share[0]
+    for k in range(steps):
+        now, damped = share[k], np.append(0, share[k, :-1])
+        share[k + 1] = now - damped + (0 if k < plain else MOMENTUM) * (now - before)
+        before = now
+    return share
+
+
+def _flat(shares: dict[int, NDArray[np.float64]]) -> dict[int, float]:
+    """Return the weights for which the sum of polynomials is 1 + O(x^n), n being their number."""
+    powers = np.stack(list(shares.values()), axis=1)
+    size = np.abs(powers).max(axis=1)
+    wanted = np.zeros(len(powers))
+    wanted[0] = 1
+    solution = np.linalg.solve(powers / size[:, None], wanted / size)
+    return dict(zip(shares, solution.tolist(), strict=True))
