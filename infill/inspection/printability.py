@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
 from infill.formats.units import STATED, guess_unit
-from infill.inspection.intersections import self_intersections
 from infill.surface import Edges, Surface
+from infill.surfaces.intersections import self_intersections
 from infill.surfaces.merging import closed_or_merged, merged, surface_of
 from infill.surfaces.shells import vertex_components
 

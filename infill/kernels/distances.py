@@ -146,7 +146,7 @@ def _to_box(x, y, z, low, high):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def nearest_triangles(points, corners, low, high, leaf, squared, face, thread, threads):
+def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, thread, threads):
     """Find the triangle nearest to every `threads`-th point.
 
     Parameters
@@ -158,16 +158,19 @@ def nearest_triangles(points, corners, low, high, leaf, squared, face, thread, t
         Boxes of the tree: the children of box n are 2 n + 1 and 2 n + 2, the last L are leaves.
     leaf : int
         Triangles in a leaf.
+    enough : float
+        A squared distance: the first triangle that is no further away than this may stand for the nearest.
     squared : (N,) float64, face : (N,) int64
         What is found.
     """
     first = (len(low) - 1) // 2
     stack, near = np.empty(64, dtype=np.int64), np.empty(64)
+    found = 0  # what was nearest to the point before is a good guess: points that follow one another are often near
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
-        best, found = math.inf, 0
+        best = squared_distance(x, y, z, corners[found, 0], corners[found, 1], corners[found, 2])
         stack[0], near[0], count = 0, 0.0, 1
-        while count > 0:
+        while count > 0 and best > enough:
             count -= 1
             if near[count] >= best:
                 continue

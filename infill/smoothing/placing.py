@@ -12,9 +12,10 @@ from infill.errors import GeometryError
 from infill.machine import require_memory
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
+from infill.surfaces.collapsing import collapsed
 from infill.surfaces.components import shell_names
 from infill.surfaces.distance import distances
-from infill.surfaces.simplification import lean, simplified, with_volume
+from infill.surfaces.simplification import simplified, with_volume
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
@@ -44,8 +45,8 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
         return full, None
     assert not isinstance(request.tolerance, str)  # it is a number by now
     if request.lenient and request.tolerance is not None:
-        fewer = lean(full, request.tolerance, threads=request.threads)
-        if fewer is full:
+        fewer = collapsed(full, tolerance=request.tolerance, threads=request.threads)
+        if fewer is None or fewer is full:
             return full, None
     else:
         fewer = simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads)

@@ -89,7 +89,7 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
     result, told = delivered(best)
     refused = told.losses if not request.strict else (*told.losses, *told.problems)
     if refused and not request.allow_broken:
-        raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(request)}")
+        raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(best)}")
     verdict = {**result.report["verdict"], "tried": tried, "taken": taken}
     return replace(result, report={**result.report, "verdict": verdict})
 
@@ -99,7 +99,11 @@ def _after(others: list[str]) -> str:
     return f" (tried in vain: {', '.join(others)})" if others else ""
 
 
-def _advice(request: Request) -> str:
+def _advice(best: Attempt) -> str:
+    """Return what to do about what is lost; simplification comes after all that was tried."""
+    request = best.request
+    if not best.told.losses and (request.tolerance is not None or request.max_triangles is not None):
+        return "give a smaller --tolerance or more --max-triangles, or --allow-broken to have it anyway"
     if request.strict:
         return "leave out --strict, so that remedies are tried, or give finer voxels or fewer steps"
     return "give finer voxels or fewer steps, or --allow-broken to have it anyway"

@@ -56,8 +56,13 @@ class Tree:
             highs.insert(0, highs[0].reshape(-1, 2, 3).max(axis=1))
         return cls(corners=corners, low=np.concatenate(lows), high=np.concatenate(highs), order=order)
 
-    def nearest(self, points: NDArray[np.floating], *, threads: int | None = None) -> tuple[Floats, NDArray[np.int64]]:
-        """Return the distance of each point (N, 3) from the nearest triangle, (N,) mm, and the face it belongs to."""
+    def nearest(
+        self, points: NDArray[np.floating], *, enough: float = 0.0, threads: int | None = None
+    ) -> tuple[Floats, NDArray[np.int64]]:
+        """Return the distance of each point (N, 3) from the nearest triangle, (N,) mm, and the face it belongs to.
+
+        Of triangles that are no further away than `enough`, mm, any may be taken, which is several times faster.
+        """
         from infill.kernels.distances import nearest_triangles
 
         squared, face = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
@@ -69,6 +74,7 @@ class Tree:
             self.low,
             self.high,
             LEAF,
+            enough**2,
             squared,
             face,
             threads=thread_count(threads),

@@ -15,7 +15,12 @@ GROWTH = 1.5
 
 
 def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> int:
-    """Return how many pairs of triangles pass through each other.
+    """Return how many pairs of triangles pass through each other: see `intersecting`."""
+    return len(intersecting(vertices, faces))
+
+
+def intersecting(vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> NDArray[np.int64]:
+    """Return the pairs of triangles that pass through each other, (N, 2).
 
     Parameters
     ----------
@@ -30,12 +35,13 @@ def self_intersections(vertices: NDArray[np.floating], faces: NDArray[np.integer
     corners = vertices[faces].astype(np.float64)
     corners -= corners.reshape(-1, 3).mean(axis=0)
     low, high = corners.min(axis=1), corners.max(axis=1)
-    found = 0
+    found = [np.empty((0, 2), dtype=np.int64)]
     for one, other in _candidates(low, high):
         shared = (faces[one][:, :, None] == faces[other][:, None, :]).any(axis=(1, 2))
         one, other = one[~shared], other[~shared]
-        found += int((_pierces(corners[one], corners[other]) | _pierces(corners[other], corners[one])).sum())
-    return found
+        through = _pierces(corners[one], corners[other]) | _pierces(corners[other], corners[one])
+        found.append(np.stack([one[through], other[through]], axis=1))
+    return np.concatenate(found)
 
 
 def _candidates(

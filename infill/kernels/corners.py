@@ -1,0 +1,151 @@
+"""A closed mesh as a table of corners, and one edge of it collapsed.
+
+Corner c = 3 f + k is also the edge of face f from its k-th corner to the next, `start[c]` the vertex there, `twin[c]`
+the same edge of the neighbour, in the opposite direction, and `leaving[v]` one corner of each vertex (Rossignac 2001).
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201, ANN202
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import numpy as np
+
+from infill.kernels.compiling import njit
+
+MOST = 48  # corners at a vertex: nothing is collapsed into one that would have more
+NONE = -1
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def following(corner):
+    """Return the next corner of the same face."""
+    return corner - 2 if corner % 3 == 2 else corner + 1
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def preceding(corner):
+    """Return the previous corner of the same face."""
+    return corner + 2 if corner % 3 == 0 else corner - 1
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def pair(start, count, twin):
+    """Set the twin of each corner; return whether every edge has exactly one.
+
+    Parameters
+    ----------
+    start : (3 F,) int32
+        The vertex of each corner.
+    count : int
+        Vertices.
+    twin : (3 F,) int32
+    """
+    first = np.zeros(count + 1, dtype=np.int64)
+    for c in range(len(start)):
+        first[start[c] + 1] += 1
+    for v in range(count):
+        first[v + 1] += first[v]
+    leaving, filled = np.empty(len(start), dtype=np.int32), first[:-1].copy()
+    for c in range(len(start)):
+        leaving[filled[start[c]]] = c
+        filled[start[c]] += 1
+    for c in range(len(start)):
+        a, b = start[c], start[following(c)]
+        if a == b:
+            return False
+        found = -1
+        for at in range(first[b], first[b + 1]):
+            if start[following(leaving[at])] == a:
+                if found >= 0:
+                    return False
+                found = leaving[at]
+        if found < 0:
+            return False
+        twin[c] = found
+    return True
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def part_fans(start, twin, count, name):
+    """Give each fan of faces around a vertex that has several a vertex of its own; return how many vertices there are.
+
+    Parameters
+    ----------
+    start, twin : (3 F,) int32
+    count : int
+        Vertices.
+    name : (3 F,) int32
+        Is set to the vertex of which each vertex is a copy; there are never more vertices than corners.
+    """
+    seen, known = np.zeros(len(start), dtype=np.bool_), np.zeros(count, dtype=np.bool_)
+    for v in range(count):
+        name[v] = v
+    total = count
+    for c in range(len(start)):
+        if seen[c]:
+            continue
+        v = start[c]
+        own = v
+        if known[v]:
+            own, name[total], total = total, v, total + 1
+        known[v] = True
+        at = c
+        while not seen[at]:
+            seen[at] = True
+            start[at] = own
+            at = twin[preceding(at)]
+    return total
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def corners_of(vertex, twin, leaving, ring):
+    """Set the corners of a vertex; return how many there are, or -1 if they are too many."""
+    at, count = leaving[vertex], 0
+    while True:
+        if count == MOST:
+            return -1
+        ring[count] = at
+        count += 1
+        at = twin[preceding(at)]
+        if at == leaving[vertex]:
+            return count
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _has_three(vertex, twin, leaving):
+    """Return whether a vertex has no more than three faces."""
+    at = leaving[vertex]
+    for _ in range(3):
+        at = twin[preceding(at)]
+    return at == leaving[vertex]
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def linked(c, start, twin, leaving, name, ring, many, other, others, marked, step):
+    """Return whether the ends of an edge have only the corners opposite to it as common neighbours, and more faces."""
+    for n in range(many):
+        marked[name[start[following(ring[n])]]] = step
+    common = 0
+    for n in range(others):
+        common += marked[name[start[following(other[n])]]] == step
+    if common != 2:
+        return False
+    opposite, beyond = start[preceding(c)], start[preceding(twin[c])]
+    return not _has_three(opposite, twin, leaving) and not _has_three(beyond, twin, leaving)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def join(c, start, twin, leaving, other, others):
+    """Collapse an edge in the table: its end becomes its start, two faces are gone, and their other edges are twins."""
+    u, d = start[c], twin[c]
+    for n in range(others):
+        start[other[n]] = u
+    for n in range(2):
+        at = c if n == 0 else d
+        one, two = twin[following(at)], twin[preceding(at)]
+        twin[one], twin[two] = two, one
+        leaving[start[one]], leaving[start[two]] = one, two
+    for n in range(2):
+        f = 3 * ((c if n == 0 else d) // 3)
+        start[f], start[f + 1], start[f + 2] = NONE, NONE, NONE

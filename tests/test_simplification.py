@@ -1,0 +1,234 @@
+"""Fewer triangles: the mesh stays closed and connected as it was, keeps its volume, and stays within the tolerance."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from shapes import assert_printable
+from skimage.measure import marching_cubes
+
+from infill.errors import GeometryError, ParameterError
+from infill.surface import Surface
+from infill.surfaces.collapsing import Table, collapsed
+from infill.surfaces.distance import Tree
+from infill.surfaces.intersections import self_intersections
+from infill.surfaces.mending import mended, spread
+from infill.surfaces.simplification import simplified
+
+DRIFT = 0.05  # of the tolerance: how far the surface may have moved outwards or inwards on average
+PER_TRIANGLE = 25  # places at which a triangle's distance is measured
+
+
+def surface_of(mesh: trimesh.Trimesh) -> Surface:
+    return Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
+
+
+def isosurface(field: NDArray[np.floating]) -> Surface:
+    """The surface at 0 of a field that is negative inside, with small and slender triangles, as scans have them."""
+    vertices, faces, _, _ = marching_cubes(np.pad(field, 1, constant_values=1.0), 0.0)
+    return surface_of(trimesh.Trimesh(vertices, faces, process=True))
+
+
+def grid(cells: int) -> NDArray[np.float64]:
+    return np.stack(np.meshgrid(*[np.linspace(-1, 1, cells)] * 3, indexing="ij"))
+
+
+def made(name: str, cells: int = 40) -> Surface:
+    """Return a shape with flat, round, sharp or thin places, of about `cells` triangles across."""
+    x, y, z = grid(cells)
+    shapes = {
+        "ball": lambda: x * x + y * y + z * z - 0.6,
+        "torus": lambda: (np.hypot(x, y) - 0.6) ** 2 + z * z - 0.06,
+        "box with a hole": lambda: np.maximum(
+            np.maximum(np.maximum(abs(x), abs(y)), abs(z)) - 0.71, 0.33 - np.hypot(x, z)
+        ),
+        "gyroid": lambda: np.sin(4 * x) * np.cos(4 * y) + np.sin(4 * y) * np.cos(4 * z) + np.sin(4 * z) * np.cos(4 * x),
+        "shell": lambda: abs(np.sqrt(x * x + y * y + z * z) - 0.7) - 0.12,
+        "two balls": lambda: np.minimum(np.hypot(np.hypot(x - 0.45, y), z), np.hypot(np.hypot(x + 0.45, y), z)) - 0.4,
+        "plate": lambda: np.maximum(np.maximum(abs(x), abs(y)) - 0.8, abs(z) - 0.083),
+        "noise": lambda: np.cos(9 * x + 2 * np.sin(7 * y)) + np.cos(8 * y - z) + np.cos(7 * z + x) - 0.4,
+    }
+    return isosurface(shapes[name]())
+
+
+SHAPES = ["ball", "torus", "box with a hole", "gyroid", "shell", "two balls", "plate", "noise"]
+
+
+def spread_at_random(surface: Surface, count: int, seed: int) -> NDArray[np.float64]:
+    """Points all over a surface, by shares that are drawn: not the places that the code under test looks at."""
+    shares = np.random.default_rng(seed).dirichlet([1, 1, 1], (len(surface.faces), count))
+    corners = np.asarray(surface.vertices)[surface.faces]
+    return np.concatenate([np.einsum("fpk,fkc->fpc", shares, corners).reshape(-1, 3), np.asarray(surface.vertices)])
+
+
+def farthest(one: Surface, other: Surface, count: int = PER_TRIANGLE) -> float:
+    """The largest distance of one surface from the other, at places that are drawn."""
+    return float(Tree.of(other).nearest(spread_at_random(one, count, 1))[0].max())
+
+
+def components(surface: Surface) -> int:
+    return len(trimesh.Trimesh(surface.vertices, surface.faces, process=False).split(only_watertight=False))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("tolerance", [0.02, 0.1, 0.4])
+def test_a_simplified_surface_is_closed_near_and_as_connected_and_large_as_before(shape: str, tolerance: float) -> None:
+    surface = made(shape, 24)
+    found = simplified(surface, tolerance=tolerance)
+    assert len(found.faces) < len(surface.faces)
+    assert found.closed
+    assert found.euler_number == surface.euler_number
+    assert components(found) == components(surface)
+    assert abs(found.volume - surface.volume) <= DRIFT * tolerance * surface.area
+    assert self_intersections(np.asarray(found.vertices), found.faces) == 0
+    assert farthest(found, surface) <= tolerance
+    assert farthest(surface, found, 3) <= tolerance
+    assert_printable(trimesh.Trimesh(found.vertices, found.faces, process=False))
+
+
+@settings(max_examples=12)
+@given(
+    waves=st.tuples(*[st.floats(3, 9)] * 3),
+    phases=st.tuples(*[st.floats(0, 6)] * 3),
+    level=st.floats(-0.6, 0.6),
+    tolerance=st.floats(0.03, 0.5),
+    unit=st.sampled_from([1e-3, 1.0, 25.4]),
+)
+def test_the_laws_hold_for_any_solid_tolerance_and_unit(
+    waves: tuple[float, ...], phases: tuple[float, ...], level: float, tolerance: float, unit: float
+) -> None:
+    x, y, z = (w * axis + p for w, p, axis in zip(waves, phases, grid(18), strict=True))
+    surface = isosurface(np.cos(x) + np.cos(y + np.sin(z)) + np.cos(z) - level)
+    surface = Surface(vertices=surface.vertices * unit + 100 * unit, faces=surface.faces)
+    found = simplified(surface, tolerance=tolerance * unit)
+    assert found.closed
+    assert found.euler_number == surface.euler_number
+    assert abs(found.volume - surface.volume) <= DRIFT * tolerance * unit * surface.area
+    assert farthest(found, surface) <= tolerance * unit
+    assert farthest(surface, found, 3) <= tolerance * unit
+
+
+def test_flat_faces_become_as_few_triangles_as_they_need() -> None:
+    box = trimesh.creation.box((3, 2, 1)).subdivide().subdivide().subdivide()
+    surface = surface_of(box)
+    assert len(surface.faces) == 768
+    found = simplified(surface, tolerance=1e-4)
+    assert len(found.faces) == 12
+    assert found.volume == pytest.approx(6, rel=1e-12)
+    np.testing.assert_allclose(found.bounds, [[-1.5, -1, -0.5], [1.5, 1, 0.5]], atol=1e-4)
+
+
+def test_ten_times_fewer_triangles_on_a_smooth_ring() -> None:
+    surface = made("torus", 80)
+    found = simplified(surface, tolerance=0.1)
+    assert len(found.faces) * 10 <= len(surface.faces)
+
+
+def test_the_number_of_triangles_asked_for_is_kept() -> None:
+    surface = made("gyroid")
+    for count in (2000, 501):
+        found = simplified(surface, triangles=count)
+        assert count - 2 < len(found.faces) <= count
+        assert found.closed
+        assert found.euler_number == surface.euler_number
+        assert found.volume == pytest.approx(surface.volume, rel=1e-3)
+    both = simplified(surface, triangles=len(simplified(surface, tolerance=0.3).faces) + 20, tolerance=0.3)
+    assert farthest(both, surface) <= 0.3
+    with pytest.raises(GeometryError, match=r"only to [\d,]+; allow more"):
+        simplified(surface, triangles=4)
+    with pytest.raises(GeometryError, match=r"at most 100 triangles and 0\.01 mm of leeway, only to"):
+        simplified(surface, triangles=100, tolerance=0.01)
+
+
+@pytest.mark.parametrize("wrong", [{"tolerance": 0.0}, {"tolerance": math.nan}, {"triangles": 3}])
+def test_what_makes_no_sense_is_an_error(wrong: dict[str, float]) -> None:
+    with pytest.raises(ParameterError, match=r"tolerance is|triangles is"):
+        simplified(made("ball", 12), **wrong)  # type: ignore[arg-type]
+
+
+def test_a_spike_higher_than_the_tolerance_stays() -> None:
+    ball = trimesh.creation.icosphere(4, 10)
+    vertices = np.array(ball.vertices)
+    top = int(vertices[:, 2].argmax())
+    vertices[top] *= 1.08
+    surface = Surface(vertices=vertices, faces=np.asarray(ball.faces))
+    found = simplified(surface, tolerance=0.2)
+    assert np.linalg.norm(np.asarray(found.vertices) - vertices[top], axis=1).min() <= 0.2
+    assert len(found.faces) < len(surface.faces) / 2
+
+
+def test_solids_that_touch_at_a_vertex_still_do() -> None:
+    box = trimesh.creation.box((1, 1, 1)).subdivide().subdivide()
+    one, other = np.array(box.vertices), np.array(box.vertices) + 1.0
+    both = trimesh.Trimesh(np.concatenate([one, other]), np.concatenate([box.faces, box.faces + len(one)]))
+    surface = surface_of(both)  # merged where they touch
+    assert len(surface.vertices) == 2 * len(one) - 1
+    table = Table.of(surface)
+    assert table is not None
+    assert table.fixed.sum() == 2
+    found = simplified(surface, tolerance=1e-3)
+    assert found.closed
+    assert found.volume == pytest.approx(2)
+    assert len(found.faces) < 40
+    assert (np.abs(np.asarray(found.vertices) - 0.5).max(axis=1) < 1e-9).sum() == 1
+
+
+def test_what_is_not_closed_or_shares_an_edge_four_times_is_refused() -> None:
+    box = surface_of(trimesh.creation.box((1, 1, 1)))
+    for faces in (box.faces[1:], np.concatenate([box.faces, box.faces[:1, ::-1], box.faces[:1]])):
+        broken = Surface(vertices=box.vertices, faces=faces)
+        assert collapsed(broken, tolerance=0.1) is None
+        with pytest.raises(GeometryError, match="not every edge is shared by exactly two triangles"):
+            simplified(broken, tolerance=0.1)
+
+
+@pytest.mark.parametrize("far", [0.3, -0.3])
+def test_a_surface_that_strays_is_bent_back(far: float) -> None:
+    ball = trimesh.creation.icosphere(4, 10)
+    surface = surface_of(ball)
+    coarse = surface_of(trimesh.creation.icosphere(3, 10))
+    strayed = np.array(coarse.vertices)
+    strayed[::37] *= 1 + far / 10
+    found = Surface(vertices=strayed, faces=coarse.faces)
+    assert farthest(found, surface) > 0.25
+    back, left = mended(found, surface, 0.15)
+    assert not len(left)
+    assert back.closed
+    assert farthest(back, surface) <= 0.16
+    assert farthest(surface, back, 3) <= 0.16
+
+
+def test_places_are_spread_over_triangles_evenly_and_none_is_beside_them() -> None:
+    surface = Surface(vertices=np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), faces=np.array([[0, 1, 2]]))
+    for parts in range(1, 6):
+        places, face = spread(surface, 10.0, least=parts)
+        assert len(np.unique(places.round(9), axis=0)) == len(places) == len(face) == (parts + 1) * (parts + 2) // 2
+        assert places.min() >= -1e-12
+        assert places[:, :2].sum(axis=1).max() <= 1 + 1e-12
+        np.testing.assert_allclose(places.mean(axis=0), [1 / 3, 1 / 3, 0], atol=1e-12)
+
+
+def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near_enough() -> None:
+    surface = made("noise", 16)
+    points = np.random.default_rng(3).uniform(-2, 18, (500, 3))
+    tree = Tree.of(surface)
+    away, face = tree.nearest(points)
+    everywhere = np.repeat(np.asarray(surface.vertices)[surface.faces][None], 40, axis=0).reshape(-1, 3, 3)
+    each = np.repeat(points[:40], len(surface.faces), axis=0)
+    exact = np.linalg.norm(trimesh.triangles.closest_point(everywhere, each) - each, axis=1)
+    np.testing.assert_allclose(away[:40], exact.reshape(40, -1).min(axis=1), atol=1e-9)
+    np.testing.assert_allclose(tree.nearest(points[::-1])[0][::-1], away, atol=1e-12)
+    corners = np.asarray(surface.vertices)[surface.faces[face]]
+    np.testing.assert_allclose(
+        np.linalg.norm(trimesh.triangles.closest_point(corners, points) - points, axis=1), away, atol=1e-9
+    )
+    near = tree.nearest(points, enough=1.0)[0]
+    assert (near >= away - 1e-12).all()
+    np.testing.assert_array_equal(near <= 1.0, away <= 1.0)
+    np.testing.assert_allclose(near[near > 1.0], away[near > 1.0], atol=1e-12)
