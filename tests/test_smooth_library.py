@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import trimesh
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -553,6 +554,27 @@ def test_simplifying_keeps_the_space_and_what_it_cannot_do_is_told() -> None:
     assert rough.report["mesh"]["simplified"]["volume_change"] < -0.1
 
 
+def test_points_of_a_groove_that_is_filled_are_lost_and_strays_are_told() -> None:
+    box, slot = trimesh.creation.box((20, 20, 10)), trimesh.creation.box((1, 30, 5))
+    slot.apply_translation((0, 0, 3.5))
+    points = np.asarray(trimesh.sample.sample_surface(trimesh.boolean.difference([box, slot]), 8000, seed=1)[0])
+    with pytest.raises(GeometryError, match=r"of 8,000 points lie over 2 voxels from the surface, up to .*--shell"):
+        smooth_points(points, voxel=0.4)
+    filled = smooth_points(points, voxel=0.4, allow_broken=True).report
+    assert filled["verdict"]["word"] == "lost"
+    assert filled["distance"]["points"]["lost"] > 500
+    assert filled["distance"]["points"]["max"] == pytest.approx(4.0, abs=0.5)
+    assert any("8,000 points" in problem for problem in filled["problems"])
+    ball = trimesh.creation.icosphere(5, 10).vertices
+    clean = smooth_points(ball, voxel=0.5).report
+    assert clean["verdict"]["word"] == "kept"
+    assert clean["distance"]["points"]["far"] == 0
+    assert clean["distance"]["points"]["p95"] < 0.1
+    stray = smooth_points(np.concatenate([ball, [[0.0, 0, 0], [3, 0, 0]]]), voxel=0.5).report
+    assert (stray["distance"]["points"]["far"], stray["distance"]["points"]["lost"]) == (2, 0)
+    assert stray["verdict"]["word"] == "changed a little"
+
+
 # --- errors ----------------------------------------------------------------------------------------------
 
 
@@ -652,14 +674,10 @@ def test_too_little_memory_is_told_before_the_work() -> None:
 
 
 def sphere(subdivisions: int = 4) -> Any:
-    import trimesh
-
     return trimesh.creation.icosphere(subdivisions=subdivisions, radius=10.0)
 
 
 def test_a_mesh_comes_back_in_its_place() -> None:
-    import trimesh
-
     mesh = sphere()
     mesh.apply_translation([5, -100, 30])
     result = smooth_mesh(mesh, resolution=60)

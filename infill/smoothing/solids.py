@@ -18,6 +18,7 @@ from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, by_components
+from infill.smoothing.clouds import compared_with_points
 from infill.smoothing.meshes import MARGIN, ways_of_mesh
 from infill.smoothing.remedies import best_of
 from infill.smoothing.request import Options, Request
@@ -213,6 +214,12 @@ def smooth_points(
         the points enclose.
     **options
         See `smooth_volume`.
+
+    Raises
+    ------
+    GeometryError
+        If the solid leaves out points with all their neighbours: of a groove, say, that is too narrow for points this
+        far apart. Otherwise as `smooth_volume`.
     """
     cloud, request = np.asarray(points, dtype=np.float64), Request(**options)
     solid = voxelise_points(
@@ -225,4 +232,5 @@ def smooth_points(
     )
     facts = {"source": "points", "points": len(cloud), "shell": shell}
     used = {"method": "points"}
-    return best_of(ways_of_scan(solid, solid, used, facts, request, grey=False, phase=False), request)
+    result = best_of(ways_of_scan(solid, solid, used, facts, request, grey=False, phase=False), request)
+    return compared_with_points(result, cloud, voxel, request) if shell is None else result

@@ -1,0 +1,73 @@
+"""A result compared with the points it was made from: what the shell around them filled, its voxels do not know."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from infill.errors import GeometryError
+from infill.inspection.fidelity import LOST
+from infill.surfaces.distance import distances
+
+if TYPE_CHECKING:
+    from infill.result import Result
+    from infill.smoothing.request import Request
+    from infill.smoothing.stages import SmoothStages
+
+NEIGHBOURS = 6  # of a point on a surface: if all of them are as far away as it is, it is no outlier
+
+
+def compared_with_points(
+    result: Result[SmoothStages], cloud: NDArray[np.float64], voxel: float, request: Request
+) -> Result[SmoothStages]:
+    """Return the result with a report on how far the points lie from its surface, and a verdict that knows it.
+
+    Parameters
+    ----------
+    result : Result
+        Whose surface should run through the points.
+    cloud : (N, 3) float64, mm
+    voxel : float, mm
+        Points further than two of these from the surface are told; they are lost if all their neighbours are as well.
+    request : Request
+
+    Raises
+    ------
+    GeometryError
+        If points are lost, unless broken results are allowed.
+    """
+    away = distances(cloud, result.surface, threads=request.threads)
+    far = np.flatnonzero(away > LOST * voxel)
+    facts = {
+        "mean": float(away.mean()),
+        "rms": float(np.sqrt((away**2).mean())),
+        "p95": float(np.quantile(away, 0.95)),
+        "max": float(away.max()),
+        "at": cloud[int(away.argmax())].tolist(),
+        "far": len(far),
+        "lost": 0,
+    }
+    verdict = dict(result.report["verdict"])
+    if len(far):
+        _, near = cKDTree(cloud).query(cloud[far], k=min(NEIGHBOURS + 1, len(cloud)))
+        lost = (away[near] > LOST * voxel).all(axis=1)
+        facts["lost"] = int(lost.sum())
+        said = (
+            f"{len(far):,} of {len(cloud):,} points lie over {LOST:g} voxels from the surface, up to "
+            f"{facts['max']:.3g} mm, at ({', '.join(f'{part:.4g}' for part in facts['at'])})"
+        )
+        if lost.any() and not request.allow_broken:
+            raise GeometryError(
+                f"{said}: what they lie on is too narrow for points this far apart; give more points, --shell for a "
+                "narrow volume around them, or --allow-broken to have it anyway"
+            )
+        word = "lost" if lost.any() or verdict["word"] == "lost" else "changed a little"
+        verdict |= {"word": word, "changes": [*verdict["changes"], said]}
+    report = {**result.report, "verdict": verdict, "distance": {**result.report["distance"], "points": facts}}
+    if facts["lost"]:
+        report["problems"] = [*report["problems"], said]
+    return replace(result, report=report)
