@@ -167,8 +167,8 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         Of the mesh as it was given, its vertices first, then points along edges; none at all if nothing has to be near.
     corner : (P,) int32
         The corner of each vertex, and the edge on which each of the others lies.
-    near : (P,) float64
-        Squares of how far each point, and what is nearest to it, may be from the mesh.
+    near : float
+        The square of how far the mesh may be from these points, and from what lies around them.
     bound : float
         No collapse whose mean squared distance from the planes it replaces is larger is done; may be infinite.
     fewest : int
@@ -186,7 +186,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
     for c in range(len(start)):
         edge += squared_length(vertices[start[c]], vertices[start[following(c)]])
     edge /= max(1, len(start))
-    apart = min(APART * edge, WIDE * bound)
+    apart = min(APART * edge, WIDE * near)
     queue, ends = np.full((len(start), 3), NONE, dtype=np.int32), np.full((BUCKETS, 2), NONE, dtype=np.int32)
     marked = np.full(name.max() + 1, NONE, dtype=np.int32)
     s, place = np.empty(11), np.empty(3)

@@ -68,8 +68,9 @@ def handed_on(first_point, next_point, points, near, moved, chosen, changed, goe
     ----------
     first_point, next_point : (F,) int32, (P,) int32
         The points of each face, as a chain.
-    points, near : (P, 3) float64, (P,) float64
-        And the square of how far each may be away.
+    points : (P, 3) float64
+    near : float
+        The square of how far they may be away.
     moved : (N, 3, 3) float64
         The faces as they will be.
     chosen : (N + 2,) int32
@@ -92,13 +93,13 @@ def handed_on(first_point, next_point, points, near, moved, chosen, changed, goe
             least, nearest = math.inf, NONE
             if own < changed:
                 least, nearest = squared_distance(x, y, z, moved[own, 0], moved[own, 1], moved[own, 2]), own
-            if least > KEPT * near[p]:
+            if least > KEPT * near:
                 for m in range(changed):
                     if m != own:
                         found = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
                         if found < least:
                             least, nearest = found, m
-            if least > near[p] or count == len(goes):
+            if least > near or count == len(goes):
                 return NONE
             goes[count], goes_to[count] = p, chosen[nearest]
             count += 1
@@ -124,7 +125,7 @@ def _at_point(x, y, z, point, bound, corner, was):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _near_given(x, y, z, points, near, goes, count, corner, was):
-    """Return a corner of a face, as it was given, that is near a place, and how near it has to be; -1 if there is none.
+    """Return a corner of a face, as it was given, that is near a place; -1 if there is none.
 
     Faces at the point that is nearest to the place are looked at first, then those at all others.
     """
@@ -134,13 +135,12 @@ def _near_given(x, y, z, points, near, goes, count, corner, was):
         found = (points[p, 0] - x) ** 2 + (points[p, 1] - y) ** 2 + (points[p, 2] - z) ** 2
         if found < least:
             least, nearest = found, p
-    bound = near[nearest]
-    at = _at_point(x, y, z, nearest, bound, corner, was)
+    at = _at_point(x, y, z, nearest, near, corner, was)
     n = 0
     while at == NONE and n < count:
-        at = _at_point(x, y, z, goes[n], bound, corner, was)
+        at = _at_point(x, y, z, goes[n], near, corner, was)
         n += 1
-    return at, bound
+    return at
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -151,7 +151,7 @@ def all_near(place, moved, changed, apart, points, near, goes, count, corner, wa
     corners as they were given (3 F, 3), their twins and one corner of each vertex; see `handed_on` for the others.
     """
     given = was[0]
-    middle, bound = _near_given(place[0], place[1], place[2], points, near, goes, count, corner, was)
+    middle = _near_given(place[0], place[1], place[2], points, near, goes, count, corner, was)
     if middle == NONE:
         return False
     for m in range(changed):
@@ -163,8 +163,8 @@ def all_near(place, moved, changed, apart, points, near, goes, count, corner, wa
             y = place[1] + share * (a[1] - place[1])
             z = place[2] + share * (a[2] - place[2])
             f = 3 * (at // 3)
-            if squared_distance(x, y, z, given[f], given[f + 1], given[f + 2]) > bound:
-                at, bound = _near_given(x, y, z, points, near, goes, count, corner, was)
+            if squared_distance(x, y, z, given[f], given[f + 1], given[f + 2]) > near:
+                at = _near_given(x, y, z, points, near, goes, count, corner, was)
                 if at == NONE:
                     return False
     return True

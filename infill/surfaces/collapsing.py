@@ -20,9 +20,8 @@ BENDS = 0.25  # of the tolerance: edges that rise higher above their neighbours 
 APART = 8.0  # tolerances between these points
 MOST = 16  # of them on an edge
 FIRST = 0.1  # of the tolerance, as a mean: as far as edges are collapsed without a look at how far what is left lies
-ATTEMPTS = 4
-NEARER = 0.04  # of the squared tolerance, around places at which an attempt went too far
-AROUND = 2.5  # sides of triangles
+ATTEMPTS = 3
+AROUND = 1.5  # sides of triangles: what stays as it is around a place that went too far, twice as much each time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -76,23 +75,22 @@ class Table:
             centre=centre,
         )
 
-    def without_edges(self, watched: tuple[Floats, Corners, Floats] | None, bound: float, triangles: int) -> Table:
+    def without_edges(self, bound: float, triangles: int, *, near: float | None = None) -> Table:
         """Return the table with edges collapsed, cheapest first.
 
         Parameters
         ----------
-        watched : (P, 3) float64, (P,) int32 and (P,) float64, optional
-            Points that have to stay near, where each lies, and the squares of how near.
         bound : float
             Of the mean squared distance from the planes of what is gone, mm².
         triangles : int
             Where to stop.
+        near : float, optional
+            How far the surface may move, mm: see `watched`. If left out, that is not looked at.
         """
         from infill.kernels.collapsing import collapse
         from infill.kernels.quadrics import add_planes
 
-        nothing = np.empty((0, 3)), np.empty(0, dtype=np.int32), np.empty(0)
-        points, corner, near = nothing if watched is None else watched
+        points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else self.watched(near)
         vertices, start, twin = self.vertices.copy(), self.start.copy(), self.twin.copy()
         quadric = np.zeros((len(vertices), 11))
         add_planes(vertices, start, quadric)
@@ -106,7 +104,7 @@ class Table:
             quadric,
             points,
             corner,
-            near,
+            0.0 if near is None else near**2,
             float(bound),
             triangles,
         )
@@ -173,20 +171,19 @@ def collapsed(
     over or becomes a sliver, and all points of what was given that lie on the triangles concerned stay within the
     tolerance of them, handed on from triangle to triangle as Klein et al. (1996) do, and the new edges within that of
     what lies around these points. Where the surface still goes too far between the points, it is given another vertex:
-    see `mended`; where that does not help, or triangles pass through each other, the tolerance is a fifth of it around
-    the place, and all is done again.
+    see `mended`; where that does not help, or triangles pass through each other, the surface stays as it is around the
+    place, and all is done again. First of all, small triangles go as far as their planes allow, by a tenth of the
+    tolerance, without a look at distances.
     """
     table = Table.of(surface)
     if table is None:
         return None
     if tolerance is None:
-        return table.without_edges(None, math.inf, triangles).placed_in(surface)
-    table = table.without_edges(None, (FIRST * tolerance) ** 2, triangles)
-    points, corner = table.watched(tolerance)
-    near = np.full(len(points), tolerance**2)
+        return table.without_edges(math.inf, triangles).placed_in(surface)
     aim = triangles
-    for _ in range(ATTEMPTS):
-        fewer = table.without_edges((points, corner, near), tolerance**2, aim)
+    for attempt in range(ATTEMPTS):
+        small = table.without_edges((FIRST * tolerance) ** 2, triangles)
+        fewer = small.without_edges(tolerance**2, aim, near=tolerance)
         found, far = mended(fewer.placed_in(surface), surface, tolerance, threads=threads)
         crossing = np.unique(intersecting(np.asarray(found.vertices), found.faces))
         places = np.concatenate([far, found.vertices[found.faces[crossing]].reshape(-1, 3)])
@@ -195,6 +192,7 @@ def collapsed(
             return found
         aim -= max(0, more)
         if len(places):
-            reach = AROUND * float(np.sqrt(surface.area / len(surface.faces)))
-            near[cKDTree(places - table.centre).query(points, distance_upper_bound=reach)[0] < np.inf] *= NEARER
+            reach = AROUND * 2**attempt * float(np.sqrt(surface.area / len(surface.faces)))
+            away, _ = cKDTree(places - table.centre).query(table.vertices, distance_upper_bound=reach)
+            table = replace(table, fixed=table.fixed | np.isfinite(away))
     return surface if len(far) else found

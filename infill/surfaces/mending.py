@@ -15,12 +15,15 @@ Whole = NDArray[np.int64]
 
 ROUNDS = 6
 DENSEST = 48  # places along the side of a triangle, at most
-FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far these places are from one another
+FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places on edges are from one another
+COARSER = 0.6  # of these sides: how far places on triangles are
 BESIDE = 0.15  # of a triangle: what is nearer to an edge is mended there
 CLOSE = 0.05, 0.005  # of a triangle: what is nearer to a corner is mended there, in the first rounds and in the others
 FIRST = 3  # rounds
-WITHIN = 6  # places along the side of a triangle of what is given, if its corners are near different triangles
-LEFT = 0.8  # of that: how far away what is mended is left, so that little else is bent; less in each round
+# Places along the side of a triangle of what is given, if its corners are near different triangles: more if the
+# tolerance is larger than this part of the side.
+WITHIN, LARGE = (4, 6), 0.3
+LEFT = 0.8  # of the tolerance: how far away what is mended is left, so that little else is bent; less in each round
 
 
 def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | None = None) -> tuple[Surface, Floats]:
@@ -45,7 +48,7 @@ def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | N
     points = np.asarray(given.vertices, dtype=np.float64)
     _, owner = Tree.of(found).nearest(points, enough=tolerance, threads=threads)
     apart = (owner[given.faces] != owner[given.faces[:, :1]]).any(axis=1)  # others are near where their corners are
-    within, _ = spread(replace(given, faces=given.faces[apart]), side, least=WITHIN)
+    within, _ = spread(replace(given, faces=given.faces[apart]), side, least=WITHIN[tolerance > LARGE * side])
     points = np.concatenate([points, within])
     owner = np.full(len(points), -1)
     changed = np.arange(len(found.faces))
@@ -54,7 +57,7 @@ def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | N
         away, owner[again] = Tree.of(found).nearest(points[again], enough=tolerance, threads=threads)
         missed = again[away > tolerance]
         part = replace(found, faces=found.faces[changed])
-        places, face = spread(part, min(FINER * side, WIDE * tolerance), least=2)
+        places, face = _looked_at(part, side, tolerance, whole=len(changed) == len(found.faces))
         off, nearest = tree.nearest(places, enough=tolerance, threads=threads)
         beyond = np.flatnonzero(off > tolerance)
         if not len(missed) and not len(beyond):
@@ -88,6 +91,27 @@ def spread(surface: Surface, side: float, *, least: int) -> tuple[Floats, Whole]
         places.append(np.einsum("pk,fkc->fpc", shares, corners[these]).reshape(-1, 3))
         faces.append(np.repeat(these, len(shares)))
     return np.concatenate(places), np.concatenate(faces)
+
+
+def _looked_at(part: Surface, side: float, tolerance: float, *, whole: bool) -> tuple[Floats, Whole]:
+    """Return places on the triangles of a surface that was found, and the face of each.
+
+    Between its edges it is flat, and few places are enough; along its edges they are close together. Of a whole
+    surface, each edge is looked at once.
+    """
+    vertices, apart = np.asarray(part.vertices, dtype=np.float64), min(FINER * side, WIDE * tolerance)
+    places, faces = spread(part, COARSER * side, least=2)
+    ends = part.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    owner = np.repeat(np.arange(len(part.faces)), 3)
+    if whole:  # its two triangles go along an edge in opposite directions
+        owner, ends = owner[ends[:, 0] < ends[:, 1]], ends[ends[:, 0] < ends[:, 1]]
+    begin, step = vertices[ends[:, 0]], vertices[ends[:, 1]] - vertices[ends[:, 0]]
+    parts = np.ceil(np.linalg.norm(step, axis=1) / apart).astype(np.int64)
+    which = np.repeat(np.arange(len(ends)), np.maximum(parts - 1, 0))
+    first = np.cumsum(np.maximum(parts - 1, 0)) - np.maximum(parts - 1, 0)
+    share = (np.arange(len(which)) - first[which] + 1) / parts[which]
+    along = begin[which] + share[:, None] * step[which]
+    return np.concatenate([places, along]), np.concatenate([faces, owner[which]])
 
 
 def _nearest_on(surface: Surface, face: Whole, places: Floats) -> Floats:
