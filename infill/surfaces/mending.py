@@ -16,13 +16,14 @@ Whole = NDArray[np.int64]
 ROUNDS = 6
 DENSEST = 48  # places along the side of a triangle, at most
 FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places on edges are from one another
-COARSER = 0.6  # of these sides: how far places on triangles are
+# Of these sides, how far places on triangles are from one another: nearer if the tolerance is larger than a part of it.
+COARSER, LARGE = (0.7, 0.35), 0.3
 BESIDE = 0.15  # of a triangle: what is nearer to an edge is mended there
 CLOSE = 0.05, 0.005  # of a triangle: what is nearer to a corner is mended there, in the first rounds and in the others
 FIRST = 3  # rounds
-# Places along the side of a triangle of what is given, if its corners are near different triangles: more if the
-# tolerance is larger than this part of the side.
-WITHIN, LARGE = (4, 6), 0.3
+# Places along the side of a triangle of what is given, if its corners are near different triangles; and if one of these
+# places is further away than this part of the tolerance.
+FEW, MANY, RISKY = 4, 12, 0.6
 LEFT = 0.8  # of the tolerance: how far away what is mended is left, so that little else is bent; less in each round
 
 
@@ -45,11 +46,7 @@ def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | N
     """
     tree = Tree.of(given)
     side = float(np.sqrt(2 * given.area / max(len(given.faces), 1)))
-    points = np.asarray(given.vertices, dtype=np.float64)
-    _, owner = Tree.of(found).nearest(points, enough=tolerance, threads=threads)
-    apart = (owner[given.faces] != owner[given.faces[:, :1]]).any(axis=1)  # others are near where their corners are
-    within, _ = spread(replace(given, faces=given.faces[apart]), side, least=WITHIN[tolerance > LARGE * side])
-    points = np.concatenate([points, within])
+    points = _watched(found, given, side, tolerance, threads)
     owner = np.full(len(points), -1)
     changed = np.arange(len(found.faces))
     for n in range(ROUNDS):
@@ -71,6 +68,20 @@ def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | N
         worst = worst[np.unique(faces[worst], return_index=True)[1]]
         found, changed = _bent(found, faces[worst], sources[worst], targets[worst], CLOSE[n >= FIRST])
     return found, sources[worst]
+
+
+def _watched(found: Surface, given: Surface, side: float, tolerance: float, threads: int | None) -> Floats:
+    """Return the points of what was given whose distance is looked at.
+
+    A triangle whose corners are near one and the same triangle is near it everywhere: its corners are enough.
+    """
+    tree, vertices = Tree.of(found), np.asarray(given.vertices, dtype=np.float64)
+    _, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
+    apart = replace(given, faces=given.faces[(owner[given.faces] != owner[given.faces[:, :1]]).any(axis=1)])
+    places, face = spread(apart, side, least=FEW)
+    away, _ = tree.nearest(places, enough=RISKY * tolerance, threads=threads)
+    risky = replace(given, faces=apart.faces[np.unique(face[away > RISKY * tolerance])])
+    return np.concatenate([vertices, places, spread(risky, side, least=MANY)[0]])
 
 
 def spread(surface: Surface, side: float, *, least: int) -> tuple[Floats, Whole]:
@@ -100,7 +111,7 @@ def _looked_at(part: Surface, side: float, tolerance: float, *, whole: bool) -> 
     surface, each edge is looked at once.
     """
     vertices, apart = np.asarray(part.vertices, dtype=np.float64), min(FINER * side, WIDE * tolerance)
-    places, faces = spread(part, COARSER * side, least=2)
+    places, faces = spread(part, COARSER[tolerance > LARGE * side] * side, least=2)
     ends = part.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     owner = np.repeat(np.arange(len(part.faces)), 3)
     if whole:  # its two triangles go along an edge in opposite directions
