@@ -14,6 +14,7 @@ from shapes import assert_printable
 from skimage.measure import marching_cubes
 
 from infill.errors import GeometryError, ParameterError
+from infill.kernels import quadrics
 from infill.surface import Surface
 from infill.surfaces.collapsing import Table, collapsed
 from infill.surfaces.distance import Tree
@@ -232,3 +233,27 @@ def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near
     assert (near >= away - 1e-12).all()
     np.testing.assert_array_equal(near <= 1.0, away <= 1.0)
     np.testing.assert_allclose(near[near > 1.0], away[near > 1.0], atol=1e-12)
+
+
+def test_a_quadric_is_the_sum_of_squared_distances_and_is_least_where_the_planes_meet() -> None:
+    """The compiled form against the formula: areas in thirds, times squared distances from the planes of the faces."""
+    surface = surface_of(trimesh.creation.box((3, 2, 1)))
+    vertices, corners = np.asarray(surface.vertices), np.asarray(surface.vertices)[surface.faces]
+    quadric = np.zeros((len(vertices), 11))
+    quadrics.add_planes(vertices, surface.faces.astype(np.int32).ravel(), quadric)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(normals, axis=1) / 2
+    normals /= 2 * areas[:, None]
+    points = np.random.default_rng(5).uniform(-2, 2, (20, 3))
+    for vertex in range(len(vertices)):
+        around = (surface.faces == vertex).any(axis=1)
+        heights = ((points[:, None] - corners[None, around, 0]) * normals[around]).sum(axis=2)
+        expected = (areas[around] / 3 * heights**2).sum(axis=1)
+        found = [quadrics.value_of(quadric[vertex], *point) for point in points]
+        np.testing.assert_allclose(found, expected, atol=1e-12)
+        assert quadric[vertex, 10] == pytest.approx(areas[around].sum() / 3)
+    one, other = surface.faces[0, :2]
+    total, place = np.empty(11), np.empty(3)
+    least = quadrics.best_place(vertices[one], vertices[other], quadric[one], quadric[other], total, place)
+    around_both = [quadrics.value_of(total, *(place + shift)) for shift in 0.1 * np.eye(3)]
+    assert all(least <= value + 1e-12 for value in around_both)

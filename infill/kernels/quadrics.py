@@ -4,7 +4,7 @@ A quadric holds the sum of planes n x + d = 0 with weights w, for squared distan
 (xx, xy, xz, yy, yz, zz), w d n (three), w d d, and w itself.
 """
 # mypy: disable-error-code="no-untyped-def"
-# ruff: noqa: ANN001, ANN201, ANN202
+# ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def add_planes(vertices, start, quadric):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _value(q, x, y, z):
+def value_of(q, x, y, z):
     """Return the weighted sum of squared distances from the planes of a quadric, never below zero."""
     value = q[0] * x * x + q[3] * y * y + q[5] * z * z + 2 * (q[1] * x * y + q[2] * x * z + q[4] * y * z)
     return max(0.0, value + 2 * (q[6] * x + q[7] * y + q[8] * z) + q[9])
@@ -109,12 +109,12 @@ def best_place(u, v, p, q, s, place):
     x, y, z, found = solved(s, mx, my, mz, -s[6], -s[7], -s[8])
     if found and (x - mx) ** 2 + (y - my) ** 2 + (z - mz) ** 2 <= squared_length(u, v):
         place[0], place[1], place[2] = x, y, z
-        return _value(s, x, y, z)
+        return value_of(s, x, y, z)
     place[0], place[1], place[2] = mx, my, mz
-    best = _value(s, mx, my, mz)
+    best = value_of(s, mx, my, mz)
     for end in range(2):
         w = u if end == 0 else v
-        value = _value(s, w[0], w[1], w[2])
+        value = value_of(s, w[0], w[1], w[2])
         if value < best:
             best = value
             place[:] = w
