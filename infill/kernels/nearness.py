@@ -26,7 +26,7 @@ def edge_points(vertices, start, twin, height, apart, most, points, owner):
     Parameters
     ----------
     vertices, start, twin
-        See `collapse`.
+        See `infill.kernels.collapsing.collapse`.
     height : float
         An edge bends if without it the surface might move by more than this.
     apart : float
@@ -43,7 +43,7 @@ def edge_points(vertices, start, twin, height, apart, most, points, owner):
         ox, oy, oz, _ = shape_of(a, b, vertices[start[preceding(c)]])
         nx, ny, nz, _ = shape_of(b, a, vertices[start[preceding(d)]])
         one, two = math.sqrt(ox * ox + oy * oy + oz * oz), math.sqrt(nx * nx + ny * ny + nz * nz)
-        length = math.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
+        length = math.sqrt(squared_length(a, b))
         if length == 0 or one == 0 or two == 0:
             continue
         bend = math.sqrt(max(0.0, 0.5 - 0.5 * (ox * nx + oy * ny + oz * nz) / (one * two)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from scipy.spatial import cKDTree
 
 from infill.errors import GeometryError
 from infill.inspection.fidelity import LOST
+from infill.smoothing.placing import summary
 from infill.surfaces.distance import distances
 
 if TYPE_CHECKING:
@@ -42,11 +43,9 @@ def compared_with_points(
     """
     away = distances(cloud, result.surface, threads=request.threads)
     far = np.flatnonzero(away > LOST * voxel)
-    facts = {
-        "mean": float(away.mean()),
-        "rms": float(np.sqrt((away**2).mean())),
+    facts: dict[str, Any] = {
+        **summary(away),
         "p95": float(np.quantile(away, 0.95)),
-        "max": float(away.max()),
         "at": cloud[int(away.argmax())].tolist(),
         "far": len(far),
         "lost": 0,

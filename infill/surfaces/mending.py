@@ -20,7 +20,7 @@ FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places
 COARSER, LARGE = (0.7, 0.35), 0.3
 BESIDE = 0.15  # of a triangle: what is nearer to an edge is mended there
 CLOSE = 0.05, 0.005  # of a triangle: what is nearer to a corner is mended there, in the first rounds and in the others
-FIRST = 3  # rounds
+FIRST = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
 # Places along the side of a triangle of what is given, if its corners are near different triangles; and if one of these
 # places is further away than this part of the tolerance.
 FEW, MANY, RISKY = 4, 12, 0.6
@@ -117,9 +117,9 @@ def _looked_at(part: Surface, side: float, tolerance: float, *, whole: bool) -> 
     if whole:  # its two triangles go along an edge in opposite directions
         owner, ends = owner[ends[:, 0] < ends[:, 1]], ends[ends[:, 0] < ends[:, 1]]
     begin, step = vertices[ends[:, 0]], vertices[ends[:, 1]] - vertices[ends[:, 0]]
-    parts = np.ceil(np.linalg.norm(step, axis=1) / apart).astype(np.int64)
-    which = np.repeat(np.arange(len(ends)), np.maximum(parts - 1, 0))
-    first = np.cumsum(np.maximum(parts - 1, 0)) - np.maximum(parts - 1, 0)
+    parts = np.maximum(np.ceil(np.linalg.norm(step, axis=1) / apart), 1).astype(np.int64)
+    which = np.repeat(np.arange(len(ends)), parts - 1)
+    first = np.cumsum(parts - 1) - (parts - 1)
     share = (np.arange(len(which)) - first[which] + 1) / parts[which]
     along = begin[which] + share[:, None] * step[which]
     return np.concatenate([places, along]), np.concatenate([faces, owner[which]])
@@ -149,11 +149,11 @@ def _bent(surface: Surface, face: Whole, sources: Floats, targets: Floats, close
     for f, share, target in zip(face.tolist(), shares, targets, strict=True):
         small = np.flatnonzero(share < BESIDE)
         if share.max() > 1 - close:
-            corner = 3 * f + int(share.argmax())
-            ring = _around(corner, twin)
-            if not touched[ring].any():
-                moved[faces.ravel()[corner]] = target
-                touched[ring] = True
+            vertex = surface.faces[f, int(share.argmax())]
+            around = (surface.faces == vertex).any(axis=1)  # all fans of them, where several meet
+            if not touched[around].any():
+                moved[vertex] = target
+                touched |= around
             continue
         k = int(share.argmin())
         opposite = 3 * f + (k + 1) % 3  # the edge across from the corner with the least share
@@ -176,16 +176,6 @@ def _bent(surface: Surface, face: Whole, sources: Floats, targets: Floats, close
     changed = np.concatenate([np.flatnonzero(touched), len(faces) + np.arange(len(more))])
     added = np.array(more, dtype=faces.dtype).reshape(-1, 3)
     return replace(surface, vertices=np.concatenate(vertices), faces=np.concatenate([faces, added])), changed
-
-
-def _around(corner: int, twin: NDArray[np.int32]) -> list[int]:
-    """Return the faces around the vertex of a corner."""
-    faces, at = [], corner
-    while True:
-        faces.append(at // 3)
-        at = int(twin[at + 2 if at % 3 == 0 else at - 1])
-        if at == corner:
-            return faces
 
 
 def _shares(corners: Floats, places: Floats) -> Floats:

@@ -12,7 +12,7 @@ from infill.surface import Surface
 from infill.surfaces.collapsing import collapsed
 
 FEWEST = 4
-SAFE = 0.87  # of the tolerance: between the places at which distances are measured, they may be a little larger
+SAFE = 0.87  # of the tolerance: between the places at which distances are measured, they are up to a seventh larger
 SHIFT = 0.1  # of the mean edge: how far vertices may move so that the volume stays
 
 
