@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from infill.errors import FormatError
-from infill.formats.point_files import READERS, read_points
+from infill.formats.point_files import READERS, read_points, read_points_and_normals
 
 POINTS = np.array([[0.0, 1.5, -2.25], [3.0, 4.0, 5.125], [1e-3, -7e5, 0.1]])
 ROWS = [" ".join(repr(float(x)) for x in row) for row in POINTS]
@@ -33,6 +33,46 @@ def test_text_in_columns(suffix: str, mark: str, front: str, extra: str, tmp_pat
     assert np.array_equal(points, POINTS)
     assert points.dtype == np.float64
     assert points.flags.owndata
+
+
+NORMALS = np.array([[0.0, 0.6, 0.8], [1.0, 0, 0], [0, 0, -1.0]])
+
+
+@pytest.mark.parametrize(
+    ("name", "head", "columns"),
+    [
+        ("a.xyz", "", "pn"),
+        ("a.xyz", "3\n", "pn"),
+        ("a.csv", "nx,ny,nz,x,y,z\n", "np"),
+        ("a.csv", "Points:0,Points:1,Points:2,Normals:0,Normals:1,Normals:2\n", "pn"),
+        ("a.ply", "property float nx\nproperty float ny\nproperty float nz\n", "pn"),
+        ("a.npy", "", "pn"),
+    ],
+)
+def test_normals_of_a_file(name: str, head: str, columns: str, tmp_path: Path) -> None:
+    table = np.concatenate([{"p": POINTS, "n": NORMALS}[each] for each in columns], axis=1)
+    path, mark = tmp_path / name, "," if name.endswith(".csv") else " "
+    rows = "\n".join(mark.join(repr(float(x)) for x in row) for row in table)
+    if name.endswith(".npy"):
+        np.save(path, table)
+    elif name.endswith(".ply"):
+        first = "".join(f"property double {axis}\n" for axis in "xyz")
+        path.write_text(f"ply\nformat ascii 1.0\nelement vertex 3\n{first}{head}end_header\n{rows}\n")
+    else:
+        path.write_text(head + rows)
+    points, normals = read_points_and_normals(path)
+    assert np.array_equal(points, POINTS)
+    assert normals is not None
+    assert np.array_equal(normals, NORMALS)
+
+
+@pytest.mark.parametrize("extra", [["0.1 0.2 0.3"] * 3, ["255 0 0"] * 3, ["0 0 1", "", ""], ["1 0"] * 3])
+def test_other_columns_are_no_normals(extra: list[str], tmp_path: Path) -> None:
+    path = tmp_path / "a.xyz"
+    path.write_text("\n".join(f"{row} {more}" for row, more in zip(ROWS, extra, strict=True)))
+    points, normals = read_points_and_normals(path)
+    assert np.array_equal(points, POINTS)
+    assert normals is None
 
 
 @pytest.mark.parametrize(

@@ -40,6 +40,9 @@ PLY_TYPES = {
 PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 PLY_HEAD = 2**16  # bytes within which a header ends
 NAMES = ({"x", "points:0", "x coordinate"}, {"y", "points:1", "y coordinate"}, {"z", "points:2", "z coordinate"})
+NORMALS = tuple({f"n{axis}", f"normal_{axis}", f"normals:{i}"} for i, axis in enumerate("xyz"))
+# Columns are normals if this share of them is as long as 1, to this much: colours are not.
+MOST, UNIT = 0.95, 0.01
 
 
 def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
@@ -63,6 +66,14 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
     FormatError
         If there is no such file, its suffix is unknown, or it holds no points or broken ones.
     """
+    return read_points_and_normals(path)[0]
+
+
+def read_points_and_normals(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+    """Return the points of a file, (N, 3), and their normals, (N, 3), or None if it has none: see `read_points`.
+
+    Normals are columns named nx, ny and nz, or those after x, y and z if no column has a name, of length 1.
+    """
     source = readable(path, READERS, "a format of points")
     try:
         points = READERS[source.suffix.lower()](source)
@@ -72,7 +83,7 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
         raise FormatError(f"{source} has the shape {points.shape}; save points as (N, 3)")
     if len(points) == 0:
         raise FormatError(f"{source} holds no points; export them again")
-    # A copy, detached from a mapped file and from its other columns.
+    # Copies, detached from a mapped file and from its other columns.
     coordinates: NDArray[np.float64] = np.array(points[:, :AXES], dtype=np.float64)
     broken = np.flatnonzero(~np.isfinite(coordinates).all(axis=1))
     if broken.size:
@@ -80,7 +91,16 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
             f"{source} holds {broken.size} point(s) with NaN or infinite coordinates, the first is number "
             f"{broken[0] + 1}; leave them out"
         )
-    return coordinates
+    normals: NDArray[np.float64] = np.array(points[:, AXES : 2 * AXES], dtype=np.float64)
+    return coordinates, normals if _are_normals(normals) else None
+
+
+def _are_normals(columns: NDArray[np.float64]) -> bool:
+    if columns.shape[1] < AXES:
+        return False
+    with np.errstate(over="ignore", invalid="ignore"):
+        lengths = np.linalg.norm(columns, axis=1)
+        return bool((np.abs(lengths - 1) <= UNIT).mean() >= MOST)
 
 
 def _told(path: Path) -> AbstractContextManager[None]:
@@ -92,12 +112,21 @@ def _told(path: Path) -> AbstractContextManager[None]:
 
 
 def _read_text(path: Path) -> NDArray[np.floating]:
+    try:
+        return _read_columns(path, normals=True)
+    except FormatError:  # the first line may have columns that others lack
+        return _read_columns(path, normals=False)
+
+
+def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
+    """Return x, y and z, and the normals or what may be normals, if they are asked for and the first line has them."""
     # Only comments and names can contain non-ASCII characters; their encoding does not matter.
     with _told(path), path.open(encoding="utf-8-sig", errors="replace") as file:
         lines = (line for line in file if line.partition("#")[0].strip(" \t\r\n,;"))
         first = next(lines, "")
         parted = _parted_by(first)
-        columns, count = tuple(range(AXES)), None
+        columns: tuple[int, ...] = ()
+        count = None
         if len(_fields(first, parted)) == 1 and _is_number(_fields(first, parted)[0]):
             count = float(first.partition("#")[0])
             first = next(lines, "")
@@ -108,6 +137,9 @@ def _read_text(path: Path) -> NDArray[np.floating]:
             parted = _parted_by(first)
         if not first:
             raise FormatError(f"{path} holds no points; export them again")
+        columns = columns or tuple(range(min(2 * AXES, max(AXES, len(_fields(first, parted))))))
+        if len(columns) < 2 * AXES or not normals:
+            columns = columns[:AXES]
         points = np.loadtxt(
             itertools.chain([first], lines), usecols=columns, ndmin=2, comments="#", delimiter=parted, quotechar='"'
         )
@@ -134,15 +166,24 @@ def _is_number(text: str) -> bool:
 
 
 def _columns(names: list[str]) -> tuple[int, ...]:
-    """Return which columns hold x, y and z: by whole name, by its first word ("x_mm", "X [mm]"), or the first three."""
+    """Return which columns hold x, y and z, then which hold the normals if any do.
+
+    By whole name, by its first word ("x_mm", "X [mm]"), or x, y and z are the first three.
+    """
     plain = [name.strip("\"' ").lower() for name in names]
     words = [re.split(r"[\s_(\[/]", name)[0] for name in plain]
+    across = _named(plain, NORMALS)
     for each in (plain, words):
-        found = [next((i for i, name in enumerate(each) if name in known), None) for known in NAMES]
-        columns = tuple(i for i in found if i is not None)
-        if len(columns) == AXES:
-            return columns
-    return tuple(range(AXES))
+        if columns := _named(each, NAMES):
+            return columns + across
+    return tuple(range(AXES)) + across
+
+
+def _named(names: list[str], known: tuple[set[str], ...]) -> tuple[int, ...]:
+    """Return the columns that have names of the known ones, or none unless there is one for each axis."""
+    found = [next((i for i, name in enumerate(names) if name in axis), None) for axis in known]
+    columns = tuple(i for i in found if i is not None)
+    return columns if len(columns) == AXES else ()
 
 
 # --- arrays and meshes -----------------------------------------------------------------------------------
@@ -203,7 +244,8 @@ def _ply_vertices(path: Path, file: BinaryIO, order: str, count: int, properties
     rows = _ply_rows(file, order, count, properties)
     if len(rows) < count:
         raise FormatError(f"{path} is cut off: it holds {len(rows)} vertices of {count}; export it again")
-    return np.stack([rows[:, names.index(axis)] if not order else rows[axis] for axis in "xyz"], axis=1)
+    wanted = [*"xyz", *(across for across in ("nx", "ny", "nz") if {"nx", "ny", "nz"} <= set(names))]
+    return np.stack([rows[:, names.index(name)] if not order else rows[name] for name in wanted], axis=1)
 
 
 def _ply_rows(file: BinaryIO, order: str, count: int, properties: Properties) -> NDArray[Any]:

@@ -185,7 +185,7 @@ class Given:
     raw : Surface, optional
         The surface of the voxels that were given, mm, if the data are others.
     volume : float, optional
-        Volume of the voxels that were given, mm³, if the data are others.
+        Volume of what was given, mm³, if the data do not tell it.
     cell : float, optional
         What distances are judged by, mm; by default, the longest side of a cell of the data.
     """

@@ -35,6 +35,7 @@ def ways_of_scan(
     *,
     grey: bool,
     phase: bool,
+    volume: float | None = None,
 ) -> Iterator[Way]:
     """Yield the ways to smooth a scan, the right one first.
 
@@ -51,6 +52,8 @@ def ways_of_scan(
         Whether grey levels were asked for.
     phase : bool
         Whether the values are a phase field, which is smoothed as it is.
+    volume : float, optional
+        Of the solid, mm³, if that is known better than by the values.
 
     Raises
     ------
@@ -73,6 +76,7 @@ def ways_of_scan(
     if (grey or method == "grey") and not phase:
         data = grey_levels(scan, float(used["low"]))
     given = _given(data, solid, {**facts, "grey": grey or method == "grey"}, axis=axis, count=count)
+    given = given if volume is None else replace(given, volume=volume)
     first = replace(request, method=method, refine=None, despeckle=despeckle)
     yield Way(name=method, make=partial(_same, given, first))
     if request.method == AUTO and method == "plain" and not paper:

@@ -12,12 +12,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Unpack, overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from infill.errors import ParameterError
 from infill.grid import spacing_of
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, by_components
+from infill.smoothing.cloud_data import phase_of_points
 from infill.smoothing.clouds import compared_with_points
 from infill.smoothing.meshes import MARGIN, ways_of_mesh
 from infill.smoothing.remedies import best_of
@@ -199,7 +200,12 @@ def smooth_mesh(
 
 
 def smooth_points(
-    points: ArrayLike, *, voxel: float, shell: float | None = None, **options: Unpack[Options]
+    points: ArrayLike,
+    *,
+    voxel: float,
+    shell: float | None = None,
+    normals: ArrayLike | None = None,
+    **options: Unpack[Options],
 ) -> Result[SmoothStages]:
     """Return the smooth surface of a cloud of points.
 
@@ -212,16 +218,26 @@ def smooth_points(
     shell : float, optional
         Width of the narrow volume around the points, mm (section 3.5 of the paper); if left out, the solid that
         the points enclose.
+    normals : (N, 3) float, optional
+        Across the surface, of any length, inwards or outwards. Estimated if left out, or where of no length.
     **options
         See `smooth_volume`.
 
     Raises
     ------
+    ParameterError
+        If there is not one normal for each point, or they are given for a shell. Otherwise as `smooth_volume`.
     GeometryError
         If the solid leaves out points with all their neighbours: of a groove, say, that is too narrow for points this
         far apart. Otherwise as `smooth_volume`.
+
+    Notes
+    -----
+    Cells say what the points enclose; where in a cell the surface lies, points and normals: see
+    `infill.voxels.point_fields.distance_from_points`. A shell, or `method="plain"`, smooths the cells alone.
     """
     cloud, request = np.asarray(points, dtype=np.float64), Request(**options)
+    across = _normals_of(normals, cloud, shell)
     solid = voxelise_points(
         cloud,
         voxel=voxel,
@@ -230,7 +246,25 @@ def smooth_points(
         max_memory=request.max_memory,
         threads=request.threads,
     )
-    facts = {"source": "points", "points": len(cloud), "shell": shell}
+    scan, volume, phase = solid, None, shell is None and request.method != "plain"
+    if phase:
+        scan, solid, volume = phase_of_points(solid, cloud, across, request)
+    facts = {"source": "points", "points": len(cloud), "shell": shell, "normals": across is not None}
     used = {"method": "points"}
-    result = best_of(ways_of_scan(solid, solid, used, facts, request, grey=False, phase=False), request)
+    ways = ways_of_scan(scan, solid, used, facts, request, grey=False, phase=phase, volume=volume)
+    result = best_of(ways, request)
     return compared_with_points(result, cloud, voxel, request) if shell is None else result
+
+
+def _normals_of(
+    given: ArrayLike | None, points: NDArray[np.float64], shell: float | None
+) -> NDArray[np.float64] | None:
+    """Return the normals as numbers, those that are not finite as 0."""
+    if given is None:
+        return None
+    if shell is not None:
+        raise ParameterError("a shell lies on both sides of the points and takes no normals; leave one of them out")
+    normals = np.asarray(given, dtype=np.float64)
+    if normals.shape != points.shape:
+        raise ParameterError(f"the normals have the shape {normals.shape} and the points {points.shape}; give one each")
+    return np.where(np.isfinite(normals).all(axis=1, keepdims=True), normals, 0.0)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from infill.checks import whole
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.formats.mesh_files import READERS, read_mesh
-from infill.formats.point_files import read_points
+from infill.formats.point_files import read_points_and_normals
 from infill.formats.segmentations import Segmentation, read_segmentation
 from infill.formats.units import STATED, UNITS, guess_unit
 from infill.formats.volume_files import read_volume
@@ -39,6 +39,7 @@ FITTING = {
     "mesh": ("resolution", "voxel", "by_component"),
     "points": ("resolution", "voxel", "shell"),
 }
+AXES = 3
 RESOLUTION = 200  # voxels along the longest side
 KINDS = ("mesh", "points", "volume")
 
@@ -54,7 +55,7 @@ def read_source(
     frame: int | None = None,
     roi: tuple[float, ...] | None = None,
 ) -> Source:
-    """Return the contents of a file or folder, in mm.
+    """Return the contents of a file or folder, in mm: points as (N, 3), or as (N, 6) with their normals.
 
     Parameters
     ----------
@@ -97,8 +98,9 @@ def read_source(
     if any(each is not None for each in (spacing, array, series, frame, roi)):
         raise ParameterError(f"spacing, array, series, frame and roi are for volumes, and {source} is read as {found}")
     if found == "points":
-        points = read_points(source)
-        return points * _scale(source, points, units)
+        points, normals = read_points_and_normals(source)
+        points = points * _scale(source, points, units)
+        return points if normals is None else np.concatenate([points, normals], axis=1)
     mesh = read_mesh(source)
     stated = STATED.get(source.suffix.lower())
     if stated is not None:
@@ -194,14 +196,15 @@ def smooth_source(
         if by_component:
             return smooth_mesh(source, resolution=resolution, voxel=voxel, by_component=True, **options)
         return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
+    points, normals = source[:, :AXES], source[:, AXES:] if source.shape[1] > AXES and shell is None else None
     if voxel is None:
-        longest = float(np.ptp(source, axis=0).max())
+        longest = float(np.ptp(points, axis=0).max())
         if longest == 0:
-            raise GeometryError(f"all {len(source)} points are one point; give points all around the part")
+            raise GeometryError(f"all {len(points)} points are one point; give points all around the part")
         voxel = longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
     elif resolution is not None:
         raise ParameterError("both voxel and resolution are given; give one of them")
-    return smooth_points(source, voxel=voxel, shell=shell, **options)
+    return smooth_points(points, voxel=voxel, shell=shell, normals=normals, **options)
 
 
 def _kind_of(path: Path) -> Kind:

@@ -147,6 +147,13 @@ def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:
     return inside
 
 
+def spacing_of_points(tree: KDTree) -> float:
+    """Return the distance to the sixth neighbour that 95 % of the points do not exceed, in their unit."""
+    points = np.asarray(tree.data)
+    sample = points[:: max(1, len(points) // SAMPLED)]
+    return float(np.quantile(tree.query(sample, k=[min(NEIGHBOUR + 1, len(points))])[0], QUANTILE))
+
+
 def _checked(points: ArrayLike) -> Floats:
     positions = np.asarray(points, dtype=np.float64)
     if positions.ndim != 2 or positions.shape[1] != 3:
@@ -202,10 +209,8 @@ def _solid(positions: Floats, size: float, margin: int, limit: int | None, threa
     _require(_grid(positions, size, margin)[0], len(positions), SOLID_BYTES, limit)
     distinct = np.unique(positions, axis=0)
     tree = KDTree(distinct)
-    sample = distinct[:: max(1, len(distinct) // SAMPLED)]
-    spacing = tree.query(sample, k=[min(NEIGHBOUR + 1, len(distinct))])[0]
-    spread_out = float(np.quantile(spacing, QUANTILE))
-    radii = [math.hypot(spread_out * factor, size) for factor in WIDENING]
+    spacing = spacing_of_points(tree)
+    radii = [math.hypot(spacing * factor, size) for factor in WIDENING]
     best, leaking, found = BACKED, 0.0, None
     for radius in radii:
         pad = margin + math.ceil(radius / size) + 2
