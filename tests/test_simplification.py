@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,8 +20,9 @@ from infill.surface import Surface
 from infill.surfaces.collapsing import Table, collapsed
 from infill.surfaces.distance import Tree
 from infill.surfaces.intersections import self_intersections
-from infill.surfaces.mending import mended, spread
+from infill.surfaces.mending import mended
 from infill.surfaces.simplification import simplified
+from infill.surfaces.watching import SURE, between, same_faces
 
 DRIFT = 0.05  # of the tolerance: how far the surface may have moved outwards or inwards on average
 PER_TRIANGLE = 25  # places at which a triangle's distance is measured
@@ -198,21 +200,73 @@ def test_a_surface_that_strays_is_bent_back(far: float) -> None:
     strayed[::37] *= 1 + far / 10
     found = Surface(vertices=strayed, faces=coarse.faces)
     assert farthest(found, surface) > 0.25
-    back, left = mended(found, surface, 0.15)
+    back, left, _ = mended(found, surface, Tree.of(surface), 0.15)
     assert not len(left)
     assert back.closed
     assert farthest(back, surface) <= 0.16
     assert farthest(surface, back, 3) <= 0.16
 
 
-def test_places_are_spread_over_triangles_evenly_and_none_is_beside_them() -> None:
-    surface = Surface(vertices=np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]), faces=np.array([[0, 1, 2]]))
-    for parts in range(1, 6):
-        places, face = spread(surface, 10.0, least=parts)
-        assert len(np.unique(places.round(9), axis=0)) == len(places) == len(face) == (parts + 1) * (parts + 2) // 2
-        assert places.min() >= -1e-12
-        assert places[:, :2].sum(axis=1).max() <= 1 + 1e-12
-        np.testing.assert_allclose(places.mean(axis=0), [1 / 3, 1 / 3, 0], atol=1e-12)
+@pytest.mark.parametrize("threads", [1, 3])
+def test_places_lie_on_their_faces_and_tell_how_far_those_are(threads: int) -> None:
+    surface, other = made("noise", 20), made("gyroid", 20)
+    tree, far = Tree.of(other), 3.0
+    away, owner = tree.nearest(np.asarray(surface.vertices), enough=far)
+    found = between(tree, surface, owner, away, 0.5, far, threads=threads)
+    corners, others = (np.asarray(each.vertices)[each.faces] for each in (surface, other))
+    on_face = trimesh.triangles.closest_point(corners[found.face], found.points) - found.points
+    np.testing.assert_allclose(on_face, 0, atol=1e-9)
+    off = np.linalg.norm(trimesh.triangles.closest_point(others[found.owner], found.points) - found.points, axis=1)
+    np.testing.assert_allclose(off, found.away, atol=1e-9)
+    exact = tree.nearest(found.points)[0]
+    assert (found.away >= exact - 1e-9).all()
+    further = found.away > SURE * far
+    assert further.any()
+    np.testing.assert_allclose(found.away[further], exact[further], atol=1e-9)
+    # Where no place was looked at, nothing is further away than the tolerance, or than places nearby.
+    drawn = spread_at_random(surface, 5, 3)
+    beyond = drawn[tree.nearest(drawn)[0] > far]
+    assert len(beyond)
+    looked = np.concatenate([np.asarray(surface.vertices), found.points])
+    assert np.linalg.norm(beyond[:, None] - looked[None], axis=2).min(axis=1).max() <= 0.5
+
+
+def test_a_piece_whose_corners_are_near_one_face_is_left_out() -> None:
+    flat = Surface(vertices=np.array([[0.0, 0, 0], [9, 0, 0], [0, 9, 0]]), faces=np.array([[0, 1, 2]]))
+    above = Surface(vertices=np.array([[1.0, 1, 0.5], [4, 1, 0.5], [1, 4, 0.5]]), faces=np.array([[0, 1, 2]]))
+    away, owner = Tree.of(flat).nearest(above.vertices)
+    assert len(between(Tree.of(flat), above, owner, away, 0.5, 0.6).points) == 0
+    assert len(between(Tree.of(flat), above, owner, away, 0.5, 0.4).points) > 20
+
+
+def test_faces_that_two_surfaces_share_are_known_whatever_their_order() -> None:
+    surface, rng = made("torus", 24), np.random.default_rng(4)
+    order = rng.permutation(len(surface.vertices))
+    rank = np.argsort(order)
+    chosen = rng.permutation(len(surface.faces))[: len(surface.faces) // 2]
+    turned = np.roll(rank[surface.faces[chosen]], 1, axis=1)
+    moved = np.array(surface.vertices)[order]
+    moved[turned[0, 0]] += 1e-9
+    other = Surface(vertices=moved, faces=turned)
+    gone = (turned == turned[0, 0]).any(axis=1)
+    np.testing.assert_array_equal(same_faces(other, surface), np.where(gone, -1, chosen))
+
+
+def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> None:
+    surface = made("gyroid", 24)
+    first = collapsed(surface, tolerance=0.1)
+    assert first is not None
+    back, _, seen = mended(first, surface, Tree.of(surface), 0.1)
+    strayed = np.array(back.vertices)
+    strayed[7] += 0.5
+    found = replace(back, vertices=strayed)
+    handed = seen.handed_to(found, surface, 1.0, 0.1)
+    exact = Tree.of(found).nearest(handed.points)[0]
+    np.testing.assert_array_equal(handed.away > 0.1, exact > 0.1)
+    np.testing.assert_array_equal(handed.unsure, np.flatnonzero((found.faces == 7).any(axis=1)))
+    again, left, _ = mended(found, surface, Tree.of(surface), 0.1, known=seen)
+    assert not len(left)
+    assert max(farthest(again, surface), farthest(surface, again, 3)) <= 0.11
 
 
 def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near_enough() -> None:

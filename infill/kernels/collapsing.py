@@ -146,7 +146,7 @@ def _reshaped(c, vertices, start, twin, ring, many, other, others, place, moved,
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, near, bound, fewest):
+def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, near, bound, fewest, into):
     """Collapse edges, cheapest first, while the mesh stays closed and near; return how many faces are left.
 
     Parameters
@@ -173,6 +173,8 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         No collapse whose mean squared distance from the planes it replaces is larger is done; may be infinite.
     fewest : int
         Faces at which to stop.
+    into : (V,) int32
+        Of each vertex that is gone, becomes the one that it was collapsed into, which may be gone too.
     """
     faces, bounded = len(start) // 3, len(points) > 0
     first_point, next_point = np.full(faces, NONE, dtype=np.int32), np.empty(len(points), dtype=np.int32)
@@ -249,6 +251,7 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
         join(c, start, twin, leaving, other, others)
         quadric[u] = s
         vertices[u] = place
+        into[v] = u
         left -= 2
         for n in range(corners_of(u, twin, leaving, ring)):
             bucket = _rated(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)

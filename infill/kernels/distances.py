@@ -17,6 +17,7 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 
+DEEPEST = 64  # boxes that wait, going down a tree
 THICK = 16  # layers of cells along x that one thread fills at a time
 FLAT = 1e-12  # of a squared length: what is shorter is a point, and what is lower is a line
 
@@ -146,6 +147,46 @@ def _to_box(x, y, z, low, high):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
+def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, near):
+    """Return the squared distance of a point from the nearest triangle, and which one that is.
+
+    Parameters
+    ----------
+    guess : int
+        A triangle that may be near.
+    corners, low, high, leaf, enough
+        See `nearest_triangles`.
+    stack, near : (DEEPEST,) int64, (DEEPEST,) float64
+        Room to work in.
+    """
+    first = (len(low) - 1) // 2
+    found = guess
+    best = squared_distance(x, y, z, corners[found, 0], corners[found, 1], corners[found, 2])
+    stack[0], near[0], count = 0, 0.0, 1
+    while count > 0 and best > enough:
+        count -= 1
+        if near[count] >= best:
+            continue
+        box = stack[count]
+        if box >= first:
+            begin = (box - first) * leaf
+            for at in range(begin, min(begin + leaf, len(corners))):
+                other = squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2])
+                if other < best:
+                    best, found = other, at
+            continue
+        one, two = 2 * box + 1, 2 * box + 2
+        d1, d2 = _to_box(x, y, z, low[one], high[one]), _to_box(x, y, z, low[two], high[two])
+        if d1 < d2:  # the nearer one is looked at first: it lies on top
+            one, two, d1, d2 = two, one, d2, d1
+        if d1 < best:
+            stack[count], near[count], count = one, d1, count + 1
+        if d2 < best:
+            stack[count], near[count], count = two, d2, count + 1
+    return best, found
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
 def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, thread, threads):
     """Find the triangle nearest to every `threads`-th point.
 
@@ -163,34 +204,12 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
     squared : (N,) float64, face : (N,) int64
         What is found.
     """
-    first = (len(low) - 1) // 2
-    stack, near = np.empty(64, dtype=np.int64), np.empty(64)
+    stack, near = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
     found = 0  # what was nearest to the point before is a good guess: points that follow one another are often near
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
-        best = squared_distance(x, y, z, corners[found, 0], corners[found, 1], corners[found, 2])
-        stack[0], near[0], count = 0, 0.0, 1
-        while count > 0 and best > enough:
-            count -= 1
-            if near[count] >= best:
-                continue
-            box = stack[count]
-            if box >= first:
-                begin = (box - first) * leaf
-                for at in range(begin, min(begin + leaf, len(corners))):
-                    other = squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2])
-                    if other < best:
-                        best, found = other, at
-                continue
-            one, two = 2 * box + 1, 2 * box + 2
-            d1, d2 = _to_box(x, y, z, low[one], high[one]), _to_box(x, y, z, low[two], high[two])
-            if d1 < d2:  # the nearer one is looked at first: it lies on top
-                one, two, d1, d2 = two, one, d2, d1
-            if d1 < best:
-                stack[count], near[count], count = one, d1, count + 1
-            if d2 < best:
-                stack[count], near[count], count = two, d2, count + 1
-        squared[n], face[n] = best, found
+        squared[n], found = nearest_triangle(x, y, z, found, corners, low, high, leaf, enough, stack, near)
+        face[n] = found
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from infill.surface import Surface
-from infill.surfaces.intersections import intersecting
-from infill.surfaces.mending import mended
+from infill.surfaces.distance import Tree
+from infill.surfaces.mending import crossings, mended
 
 Floats = NDArray[np.float64]
 Corners = NDArray[np.int32]
@@ -20,8 +20,8 @@ BENDS = 0.25  # of the tolerance: edges that rise higher above their neighbours 
 APART = 8.0  # tolerances between these points
 MOST = 16  # of them on an edge
 FIRST = 0.1  # of the tolerance, as a mean: as far as edges are collapsed without a look at how far what is left lies
-ATTEMPTS = 3
-AROUND = 1.5  # sides of triangles: what stays as it is around a place that went too far, twice as much each time
+ATTEMPTS = 12
+AROUND, DOUBLED = 1.5, 4  # sides of triangles: what stays as it is around a place that fails; attempts until twice that
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,6 +40,8 @@ class Table:
         The vertex of the surface that each is.
     fixed : (V,) bool
         Vertices at which several fans meet.
+    into : (W,) int32
+        The vertex that each of the vertices has become that the table had at first.
     centre : (3,) float64, mm
     """
 
@@ -49,6 +51,7 @@ class Table:
     leaving: Corners
     name: NDArray[np.int32]
     fixed: NDArray[np.bool_]
+    into: NDArray[np.int32]
     centre: Floats
 
     @classmethod
@@ -72,6 +75,7 @@ class Table:
             leaving=leaving,
             name=name,
             fixed=np.bincount(name, minlength=len(surface.vertices))[name] > 1,
+            into=np.arange(count, dtype=np.int32),
             centre=centre,
         )
 
@@ -92,7 +96,7 @@ class Table:
 
         points, corner = (np.empty((0, 3)), np.empty(0, dtype=np.int32)) if near is None else self.watched(near)
         vertices, start, twin = self.vertices.copy(), self.start.copy(), self.twin.copy()
-        quadric = np.zeros((len(vertices), 11))
+        quadric, into = np.zeros((len(vertices), 11)), np.arange(len(vertices), dtype=np.int32)
         add_planes(vertices, start, quadric)
         collapse(
             vertices,
@@ -107,7 +111,10 @@ class Table:
             0.0 if near is None else near**2,
             float(bound),
             triangles,
+            into,
         )
+        while (into[into] != into).any():
+            into = into[into]
         left = start >= 0
         used = np.zeros(len(vertices), dtype=bool)
         used[start[left]] = True
@@ -123,6 +130,36 @@ class Table:
             leaving=leaving,
             name=self.name[used],
             fixed=self.fixed[used],
+            into=rank[into[self.into]],
+        )
+
+    def unfolded(self, first: Table, these: NDArray[np.bool_]) -> Table | None:
+        """Return the table with some vertices (V,) as they were at first; None if it were not as closed as that."""
+        from infill.kernels.corners import pair, part_fans
+
+        back = these[self.into]
+        rank = np.cumsum(~these, dtype=np.int32) - 1
+        kept = int(rank[-1]) + 1
+        into = np.where(back, kept + np.cumsum(back, dtype=np.int32) - 1, rank[self.into]).astype(np.int32)
+        faces = into[first.start].reshape(-1, 3)
+        some = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+        start = np.ascontiguousarray(faces[some]).ravel()
+        twin, name = np.empty(len(start), dtype=np.int32), np.empty(len(start), dtype=np.int32)
+        count = kept + int(back.sum())
+        as_closed = pair(start, count, twin) and part_fans(start, twin, count, name) == count
+        if not as_closed or len(start) // 3 - 2 * count != len(first.start) // 3 - 2 * len(first.vertices):
+            return None
+        leaving = np.empty(count, dtype=np.int32)
+        leaving[start] = np.arange(len(start), dtype=np.int32)
+        return replace(
+            self,
+            vertices=np.concatenate([self.vertices[~these], first.vertices[back]]),
+            start=start,
+            twin=twin,
+            leaving=leaving,
+            name=np.concatenate([self.name[~these], first.name[back]]),
+            fixed=np.concatenate([self.fixed[~these], first.fixed[back]]),
+            into=into,
         )
 
     def placed_in(self, surface: Surface) -> Surface:
@@ -156,9 +193,8 @@ def collapsed(
     ----------
     surface : Surface, closed, mm
     tolerance : float, mm, optional
-        Neither surface lies further than this from the other, at any vertex and at places between them that are denser
-        than the triangles of what is given. Between these places it may be more, a seventh at most over 180
-        random solids.
+        Neither surface lies further than this from the other, at any vertex and at places between them that are closer
+        together the further away they are: see `infill.surfaces.watching`.
     triangles : int
         Where to stop.
     threads : int, optional
@@ -172,8 +208,8 @@ def collapsed(
     over or becomes a sliver, and all points of what was given that lie on the triangles concerned stay within the
     tolerance of them, handed on from triangle to triangle as Klein et al. (1996) do, and the new edges within that of
     what lies around these points. Where the surface still goes too far between the points, it is given another vertex:
-    see `mended`; where that does not help, or triangles pass through each other, the surface stays as it is around the
-    place, and all is done again. First of all, small triangles go as far as their planes allow, by a tenth of the
+    see `mended`; where that does not help, or triangles pass through each other, the vertices that were collapsed into
+    those around the place come back. First of all, small triangles go as far as their planes allow, by a tenth of the
     tolerance, without a look at distances.
     """
     table = Table.of(surface)
@@ -181,19 +217,27 @@ def collapsed(
         return None
     if tolerance is None:
         return table.without_edges(math.inf, triangles).placed_in(surface)
-    aim = triangles
+    tree, aim, known, fewer = Tree.of(surface), triangles, None, table
     for attempt in range(ATTEMPTS):
-        small = table.without_edges((FIRST * tolerance) ** 2, triangles)
-        fewer = small.without_edges(tolerance**2, aim, near=tolerance)
-        found, far = mended(fewer.placed_in(surface), surface, tolerance, threads=threads)
-        crossing = np.unique(intersecting(np.asarray(found.vertices), found.faces))
-        places = np.concatenate([far, found.vertices[found.faces[crossing]].reshape(-1, 3)])
-        more = len(found.faces) - triangles
-        if not len(places) and (more <= 0 or 3 * aim < len(fewer.start)):
-            return found
+        if fewer is table:
+            fewer = table.without_edges((FIRST * tolerance) ** 2, triangles)
+            fewer = fewer.without_edges(tolerance**2, aim, near=tolerance)
+        found = fewer.placed_in(surface)
+        places, more = crossings(found), 0
+        if not len(places) or attempt == ATTEMPTS - 1:  # what takes longest comes last
+            found, places, known = mended(found, surface, tree, tolerance, known=known, threads=threads)
+            more = len(found.faces) - triangles
+            if not len(places) and (more <= 0 or 3 * aim < len(fewer.start)):
+                return found
         aim -= max(0, more)
-        if len(places):
-            reach = AROUND * 2**attempt * float(np.sqrt(surface.area / len(surface.faces)))
-            away, _ = cKDTree(places - table.centre).query(table.vertices, distance_upper_bound=reach)
-            table = replace(table, fixed=table.fixed | np.isfinite(away))
-    return surface if len(far) else found
+        if not len(places):
+            fewer = table
+            continue
+        reach = AROUND * 2 ** (attempt // DOUBLED) * float(np.sqrt(surface.area / len(surface.faces)))
+        away, _ = cKDTree(places - table.centre).query(table.vertices, distance_upper_bound=reach)
+        around = np.isfinite(away)
+        table = replace(table, fixed=table.fixed | around)
+        these = np.zeros(len(fewer.vertices), dtype=bool)
+        these[fewer.into[around]] = True
+        fewer = fewer.unfolded(table, these) or table
+    return surface if len(places) else found

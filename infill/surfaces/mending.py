@@ -9,33 +9,44 @@ from numpy.typing import NDArray
 
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
+from infill.surfaces.intersections import intersecting
+from infill.surfaces.watching import Watched, looked_at, watched
 
 Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-ROUNDS = 6
-DENSEST = 48  # places along the side of a triangle, at most
-FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places on edges are from one another
-# Of these sides, how far places on triangles are from one another: nearer if the tolerance is larger than a part of it.
-COARSER, LARGE = (0.7, 0.35), 0.3
+ROUNDS = 8
 BESIDE = 0.15  # of a triangle: what is nearer to an edge is mended there
 CLOSE = 0.05, 0.005  # of a triangle: what is nearer to a corner is mended there, in the first rounds and in the others
 FIRST = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
-# Places along the side of a triangle of what is given, if its corners are near different triangles; and if one of these
-# places is further away than this part of the tolerance.
-FEW, MANY, RISKY = 4, 12, 0.6
+# Of the tolerance: how far into each other triangles may reach to be moved apart, and how far apart that is.
+SHALLOW, GAP = 1.0, 0.02
 LEFT = 0.8  # of the tolerance: how far away what is mended is left, so that little else is bent; less in each round
 
 
-def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | None = None) -> tuple[Surface, Floats]:
+def mended(
+    found: Surface,
+    given: Surface,
+    tree: Tree,
+    tolerance: float,
+    *,
+    known: Watched | None = None,
+    threads: int | None = None,
+) -> tuple[Surface, Floats, Watched]:
     """Return a surface that lies near another, with more vertices where it did not, and places where that did not help.
+
+    Nor do any of its triangles pass through each other, unless at these places. Last, what was measured.
 
     Parameters
     ----------
     found, given : Surface, closed, mm
+    tree : Tree
+        Of what was given.
     tolerance : float, mm
         How far either may be from the other: measured at vertices and at places between them that are closer together
         than the vertices of what was given.
+    known : Watched, optional
+        What was measured of another surface with many of the same faces, near the same one.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
@@ -44,85 +55,41 @@ def mended(found: Surface, given: Surface, tolerance: float, *, threads: int | N
     The place on each triangle that is furthest from the other surface becomes a vertex on it. Near a corner of the
     triangle, that corner is moved; near an edge, both its triangles are cut in two.
     """
-    tree = Tree.of(given)
     side = float(np.sqrt(2 * given.area / max(len(given.faces), 1)))
-    points = _watched(found, given, side, tolerance, threads)
-    owner = np.full(len(points), -1)
-    changed = np.arange(len(found.faces))
+    if known is None:
+        seen = watched(Tree.of(found), found, given, side, tolerance, threads=threads)
+    else:
+        seen = known.handed_to(found, given, side, tolerance, threads)
     for n in range(ROUNDS):
-        again = np.flatnonzero((owner < 0) | np.isin(owner, changed))
-        away, owner[again] = Tree.of(found).nearest(points[again], enough=tolerance, threads=threads)
-        missed = again[away > tolerance]
-        part = replace(found, faces=found.faces[changed])
-        places, face = _looked_at(part, side, tolerance, whole=len(changed) == len(found.faces))
-        off, nearest = tree.nearest(places, enough=tolerance, threads=threads)
-        beyond = np.flatnonzero(off > tolerance)
+        if n > 0:
+            seen = seen.again(found, tolerance, threads)
+        changed, owner, points = seen.unsure, seen.owner, seen.points
+        missed = np.flatnonzero(seen.away > tolerance)
+        there = looked_at(tree, found, changed, side, tolerance, threads=threads)
+        beyond = np.flatnonzero(there.away > tolerance)
         if not len(missed) and not len(beyond):
-            return found, np.empty((0, 3))
-        faces = np.concatenate([owner[missed], changed[face[beyond]]])
-        targets = np.concatenate([points[missed], _nearest_on(given, nearest[beyond], places[beyond])])
-        sources = np.concatenate([_nearest_on(found, owner[missed], points[missed]), places[beyond]])
-        distance = np.concatenate([away[away > tolerance], off[beyond]])
+            seen = replace(seen, unsure=np.empty(0, dtype=np.int64))
+            crossing = intersecting(np.asarray(found.vertices), found.faces)
+            if not len(crossing):
+                return found, np.empty((0, 3)), seen
+            left = _corners(found, crossing)
+            found, changed = _apart(found, crossing, tolerance)
+            if not len(changed):
+                break
+            seen = replace(seen, unsure=changed)
+            continue
+        places = there.points[beyond]
+        faces = np.concatenate([owner[missed], there.face[beyond]])
+        targets = np.concatenate([points[missed], _nearest_on(given, there.owner[beyond], places)])
+        sources = np.concatenate([_nearest_on(found, owner[missed], points[missed]), places])
+        distance = np.concatenate([seen.away[missed], there.away[beyond]])
         targets = sources + (1 - LEFT ** (n + 1) * tolerance / distance)[:, None] * (targets - sources)
         worst = np.argsort(-distance, kind="stable")
         worst = worst[np.unique(faces[worst], return_index=True)[1]]
-        found, changed = _bent(found, faces[worst], sources[worst], targets[worst], CLOSE[n >= FIRST])
-    return found, sources[worst]
-
-
-def _watched(found: Surface, given: Surface, side: float, tolerance: float, threads: int | None) -> Floats:
-    """Return the points of what was given whose distance is looked at.
-
-    A triangle whose corners are near one and the same triangle is near it everywhere: its corners are enough.
-    """
-    tree, vertices = Tree.of(found), np.asarray(given.vertices, dtype=np.float64)
-    _, owner = tree.nearest(vertices, enough=tolerance, threads=threads)
-    apart = replace(given, faces=given.faces[(owner[given.faces] != owner[given.faces[:, :1]]).any(axis=1)])
-    places, face = spread(apart, side, least=FEW)
-    away, _ = tree.nearest(places, enough=RISKY * tolerance, threads=threads)
-    risky = replace(given, faces=apart.faces[np.unique(face[away > RISKY * tolerance])])
-    return np.concatenate([vertices, places, spread(risky, side, least=MANY)[0]])
-
-
-def spread(surface: Surface, side: float, *, least: int) -> tuple[Floats, Whole]:
-    """Return points on all triangles, (N, 3) mm, and the face of each.
-
-    They are the corners of equal pieces into which a triangle is cut, as many along each side as the longest is times
-    as long as `side`, and `least` or more.
-    """
-    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    parts = np.clip(np.ceil(longest / side), least, max(least, DENSEST)).astype(np.int64)
-    places, faces = [np.empty((0, 3))], [np.empty(0, dtype=np.int64)]
-    for n in np.unique(parts):
-        these = np.flatnonzero(parts == n)
-        i, j = np.divmod(np.arange((n + 1) ** 2), n + 1)
-        a, b = i[i + j <= n] / n, j[i + j <= n] / n
-        shares = np.stack([a, b, 1 - a - b], axis=1)
-        places.append(np.einsum("pk,fkc->fpc", shares, corners[these]).reshape(-1, 3))
-        faces.append(np.repeat(these, len(shares)))
-    return np.concatenate(places), np.concatenate(faces)
-
-
-def _looked_at(part: Surface, side: float, tolerance: float, *, whole: bool) -> tuple[Floats, Whole]:
-    """Return places on the triangles of a surface that was found, and the face of each.
-
-    Between its edges it is flat, and few places are enough; along its edges they are close together. Of a whole
-    surface, each edge is looked at once.
-    """
-    vertices, apart = np.asarray(part.vertices, dtype=np.float64), min(FINER * side, WIDE * tolerance)
-    places, faces = spread(part, COARSER[tolerance > LARGE * side] * side, least=2)
-    ends = part.faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    owner = np.repeat(np.arange(len(part.faces)), 3)
-    if whole:  # its two triangles go along an edge in opposite directions
-        owner, ends = owner[ends[:, 0] < ends[:, 1]], ends[ends[:, 0] < ends[:, 1]]
-    begin, step = vertices[ends[:, 0]], vertices[ends[:, 1]] - vertices[ends[:, 0]]
-    parts = np.maximum(np.ceil(np.linalg.norm(step, axis=1) / apart), 1).astype(np.int64)
-    which = np.repeat(np.arange(len(ends)), parts - 1)
-    first = np.cumsum(parts - 1) - (parts - 1)
-    share = (np.arange(len(which)) - first[which] + 1) / parts[which]
-    along = begin[which] + share[:, None] * step[which]
-    return np.concatenate([places, along]), np.concatenate([faces, owner[which]])
+        left = sources[worst]
+        found, changed = _bent(found, faces[worst], left, targets[worst], CLOSE[n >= FIRST])
+        seen = replace(seen, unsure=changed)
+    return found, left, replace(seen, found=found)
 
 
 def _nearest_on(surface: Surface, face: Whole, places: Floats) -> Floats:
@@ -146,14 +113,16 @@ def _bent(surface: Surface, face: Whole, sources: Floats, targets: Floats, close
     moved, count, more = vertices[0].copy(), len(surface.vertices), []
     touched = np.zeros(len(faces), dtype=bool)
     shares = _shares(moved[surface.faces[face]], sources)
+    order = np.argsort(start, kind="stable")
+    begins = np.searchsorted(start[order], np.arange(count + 1))
     for f, share, target in zip(face.tolist(), shares, targets, strict=True):
         small = np.flatnonzero(share < BESIDE)
         if share.max() > 1 - close:
             vertex = surface.faces[f, int(share.argmax())]
-            around = (surface.faces == vertex).any(axis=1)  # all fans of them, where several meet
+            around = order[begins[vertex] : begins[vertex + 1]] // 3  # all fans of them, where several meet
             if not touched[around].any():
                 moved[vertex] = target
-                touched |= around
+                touched[around] = True
             continue
         k = int(share.argmin())
         opposite = 3 * f + (k + 1) % 3  # the edge across from the corner with the least share
@@ -176,6 +145,41 @@ def _bent(surface: Surface, face: Whole, sources: Floats, targets: Floats, close
     changed = np.concatenate([np.flatnonzero(touched), len(faces) + np.arange(len(more))])
     added = np.array(more, dtype=faces.dtype).reshape(-1, 3)
     return replace(surface, vertices=np.concatenate(vertices), faces=np.concatenate([faces, added])), changed
+
+
+def _apart(surface: Surface, pairs: Whole, tolerance: float) -> tuple[Surface, Whole]:
+    """Return a surface of which triangles that pass through each other do so less; and what changed.
+
+    Of each pair (N, 2), one corner goes to the other side of the other triangle's plane: the one that is nearest to it
+    of those that are alone on their side. Those that reach too far into each other stay.
+    """
+    vertices = np.array(surface.vertices, dtype=np.float64)
+    both = np.concatenate([pairs, pairs[:, ::-1]])
+    one, other = vertices[surface.faces[both[:, 0]]], vertices[surface.faces[both[:, 1]]]
+    normal = np.cross(other[:, 1] - other[:, 0], other[:, 2] - other[:, 0])
+    normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), np.finfo(float).tiny)
+    above = np.einsum("pki,pi->pk", one - other[:, :1], normal)
+    alone = np.where((above > 0).sum(axis=1, keepdims=True) == 1, above > 0, above <= 0)
+    depth = np.where(alone & (alone.sum(axis=1, keepdims=True) == 1), np.abs(above), np.inf)
+    k = depth.argmin(axis=1)
+    deep = depth[np.arange(len(both)), k].reshape(2, -1)
+    some = np.flatnonzero(deep.min(axis=0) <= SHALLOW * tolerance)
+    best = some + len(pairs) * deep[:, some].argmin(axis=0)
+    vertex, by = surface.faces[both[best, 0], k[best]], above[best, k[best]]
+    by += np.copysign(GAP * tolerance, by)
+    moved, first = np.unique(vertex, return_index=True)
+    vertices[moved] -= by[first, None] * normal[best[first]]
+    return replace(surface, vertices=vertices), np.flatnonzero(np.isin(surface.faces, moved).any(axis=1))
+
+
+def crossings(surface: Surface) -> Floats:
+    """Return the corners (N, 3) of the triangles that pass through each other, mm."""
+    return _corners(surface, intersecting(np.asarray(surface.vertices), surface.faces))
+
+
+def _corners(surface: Surface, faces: Whole) -> Floats:
+    corners: Floats = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[np.unique(faces)]].reshape(-1, 3)
+    return corners
 
 
 def _shares(corners: Floats, places: Floats) -> Floats:

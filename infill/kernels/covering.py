@@ -1,0 +1,128 @@
+"""Points on the triangles of a mesh at which to see how far another mesh lies, dense only where that may be far.
+
+A piece of a triangle whose corners are near one and the same triangle is near it everywhere, since the distance from a
+triangle is convex. All other pieces are cut in four, down to a size.
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201, ANN202
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from infill.kernels.compiling import njit
+from infill.kernels.distances import DEEPEST, nearest_triangle, squared_distance
+from infill.kernels.quadrics import squared_length
+
+DEPTH = 9  # times that a triangle is cut in four, at most
+# How long a piece may be over the distance by which its corners are nearer than they have to be. At the square root of
+# three, no place on it could be too far away; but that happens only where the other mesh leaves it at a right angle.
+SLOPE = 8
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _covered(piece, owners, away, corners, near):
+    """Return whether the corners of a piece are all near one and the same of the triangles that they are nearest to."""
+    if away[0] > near or away[1] > near or away[2] > near:
+        return False
+    for k in range(3):
+        at, all_near = owners[k], True
+        for j in range(3):
+            if all_near and owners[j] != at:
+                a, b, c = corners[at, 0], corners[at, 1], corners[at, 2]
+                all_near = squared_distance(piece[j, 0], piece[j, 1], piece[j, 2], a, b, c) <= near
+        if all_near:
+            return True
+    return False
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def cover(
+    vertices,
+    faces,
+    nearest,
+    squared,
+    corners,
+    low,
+    high,
+    leaf,
+    near,
+    enough,
+    coarse,
+    fine,
+    points,
+    face,
+    owner,
+    away,
+    thread,
+    threads,
+):
+    """Set points on every `threads`-th triangle, and what they are nearest to; return how many there are.
+
+    Parameters
+    ----------
+    vertices, faces : (V, 3) float64, (F, 3) int
+    nearest, squared : (V,) int64, (V,) float64
+        The triangle of the other mesh that each vertex is nearest to, and its squared distance.
+    corners, low, high, leaf
+        The other mesh: see `infill.kernels.distances.nearest_triangles`.
+    near, enough : float
+        Squared distances: of what is near, and of what is so near that it does not matter how near.
+    coarse, fine : float
+        Lengths to which pieces are cut: all of them, and those of which a corner is hardly near any more.
+    points, face, owner, away : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
+        What is found: the face that each point lies on, the triangle of the other mesh that it is nearest to, or any
+        within `enough`, and the squared distance from that. With no room left, points are counted only.
+    """
+    stack, waiting = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
+    room = 3 * DEPTH + 4
+    pieces, owners, offs = np.empty((room, 3, 3)), np.empty((room, 3), dtype=np.int64), np.empty((room, 3))
+    depths = np.empty(room, dtype=np.int64)
+    piece, ends, off = np.empty((6, 3)), np.empty(6, dtype=np.int64), np.empty(6)
+    count = 0
+    for f in range(thread, len(faces), threads):
+        for k in range(3):
+            v = faces[f, k]
+            pieces[0, k] = vertices[v]
+            owners[0, k], offs[0, k] = nearest[v], squared[v]
+        depths[0], left = 0, 1
+        while left > 0:
+            left -= 1
+            depth = depths[left]
+            piece[:3], ends[:3], off[:3] = pieces[left], owners[left], offs[left]
+            if depth == DEPTH or _covered(piece, ends, off, corners, near):
+                continue
+            longest = max(
+                squared_length(piece[0], piece[1]),
+                squared_length(piece[1], piece[2]),
+                squared_length(piece[2], piece[0]),
+            )
+            slack = math.sqrt(near) - math.sqrt(max(off[0], off[1], off[2]))
+            limit = min(coarse, max(fine, SLOPE * slack))
+            if longest <= limit * limit:
+                continue
+            for k in range(3):
+                j = (k + 1) % 3
+                for axis in range(3):
+                    piece[3 + k, axis] = (piece[k, axis] + piece[j, axis]) / 2
+                x, y, z = piece[3 + k, 0], piece[3 + k, 1], piece[3 + k, 2]
+                off[3 + k], ends[3 + k] = nearest_triangle(
+                    x, y, z, ends[k], corners, low, high, leaf, enough, stack, waiting
+                )
+                if count < points.shape[1]:
+                    points[thread, count], face[thread, count] = piece[3 + k], f
+                    owner[thread, count], away[thread, count] = ends[3 + k], off[3 + k]
+                count += 1
+            for part in range(4):  # three at the corners, the fourth in the middle
+                for k in range(3):
+                    at = part if part < 3 and k == 0 else 3 + (part if k == 1 else (part + 2) % 3)
+                    if part == 3:
+                        at = 3 + k
+                    pieces[left, k] = piece[at]
+                    owners[left, k], offs[left, k] = ends[at], off[at]
+                depths[left] = depth + 1
+                left += 1
+    return count
