@@ -33,7 +33,7 @@ def main() -> None:
         picture.save(FOLDER / f"{name}-mesh.png", optimize=True)
     both = Image.new("RGB", (960, 400), "white")
     for left, stamp in ((0, "block"), (480, "exact")):
-        block = make("honeycomb", size=14, height=3, angle=0.12, stamp=stamp)
+        block = make("honeycomb", size=14, height=3, angle=7, stamp=stamp)
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
     save_preview(smooth_volume(gyroid(), spacing=0.5), FOLDER / "smooth.png")

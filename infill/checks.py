@@ -42,12 +42,14 @@ def within(name: str, value: float, low: float, high: float, unit: str = "") -> 
 def whole(name: str, value: float, low: int) -> int:
     """Return `value` as an int, or raise ParameterError if it is not a whole number of at least `low`."""
     number = _float(name, value)
-    if isinstance(value, bool) or not math.isfinite(number) or number != int(number) or number < low:
+    if not math.isfinite(number) or number != int(number) or number < low:
         raise ParameterError(f"{name} is {number:.10g}; it must be a whole number of at least {low}")
     return int(value)
 
 
 def _float(name: str, value: float) -> float:
+    if isinstance(value, bool | str | bytes):  # float() would take True for 1 and "6" for 6
+        raise ParameterError(f"{name} is {value!r}; it must be a number")
     try:
         return float(value)
     except (TypeError, ValueError):

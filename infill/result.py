@@ -11,6 +11,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+import numpy as np
+
 from infill.formats.label_tables import Colour
 from infill.formats.mesh_files import PART_WRITERS, parts_writer, save
 from infill.formats.parts import Part
@@ -25,7 +27,7 @@ Progress = Callable[[str, float], None]
 Stages = TypeVar("Stages", covariant=True)
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Result(Generic[Stages]):
     """Surfaces, a report, and the stages they came from.
 
@@ -49,6 +51,15 @@ class Result(Generic[Stages]):
     stages: Stages = field(repr=False)
     colours: Mapping[str, Colour] = field(default_factory=dict)
     joins: bool = False
+
+    def __repr__(self) -> str:
+        """Return the surfaces by name, with their triangles and sizes."""
+        said = (
+            f"{name}: {len(surface.faces):,} triangles, "
+            f"{' x '.join(f'{side:.4g}' for side in np.ptp(surface.bounds, axis=0))} mm"
+            for name, surface in self.surfaces.items()
+        )
+        return f"Result({'; '.join(said)})"
 
     @property
     def surface(self) -> Surface:

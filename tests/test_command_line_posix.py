@@ -198,3 +198,28 @@ def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:
     assert process.wait() == 0
     assert b"smooth" in shown
     assert math.isfinite(json.loads((tmp_path / "report.json").read_text())["volume"])
+
+
+def test_a_link_that_leads_nowhere_is_not_replaced_without_force(tmp_path: Path) -> None:
+    link = tmp_path / "a.stl"
+    link.symlink_to(tmp_path / "gone.stl")
+    words = [
+        sys.executable,
+        "-m",
+        "infill",
+        "make",
+        "honeycomb",
+        "--size",
+        "20",
+        "--height",
+        "3",
+        "-q",
+        "-o",
+        str(link),
+    ]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "exists; give another name, or --force" in done.stderr
+    assert link.is_symlink()
+    assert subprocess.run([*words, "--force"], capture_output=True, check=False).returncode == 0
+    assert link.exists()

@@ -29,7 +29,7 @@ def test_shapes_and_origins_must_agree() -> None:
         Grid(shape=(2, 2, 2), spacing=(1, 2))
     with pytest.raises(ParameterError, match="origin"):
         Grid(shape=(2, 2), spacing=1, origin=(0, 0, 0))
-    with pytest.raises(ParameterError, match="whole number"):
+    with pytest.raises(ParameterError, match="it must be a number"):
         Grid(shape=(2, True), spacing=1)
 
 

@@ -126,7 +126,7 @@ def test_the_block_stands_on_the_bed_about_the_origin() -> None:
 
 def test_the_block_stamp_shows_its_true_widths() -> None:
     """Up to 41 % wide on diagonals: said, not hidden."""
-    width = make("honeycomb", angle=math.radians(7)).report["wall_width"]
+    width = make("honeycomb", angle=7).report["wall_width"]
     assert width["mean"] / 0.45 == pytest.approx(1.17, abs=0.03)
     assert width["p95"] / 0.45 == pytest.approx(1.38, abs=0.04)
 
@@ -465,3 +465,26 @@ def test_points_that_a_pattern_finds_itself_are_taken() -> None:
     result = make(Corners(), size=20, height=3, allow_broken=True)
     assert len(result.stages.points) < 200
     assert result.report["components"] > 10
+
+
+def test_angles_are_degrees_by_name() -> None:
+    by_name = make("honeycomb", size=(20, 20), height=3, angle=7)
+    by_class = make(Honeycomb(angle=math.radians(7)), size=(20, 20), height=3)
+    assert np.array_equal(by_name.surface.vertices, by_class.surface.vertices)
+    assert by_name.report["request"]["parameters"]["angle"] == 7
+    with pytest.raises(PatternError, match="angle of honeycomb is 190 degrees"):
+        make("honeycomb", angle=190)
+
+
+@pytest.mark.parametrize("options", [{"height": True}, {"height": "6"}, {"line_width": "0.45"}, {"size": (True, 20)}])
+def test_what_is_no_number_is_refused(options: dict[str, Any]) -> None:
+    with pytest.raises(ParameterError, match="it must be a number"):
+        make("honeycomb", **options)
+
+
+def test_results_compare_by_themselves_and_are_shown_in_a_line() -> None:
+    one, other = (make("honeycomb", size=(20, 20), height=3) for _ in range(2))
+    assert one == one
+    assert one != other
+    assert len({one, other}) == 2
+    assert repr(one) == f"Result(block: {len(one.surface.faces):,} triangles, 19.95 x 19.95 x 3 mm)"

@@ -338,6 +338,12 @@ def test_names_of_parameters_are_completed_then_flags_among_them() -> None:
     assert offered("infill make zigzag --cell 5 --set frame=f") == {"frame=false"}
 
 
+def test_values_of_options_are_completed() -> None:
+    assert offered("infill make zigzag --stamp ") == {"block", "exact"}
+    assert offered("infill make zigzag --stamp e") == {"exact"}
+    assert offered("infill smooth a.stl --units ") == {"um", "mm", "cm", "m", "in"}
+
+
 @pytest.mark.parametrize(
     "words", ["infill make --set ", "infill make nonsense --set ", "infill make zigzag --set cell=5"]
 )

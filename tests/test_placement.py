@@ -188,12 +188,12 @@ def test_the_command_line_wins_over_the_file(tmp_path: Path) -> None:
         'object = "box"\nflats = 2\n[set]\nangle = 30\nphase = [1, 2]\n'
     )
     filed = {"pattern": "honeycomb", "density": 0.2, "smooth_radius": 1, "max_deviation": 0.2, "layers": (5, 20)}
-    filed |= {"part": "box", "flats": 2, "angle": math.radians(30), "phase": (1.0, 2.0)}
+    filed |= {"part": "box", "flats": 2, "angle": 30, "phase": (1.0, 2.0)}
     assert resolve({"density": None}, config) == filed
     assert resolve({"density": "same", "layers": "7-"}, config, ["angle=-45", "phase=0,0"]) == filed | {
         "density": "same",
         "layers": (7, ENDLESS),
-        "angle": math.radians(-45),
+        "angle": -45,
         "phase": (0.0, 0.0),
     }
     with pytest.raises(ParameterError, match="gyroid has no option 'flats'; it has cell, angle, phase, pattern"):
@@ -267,7 +267,7 @@ def test_parameters_are_read_as_written(angle: float, x: float, y: float) -> Non
     assert assigned(kind, f"angle={angle!r}") == ("angle", angle)
     assert assigned(kind, f"phase = {x!r}, {y!r}") == ("phase", (x, y))
     found = resolve({"pattern": "gyroid"}, assigned=[f"angle={angle!r}", f"phase={x!r},{y!r}"])
-    assert found == {"pattern": "gyroid", "angle": math.radians(angle), "phase": (x, y)}
+    assert found == {"pattern": "gyroid", "angle": angle, "phase": (x, y)}
 
 
 # --- a print refilled ------------------------------------------------------------------------------------------
@@ -287,7 +287,7 @@ def test_a_turned_pattern_takes_the_filament_that_was_there(name: str, gcode: Pa
         texts.append(output.read_bytes())
         assert judge(PRINT, texts[-1], filament=(0.99, 1.01)) == []
     assert texts[0] != texts[1]
-    refill(gcode, pattern=pattern, angle=math.radians(30))
+    refill(gcode, pattern=pattern, angle=30)
     assert gcode.read_bytes() == texts[1]
 
 
@@ -381,11 +381,11 @@ def test_what_is_not_in_the_print_leaves_it_and_is_said(words: list[str], gcode:
 
 
 def test_python_gives_parameters_by_name(gcode: Path) -> None:
-    result = refill(gcode, dry_run=True, pattern="concentric-heart", angle=math.radians(30), middle=(100, 100))
+    result = refill(gcode, dry_run=True, pattern="concentric-heart", angle=30, middle=(100, 100))
     assert result.report["request"]["parameters"] == {"cell": None, "angle": 30.0, "middle": [100.0, 100.0]}
     for given_, says in (
         ({"angel": 1}, "concentric-heart has no parameter 'angel'; did you mean 'angle'"),
-        ({"angle": 4}, "angle of concentric-heart is 229.* degrees; it must be a number from -180 to 180 degrees"),
+        ({"angle": 229}, "angle of concentric-heart is 229.* degrees; it must be a number from -180 to 180 degrees"),
         ({"middle": (1, math.nan)}, "middle of concentric-heart is 1,nan mm; it must be 2 numbers"),
         ({"flats": 1}, "concentric-heart has no parameter 'flats'"),
     ):

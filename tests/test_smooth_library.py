@@ -577,6 +577,33 @@ def test_points_of_a_groove_that_is_filled_are_lost_and_strays_are_told() -> Non
     assert stray["verdict"]["word"] == "changed a little"
 
 
+@pytest.mark.parametrize("kind", ["mask", "phase", "grey", "labels", "whole numbers"])
+def test_masked_cells_are_void(kind: str) -> None:
+    solid = np.zeros((30, 30, 30), dtype=bool)
+    solid[5:25, 5:25, 5:25] = True
+    masked = np.zeros_like(solid)
+    masked[15:] = True
+    values, options = {
+        "mask": (solid, {}),
+        "phase": (np.where(solid, 1.0, -1.0), {}),
+        "grey": (np.where(solid, 105.0, 5.0), {"threshold": 50.0}),
+        "labels": (3 * solid.astype(np.uint8), {"label": 3}),
+        "whole numbers": (np.where(solid, 255, 0).astype(np.uint8), {"threshold": 128}),
+    }[kind]
+    cut = smooth_volume(np.where(masked, values.ravel()[0], values), **options)
+    result = smooth_volume(np.ma.MaskedArray(values, mask=masked), **options)
+    assert result.mesh.bounds[1, 0] < 16
+    assert result.mesh.volume == pytest.approx(cut.mesh.volume, rel=0.01)
+    assert smooth_volume(np.ma.MaskedArray(values), **options).mesh.bounds[1, 0] > 24
+
+
+def test_labels_are_any_sequence() -> None:
+    values = np.zeros((20, 20, 20), dtype=np.uint8)
+    values[4:10, 4:16, 4:16], values[10:16, 4:16, 4:16] = 1, 2
+    volumes = [smooth_volume(values, label=each).mesh.volume for each in ((1, 2), [1, 2], np.array([1, 2]))]
+    assert volumes[0] == volumes[1] == volumes[2] == pytest.approx(12**3, rel=1e-3)
+
+
 # --- errors ----------------------------------------------------------------------------------------------
 
 

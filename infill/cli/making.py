@@ -9,9 +9,10 @@ from typing import Annotated, Any, BinaryIO
 
 import typer
 
-from infill.cli.completing import pattern_assignments, pattern_names
+from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
 from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
 
+SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
 BLOCK, FILES, PATTERN, RUN = "Block", "Files", "Pattern", "Run"
 
 
@@ -91,6 +92,7 @@ def make(
         typer.Option(
             help="block: the paper's stamps, walls up to 41 % wider on diagonals; "
             "exact: the same width in every direction. (default: block)",
+            autocompletion=stamp_names,
             rich_help_panel=BLOCK,
         ),
     ] = None,
@@ -189,7 +191,11 @@ def make(
         written = deliver(parts)
     files = [str(path) for path in written]
     if not quiet:
-        say(f"wrote {', '.join(files)}" if result is None else _summary(result.report, files, verbose=verbose))
+        say(
+            f"wrote {', '.join(files)}"
+            if result is None
+            else _summary(result.report, files, settings.size, verbose=verbose)
+        )
     if as_json and result is not None:
         print_json({**result.report, "files": files})
 
@@ -211,7 +217,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
     typer.echo(table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
 
 
-def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
+def _summary(report: dict[str, Any], files: list[str], asked: tuple[float, float], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
@@ -230,6 +236,8 @@ def _summary(report: dict[str, Any], files: list[str], *, verbose: bool) -> str:
         "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
         f"volume {report['volume_change']:+.2%} (excluding rims)",
     }
+    if any(abs(one - other) > SHOWN for one, other in zip(request["size"], asked, strict=True)):
+        rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in asked)} mm asked for"
     if change["pinholes"]:
         share = f"{change['pinhole_share']:.2%} of the void"
         rows["pinholes"] = f"{change['pinholes']} hole(s) or neck(s) narrower than a line closed, {share}"

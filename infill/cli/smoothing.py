@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
 
 import typer
 
+from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
 from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
@@ -63,6 +64,7 @@ def smooth(
         str | None,
         typer.Option(
             help="Unit of a mesh or of points: um, mm, cm, m, in. (default: as in the file, or mm)",
+            autocompletion=unit_names,
             rich_help_panel=FILES,
         ),
     ] = None,

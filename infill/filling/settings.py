@@ -25,7 +25,7 @@ ENDLESS = 10**9  # layers
 
 
 def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = ()) -> dict[str, Any]:
-    """Return the arguments of `refill`: the command line takes precedence over the file.
+    """Return the arguments of `refill`, angles in degrees: the command line takes precedence over the file.
 
     Parameters
     ----------
@@ -49,7 +49,6 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     from infill.filling.placement import unplaced
     from infill.formats.assignments import gathered, table_of
     from infill.formats.toml import read_toml
-    from patterns.given import from_degrees
 
     filed = read_toml(config, example='pattern = "gyroid"') if config else {}
     table = table_of(filed)
@@ -57,7 +56,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     own = gathered(kind, READERS, flags=given, assigned=assigned, filed=filed, table=table)
     return {
         **_arguments({name: value for name, value in (filed | given).items() if name in READERS}),
-        **from_degrees(kind, own),
+        **own,
     }
 
 

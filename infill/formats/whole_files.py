@@ -44,7 +44,7 @@ def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
             raise OutputError(f"there is no folder {target.parent}; make it first or write elsewhere")
         if not os.access(target.parent, os.W_OK):
             raise OutputError(f"cannot write {target}: {REASONS[errno.EACCES]}")
-        if target.exists() and not overwrite:
+        if os.path.lexists(target) and not overwrite:  # a link that leads nowhere is there as well
             raise OutputError(f"{target} exists; give another name, or --force to overwrite it")
     return target
 

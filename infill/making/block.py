@@ -81,7 +81,7 @@ def make(
     progress : callable, optional
         Called with the name of a stage and the share of work done, 0 to 1, when the stage begins.
     **parameters
-        Parameters of the pattern, if it is given by name: cell=8, angle=math.radians(30) …
+        Parameters of the pattern, if it is given by name: cell=8, angle=30 (degrees) …
 
     Returns
     -------

@@ -8,6 +8,7 @@ see `infill.smoothing.remedies`. What is done for each is the same: see `infill.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Unpack, overload
 
@@ -30,6 +31,7 @@ from infill.surfaces.merging import surface_of
 from infill.volume import Volume
 from infill.voxels.coarsening import coarser
 from infill.voxels.from_points import voxelise_points
+from infill.voxels.masked import void_where_masked
 from infill.voxels.segmentation import threshold as segment
 
 if TYPE_CHECKING:
@@ -42,7 +44,7 @@ def smooth_volume(
     spacing: float | tuple[float, ...] = 1.0,
     origin: tuple[float, ...] = (0.0, 0.0, 0.0),
     threshold: float | tuple[float | None, float | None] | Literal["otsu"] | None = None,
-    label: int | tuple[int, ...] | None = None,
+    label: int | Sequence[int] | None = None,
     grey: bool = False,
     voxel: float | None = None,
     **options: Unpack[Options],
@@ -52,7 +54,8 @@ def smooth_volume(
     Parameters
     ----------
     volume : (nx, ny, nz) array or Volume
-        Booleans, a mask, a phase field in [-1, 1], labels or grey values, [x, y, z].
+        Booleans, a mask, a phase field in [-1, 1], labels or grey values, [x, y, z]. Cells that a
+        numpy.ma.MaskedArray masks are void.
     spacing : float or (hx, hy, hz)
         Cell size, mm; only for an array.
     origin : (x, y, z)
@@ -60,7 +63,7 @@ def smooth_volume(
     threshold : float, (low, high) or "otsu", optional
         Solid is what has at least this value, has a value in this range, or lies above the threshold that Otsu's
         method finds.
-    label : int or tuple of int, optional
+    label : int or sequence of int, optional
         Solid is what has this label, or one of these labels.
     grey : bool
         Keep the grey levels around the threshold (2): they show where between two cells the surface lies.
@@ -118,12 +121,13 @@ def smooth_volume(
     >>> bool(abs(result.mesh.volume / ball.sum() - 1) < 1e-4)
     True
     """
-    scan = volume if isinstance(volume, Volume) else _volume(volume, spacing, origin)
     low, high = threshold if isinstance(threshold, tuple) else (threshold, None)
     otsu = isinstance(low, str)
     if otsu and low != "otsu":
         raise ParameterError(f"there is no threshold {low!r}; give a number, two for a range, or otsu")
     number = None if otsu or low is None else float(low)
+    chosen = threshold is not None or label is not None
+    scan = volume if isinstance(volume, Volume) else _volume(volume, spacing, origin, number, chosen=chosen)
     solid, used = segment(scan, low=number, high=high, label=label, otsu=otsu)
     request = Request(**options)
     phase = used["method"] == "phase"
@@ -141,8 +145,16 @@ def smooth_volume(
     return best_of(ways_of_scan(scan, solid, used, facts, request, grey=grey, phase=phase), request)
 
 
-def _volume(values: ArrayLike, spacing: float | tuple[float, ...], origin: tuple[float, ...]) -> Volume:
-    return Volume(values=np.asarray(values), spacing=spacing_of(spacing, 3), origin=origin)
+def _volume(
+    values: ArrayLike,
+    spacing: float | tuple[float, ...],
+    origin: tuple[float, ...],
+    low: float | None,
+    *,
+    chosen: bool,
+) -> Volume:
+    plain = void_where_masked(np.asanyarray(values), low, chosen=chosen)
+    return Volume(values=plain, spacing=spacing_of(spacing, 3), origin=origin)
 
 
 @overload

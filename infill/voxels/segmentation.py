@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -27,7 +27,7 @@ def threshold(
     *,
     low: float | None = None,
     high: float | None = None,
-    label: int | tuple[int, ...] | None = None,
+    label: int | Sequence[int] | None = None,
     otsu: bool = False,
 ) -> tuple[Volume, dict[str, Any]]:
     """Return which cells are solid, and the criterion that was used.
@@ -38,7 +38,7 @@ def threshold(
         Numbers or booleans. It is not changed.
     low, high : float, optional
         Solid is low <= value <= high; giving only one leaves the other side open.
-    label : int or tuple of int, optional
+    label : int or sequence of int, optional
         Solid is every cell with one of these values.
     otsu : bool
         Solid is what lies above the threshold that Otsu's method finds.
@@ -74,7 +74,7 @@ def threshold(
     if values.dtype == bool and not any(ways):
         solid, used = values, {"method": "mask"}
     elif label is not None:
-        labels = label if isinstance(label, tuple) else (label,)
+        labels = tuple(label) if isinstance(label, tuple | list | np.ndarray) else (label,)
         solid, used = _labelled(values, labels), {"method": "label", "label": list(labels)}
     elif otsu:
         low = otsu_threshold(volume)
