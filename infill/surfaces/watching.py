@@ -18,10 +18,8 @@ FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places
 # Sides of what is given: how far places on it are apart at most, and places on what was found, whose triangles
 # are larger: closer if the tolerance is a large part of that.
 GIVEN, FOUND, LARGE = 0.3, (0.7, 0.35), 0.3
-SURE, SMALL = (
-    0.3,
-    0.5,
-)  # of the tolerance: distances that do not matter, and how close places are to one another at least
+# Of the tolerance: distances that do not matter, and how close places come to one another.
+SURE, SMALL = 0.3, 0.5
 SAMPLE, SPARE = 50, 1.2  # one of so many faces tells how many places there will be, and how much room is left for more
 
 
@@ -49,7 +47,7 @@ class Watched:
     unsure: Whole
 
     def again(self, found: Surface, tolerance: float, threads: int | None) -> Watched:
-        """Return the same places, those near faces that were changed measured again; `found` has the same faces."""
+        """Return the same places, those near faces that were changed measured again; `found` has those and new ones."""
         other = np.zeros(len(found.faces), dtype=bool)
         other[self.unsure] = True
         these = np.flatnonzero(other[self.owner])
