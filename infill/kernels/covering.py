@@ -1,7 +1,7 @@
 """Points on the triangles of a mesh at which to see how far another mesh lies, dense only where that may be far.
 
 A piece of a triangle whose corners are near one and the same triangle is near it everywhere, since the distance from a
-triangle is convex. All other pieces are cut in four, down to a size.
+triangle is convex. All other pieces are cut in two, down to a size.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -17,10 +17,10 @@ from infill.kernels.compiling import njit
 from infill.kernels.distances import DEEPEST, nearest_triangle, squared_distance
 from infill.kernels.quadrics import squared_length
 
-DEPTH = 9  # times that a triangle is cut in four, at most
-# How long a piece may be over the distance by which its corners are nearer than they have to be. At the square root of
-# three, no place on it could be too far away; but that happens only where the other mesh leaves it at a right angle.
-SLOPE = 8
+DEPTH = 18  # times that a triangle is cut in two, at most
+# How long a piece that is hardly near may be, over the distance by which its corners are nearer than they have to be.
+# At the square root of three, no place on it could be too far away, even if the meshes met at a right angle.
+SLOPE = 10.0
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -53,6 +53,8 @@ def cover(
     enough,
     coarse,
     fine,
+    least,
+    begin,
     points,
     face,
     owner,
@@ -60,7 +62,7 @@ def cover(
     thread,
     threads,
 ):
-    """Set points on every `threads`-th triangle, and what they are nearest to; return how many there are.
+    """Set points on every `threads`-th triangle, and what they are nearest to; return how many fit.
 
     Parameters
     ----------
@@ -73,17 +75,22 @@ def cover(
         Squared distances: of what is near, and of what is so near that it does not matter how near.
     coarse, fine : float
         Lengths to which pieces are cut: all of them, and those of which a corner is hardly near any more.
+    least : float
+        Only points further away than this, a squared distance, are kept.
+    begin : (threads,) int64
+        The first face of each thread; becomes the first one whose points did not fit, or how many faces there are.
     points, face, owner, away : (threads, P, 3) float64, (threads, P) int32, (threads, P) int64, (threads, P) float64
         What is found: the face that each point lies on, the triangle of the other mesh that it is nearest to, or any
-        within `enough`, and the squared distance from that. With no room left, points are counted only.
+        within `enough`, and the squared distance from that.
     """
     stack, waiting = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
-    room = 3 * DEPTH + 4
+    room = DEPTH + 2
     pieces, owners, offs = np.empty((room, 3, 3)), np.empty((room, 3), dtype=np.int64), np.empty((room, 3))
     depths = np.empty(room, dtype=np.int64)
-    piece, ends, off = np.empty((6, 3)), np.empty(6, dtype=np.int64), np.empty(6)
+    piece, ends, off = np.empty((4, 3)), np.empty(4, dtype=np.int64), np.empty(4)
     count = 0
-    for f in range(thread, len(faces), threads):
+    for f in range(begin[thread], len(faces), threads):
+        before = count
         for k in range(3):
             v = faces[f, k]
             pieces[0, k] = vertices[v]
@@ -95,34 +102,34 @@ def cover(
             piece[:3], ends[:3], off[:3] = pieces[left], owners[left], offs[left]
             if depth == DEPTH or _covered(piece, ends, off, corners, near):
                 continue
-            longest = max(
-                squared_length(piece[0], piece[1]),
-                squared_length(piece[1], piece[2]),
-                squared_length(piece[2], piece[0]),
-            )
-            slack = math.sqrt(near) - math.sqrt(max(off[0], off[1], off[2]))
-            limit = min(coarse, max(fine, SLOPE * slack))
+            k, longest = 0, 0.0
+            for side in range(3):
+                found = squared_length(piece[side], piece[(side + 1) % 3])
+                if found > longest:
+                    k, longest = side, found
+            limit, farthest = coarse, max(off[0], off[1], off[2])
+            if farthest > enough:
+                limit = min(coarse, max(fine, SLOPE * (math.sqrt(near) - math.sqrt(farthest))))
             if longest <= limit * limit:
                 continue
-            for k in range(3):
-                j = (k + 1) % 3
-                for axis in range(3):
-                    piece[3 + k, axis] = (piece[k, axis] + piece[j, axis]) / 2
-                x, y, z = piece[3 + k, 0], piece[3 + k, 1], piece[3 + k, 2]
-                off[3 + k], ends[3 + k] = nearest_triangle(
-                    x, y, z, ends[k], corners, low, high, leaf, enough, stack, waiting
-                )
-                if count < points.shape[1]:
-                    points[thread, count], face[thread, count] = piece[3 + k], f
-                    owner[thread, count], away[thread, count] = ends[3 + k], off[3 + k]
+            j = (k + 1) % 3
+            for axis in range(3):
+                piece[3, axis] = (piece[k, axis] + piece[j, axis]) / 2
+            x, y, z = piece[3, 0], piece[3, 1], piece[3, 2]
+            off[3], ends[3] = nearest_triangle(x, y, z, ends[k], corners, low, high, leaf, enough, stack, waiting)
+            if off[3] > least:
+                if count == points.shape[1]:
+                    begin[thread] = f
+                    return before
+                points[thread, count], face[thread, count] = piece[3], f
+                owner[thread, count], away[thread, count] = ends[3], off[3]
                 count += 1
-            for part in range(4):  # three at the corners, the fourth in the middle
-                for k in range(3):
-                    at = part if part < 3 and k == 0 else 3 + (part if k == 1 else (part + 2) % 3)
-                    if part == 3:
-                        at = 3 + k
-                    pieces[left, k] = piece[at]
-                    owners[left, k], offs[left, k] = ends[at], off[at]
+            for half in range(2):  # the middle of the longest side takes the place of one of its ends
+                for corner in range(3):
+                    at = 3 if corner == (j if half == 0 else k) else corner
+                    pieces[left, corner] = piece[at]
+                    owners[left, corner], offs[left, corner] = ends[at], off[at]
                 depths[left] = depth + 1
                 left += 1
+    begin[thread] = len(faces)
     return count

@@ -66,8 +66,7 @@ def mended(
         changed, owner, points = seen.unsure, seen.owner, seen.points
         missed = np.flatnonzero(seen.away > tolerance)
         there = looked_at(tree, found, changed, side, tolerance, threads=threads)
-        beyond = np.flatnonzero(there.away > tolerance)
-        if not len(missed) and not len(beyond):
+        if not len(missed) and not len(there.points):
             seen = replace(seen, unsure=np.empty(0, dtype=np.int64))
             crossing = intersecting(np.asarray(found.vertices), found.faces)
             if not len(crossing):
@@ -78,11 +77,10 @@ def mended(
                 break
             seen = replace(seen, unsure=changed)
             continue
-        places = there.points[beyond]
-        faces = np.concatenate([owner[missed], there.face[beyond]])
-        targets = np.concatenate([points[missed], _nearest_on(given, there.owner[beyond], places)])
-        sources = np.concatenate([_nearest_on(found, owner[missed], points[missed]), places])
-        distance = np.concatenate([seen.away[missed], there.away[beyond]])
+        faces = np.concatenate([owner[missed], there.face])
+        targets = np.concatenate([points[missed], _nearest_on(given, there.owner, there.points)])
+        sources = np.concatenate([_nearest_on(found, owner[missed], points[missed]), there.points])
+        distance = np.concatenate([seen.away[missed], there.away])
         targets = sources + (1 - LEFT ** (n + 1) * tolerance / distance)[:, None] * (targets - sources)
         worst = np.argsort(-distance, kind="stable")
         worst = worst[np.unique(faces[worst], return_index=True)[1]]

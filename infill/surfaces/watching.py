@@ -19,8 +19,8 @@ FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places
 # are larger: closer if the tolerance is a large part of that.
 GIVEN, FOUND, LARGE = 0.3, (0.7, 0.35), 0.3
 # Of the tolerance: distances that do not matter, and how close places come to one another.
-SURE, SMALL = 0.3, 0.5
-SAMPLE, SPARE = 50, 1.2  # one of so many faces tells how many places there will be, and how much room is left for more
+SURE, SMALL = 0.6, 0.5
+ROOM = 1 << 18  # places for which there is room at a time
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -160,6 +160,7 @@ def between(
     apart: float,
     tolerance: float,
     *,
+    all_places: bool = True,
     threads: int | None = None,
 ) -> Places:
     """Return places between the vertices of a surface: see `infill.kernels.covering`.
@@ -174,6 +175,8 @@ def between(
     apart : float, mm
         How far places are from one another at most; they are closer where what they are near is nearly too far away.
     tolerance : float, mm
+    all_places : bool
+        Whether to return places that are within the tolerance as well.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
@@ -184,17 +187,18 @@ def between(
     place[tree.order] = np.arange(len(tree.order))
     mesh = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces, place[owner], away**2
     other = tree.corners, tree.low, tree.high, LEAF
+    kept = -1.0 if all_places else tolerance**2
     sizes = tolerance**2, (SURE * tolerance) ** 2, apart, min(apart, SMALL * tolerance)
-    sample = mesh[0], surface.faces[::SAMPLE], *mesh[2:]
-    none = _room(threads, 0)
-    room = int(SPARE * SAMPLE * max(in_threads(cover, *sample, *other, *sizes, *none, threads=threads))) + SAMPLE
-    while True:
+    begin, room = np.arange(threads), ROOM
+    parts = [tuple(each[0] for each in _room(1, 0))]
+    while (begin < len(surface.faces)).any():
         filled = _room(threads, room)
-        counts = in_threads(cover, *mesh, *other, *sizes, *filled, threads=threads)
-        if max(counts) <= room:
-            break
-        room = max(counts)
-    points, face, near, off = (np.concatenate([each[n, : counts[n]] for n in range(threads)]) for each in filled)
+        before = begin.copy()
+        counts = in_threads(cover, *mesh, *other, *sizes, kept, begin, *filled, threads=threads)
+        parts += [tuple(each[n, : counts[n]].copy() for each in filled) for n in range(threads)]
+        if (begin == before).any():  # the places of one face do not fit
+            room *= 2
+    points, face, near, off = (np.concatenate(each) for each in zip(*parts, strict=True))
     return Places(points=points, face=face.astype(np.int64), owner=tree.order[near], away=np.sqrt(off))
 
 
@@ -207,7 +211,7 @@ def _room(threads: int, room: int) -> tuple[Floats, NDArray[np.int32], Whole, Fl
 def looked_at(
     tree: Tree, found: Surface, faces: Whole, side: float, tolerance: float, *, threads: int | None = None
 ) -> Places:
-    """Return places on some faces of a surface that was found, which may be too far from what was given.
+    """Return places on some faces of a surface that was found which are too far from what was given.
 
     Between its edges it is flat, and few places are enough; along its edges they are close together. Of a whole
     surface, each edge is looked at once.
@@ -228,14 +232,17 @@ def looked_at(
     used, first = np.unique(part.faces, return_index=True)
     owner, away = np.zeros(len(vertices), dtype=np.int64), np.zeros(len(vertices))
     away[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
-    inside = between(tree, part, owner, away, FOUND[tolerance > LARGE * side] * side, tolerance, threads=threads)
+    inside = between(
+        tree, part, owner, away, FOUND[tolerance > LARGE * side] * side, tolerance, all_places=False, threads=threads
+    )
     points, face = _along_edges(part, min(FINER * side, WIDE * tolerance), whole=len(faces) == len(found.faces))
     off, nearest = tree.nearest(points, enough=tolerance, threads=threads)
+    far, corner = np.flatnonzero(off > tolerance), np.flatnonzero(away[used] > tolerance)
     return Places(
-        points=np.concatenate([vertices[used], inside.points, points]),
-        face=faces[np.concatenate([first // 3, inside.face, face])],
-        owner=np.concatenate([owner[used], inside.owner, nearest]),
-        away=np.concatenate([away[used], inside.away, off]),
+        points=np.concatenate([vertices[used[corner]], inside.points, points[far]]),
+        face=faces[np.concatenate([first[corner] // 3, inside.face, face[far]])],
+        owner=np.concatenate([owner[used[corner]], inside.owner, nearest[far]]),
+        away=np.concatenate([away[used[corner]], inside.away, off[far]]),
     )
 
 
