@@ -21,7 +21,7 @@ CLOSE = 0.05, 0.005  # of a triangle: what is nearer to a corner is mended there
 FIRST = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
 # Of the tolerance: how far into each other triangles may reach to be moved apart, and how far apart that is.
 SHALLOW, GAP = 1.0, 0.02
-LEFT = 0.8  # of the tolerance: how far away what is mended is left, so that little else is bent; less in each round
+LEFT = 0.9  # of the tolerance: how far away what is mended is left, so that little else is bent; less in each round
 
 
 def mended(
