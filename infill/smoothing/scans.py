@@ -20,6 +20,7 @@ from infill.smoothing.request import AUTO, Given, Request
 from infill.volume import Volume
 from infill.voxels.noise import NOISY, noise_share
 from infill.voxels.segmentation import grey as grey_levels
+from infill.voxels.segmentation import solid_cells
 from infill.voxels.slices import interpolated, layers_between
 
 LAYERS = 16  # that are looked at for grey values
@@ -111,6 +112,6 @@ def _given(data: Volume, solid: Volume, facts: Mapping[str, Any], *, axis: int, 
         data=interpolated(data, axis, count),
         facts=facts,
         raw=raw_surface(mask, solid, None),
-        volume=None if data is not solid else float(np.count_nonzero(solid.values)) * solid.cell_volume,
+        volume=None if data is not solid else solid_cells(np.asarray(solid.values)) * solid.cell_volume,
         cell=float(solid.cell_size.max()),
     )

@@ -136,7 +136,7 @@ def smooth_volume(
             scan = coarser(scan, voxel)
             solid, _ = segment(scan, low=used["low"], high=used.get("high"))
         else:  # a mask: what share of a larger voxel is solid tells where in it the surface lies
-            scan = coarser(solid, voxel)
+            scan = coarser(replace(solid, values=np.asarray(solid.values) > 0), voxel)
             scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
             solid = replace(scan, values=np.asarray(scan.values) > 0)
         if not np.asarray(solid.values).any():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,12 +17,13 @@ FEWEST = 500  # cells at the surface
 VOTERS = 27  # a cell and its neighbours
 
 
-def noise_share(solid: NDArray[np.bool_], *, threads: int | None = None) -> float:
+def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     """Return how many cells a majority of the 27 around each overrules, over those at the surface that is left then.
 
     Parameters
     ----------
-    solid : (nx, ny, nz) bool
+    solid : (nx, ny, nz)
+        Booleans, or numbers that are above 0 where it is solid.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
 
@@ -39,7 +41,7 @@ def noise_share(solid: NDArray[np.bool_], *, threads: int | None = None) -> floa
 
     starts = np.unique(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int))
     counts = np.zeros((len(starts), 3), dtype=np.int64)
-    slabs = (np.ascontiguousarray(solid[start : start + LAYERS]).view(np.uint8) for start in starts)
+    slabs = (np.ascontiguousarray(solid[start : start + LAYERS] > 0).view(np.uint8) for start in starts)
     works = (partial(count_overruled, slab, found) for slab, found in zip(slabs, counts, strict=True))
     together(*works, threads=thread_count(threads))
     taken, given, surface = counts.sum(axis=0).tolist()

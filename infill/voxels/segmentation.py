@@ -46,7 +46,7 @@ def threshold(
     Returns
     -------
     Volume
-        Booleans, True is solid, in the same place.
+        Booleans, True is solid, in the same place; a mask of −1 and 1 in single bytes as it is.
     dict
         "method" (range, label, otsu, mask or phase), the numbers it used, "values", the lowest and the highest
         value, and "solid", the solid share of all cells.
@@ -84,7 +84,7 @@ def threshold(
         solid, used = _between(values, low, high), {"method": "range", "low": low, "high": high}
     else:
         solid, used = _plain(volume, least, most)
-    count = int(np.count_nonzero(solid))
+    count = solid_cells(solid)
     if count in (0, solid.size):
         amount = "no cell" if count == 0 else "every cell"
         raise ParameterError(
@@ -93,6 +93,13 @@ def threshold(
         )
     used |= {"values": [least, most], "solid": count / solid.size}
     return replace(volume, values=solid), used
+
+
+def solid_cells(solid: NDArray[Any]) -> int:
+    """Return how many cells are solid, by what `threshold` returns."""
+    if solid.dtype == bool:
+        return int(np.count_nonzero(solid))
+    return sum(int(np.count_nonzero(part > 0)) for part in _slabs(solid))
 
 
 def otsu_threshold(volume: Volume) -> float:
@@ -215,9 +222,14 @@ def contrast(volume: Volume, level: float) -> float:
     return total / pairs
 
 
-def _plain(volume: Volume, least: float, most: float) -> tuple[NDArray[np.bool_], dict[str, Any]]:
+def _plain(volume: Volume, least: float, most: float) -> tuple[NDArray[Any], dict[str, Any]]:
     """Return what the values mean by themselves, or raise ParameterError that offers the ways to choose."""
     values: NDArray[Any] = volume.values
+    if values.dtype.itemsize == 1 and values.dtype.kind in "iu":  # two values of one byte are not copied
+        if (least, most) == (0, 1):
+            return values.view(bool), {"method": "mask"}
+        if (least, most) == SIGNS and np.count_nonzero(values) == values.size:
+            return values, {"method": "mask"}
     masked = least == 0 < most or (least, most) == SIGNS
     if masked and all(bool(((part == least) | (part == most)).all()) for part in _slabs(values)):
         return values == most, {"method": "mask"}
