@@ -7,7 +7,7 @@ import functools
 import json
 import logging
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TextIO, TypeVar
 
 import typer
@@ -108,8 +108,8 @@ def can_show(text: str) -> bool:
     return True
 
 
-def print_json(value: Mapping[str, Any]) -> None:
-    """Print one JSON object to stdout."""
+def print_json(value: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:
+    """Print one JSON object to stdout, or a list of them."""
     typer.echo(json.dumps(value, indent=2, allow_nan=False))
 
 
