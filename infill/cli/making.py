@@ -166,7 +166,7 @@ def make(
     for path in outputs:
         writer(path, ascii=ascii_stl)
     if preview is not None:
-        from infill.pictures.preview import check_preview, write_preview
+        from infill.pictures.preview import check_preview
 
         check_preview(preview)
     check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)
@@ -185,7 +185,7 @@ def make(
         if result is not None:
             parts |= {path: partial(writer(path, ascii=ascii_stl), result.surface) for path in outputs}
             if preview is not None:
-                parts[preview] = partial(write_preview, result)
+                parts[preview] = result.write_picture
         if save_config is not None:
             parts[save_config] = lambda file: file.write(settings.to_toml().encode())
         written = deliver(parts)

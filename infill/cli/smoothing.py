@@ -288,8 +288,6 @@ def smooth(
                 spacing=spaced,
                 roi=box,
             )
-        from infill.smoothing.placing import field_volume
-
         with log_said(shown=not quiet):
             result = smooth_source(
                 given,
@@ -313,11 +311,9 @@ def smooth(
             elif path.suffix.lower() in WRITERS:
                 parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
             else:
-                parts[path] = partial(field_writer(path), field_volume(cast("Result[SmoothStages]", result)))
+                parts[path] = partial(field_writer(path), cast("Result[SmoothStages]", result).stages.field())
         if preview is not None:
-            from infill.pictures.preview import write_preview
-
-            parts[preview] = partial(write_preview, result)
+            parts[preview] = result.write_picture
         written = [str(path) for path in deliver(parts)]
     if not quiet:
         if by_component:

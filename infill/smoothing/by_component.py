@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
@@ -20,6 +20,9 @@ from infill.surface import Surface
 from infill.surfaces.parting import parted
 from infill.version import __version__
 from infill.voxels.from_mesh import RESOLUTION
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size was asked for
 SMALL = 100  # voxels along a component: one thread does it before others have begun
@@ -46,6 +49,14 @@ class ComponentStages:
     voxel: float
     components: Mapping[str, Surface]
     failed: Mapping[str, str] = field(default_factory=dict)
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return the mesh and its components, smoothed one by one."""
+        from infill.pictures.before_and_after import before_and_after
+
+        before = f"given: {len(self.given.faces):,} triangles"
+        after = f"smoothed: {len(report['components'])} components, {report['triangles']:,} triangles"
+        return before_and_after(self.given, surface, cell=self.voxel, report=report, captions=(before, after))
 
 
 def by_components(

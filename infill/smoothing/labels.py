@@ -26,6 +26,8 @@ from infill.voxels.cropping import part
 from infill.voxels.labels import Extent, extents
 
 if TYPE_CHECKING:
+    from PIL import Image
+
     from infill.smoothing.stages import SmoothStages
     from infill.surface import Surface
 
@@ -50,6 +52,13 @@ class LabelStages:
 
     segments: Mapping[str, Segment]
     failed: Mapping[str, str] = field(default_factory=dict)
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return all labels as one picture."""
+        from infill.pictures.sheet import mesh_panel, sheet
+
+        caption = f"{len(report['labels'])} labels, {report['triangles']:,} triangles"
+        return sheet({caption: mesh_panel(surface)}, "")
 
 
 @dataclass(frozen=True, kw_only=True)

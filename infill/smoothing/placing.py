@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.machine import require_memory
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.collapsing import collapsed
@@ -20,9 +19,7 @@ from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
 if TYPE_CHECKING:
-    from infill.result import Result
     from infill.smoothing.request import Request
-    from infill.smoothing.stages import SmoothStages
 
 COMPARED = 5_000  # vertices whose distance is measured
 SIMPLER = 0.05  # of the volume: how much simplification may change
@@ -63,24 +60,6 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
         "shells": shell_names(light)[1],
         "distance": summary(distances(some(full.vertices), light, threads=request.threads)),
     }
-
-
-def staircase(stages: SmoothStages) -> Surface:
-    """Return the surface of the data that a result was smoothed from, in the same place as the result."""
-    return raw_surface(stages.levelled.against, stages.data, None)
-
-
-def field_volume(result: Result[SmoothStages]) -> Volume:
-    """Return the whole field of a result, minus its level, so that the surface lies at 0: float32, [x, y, z].
-
-    For a surface at the level that keeps the volume, it is the distance from the surface, +-1 some cells away from it.
-    """
-    data, found = result.stages.data, result.stages.levelled
-    require_memory(4 * data.values.size, None, "write a mesh instead of the field, or use larger voxels")
-    values = found.against.to_dense()
-    values -= np.float32(found.height)
-    whole: Volume = replace(data, values=values.clip(-1, 1, out=values))
-    return whole
 
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
