@@ -111,16 +111,16 @@ def refuse(**given: bool) -> None:
 
 def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None, options: Options) -> None:
     """Smooth every label, write the files and say what was done."""
+    from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import parts_writer, writer
     from infill.formats.name_templates import is_template
-    from infill.formats.whole_files import check_targets, deliver
 
     single = [path for path in written.outputs if not is_template(path)]
     for path in written.outputs:
         writer(path, ascii=written.ascii_stl)
         if path in single:
             parts_writer(path)
-    check_targets(single, overwrite=written.force)
+    check_outputs(single, overwrite=written.force, as_json=written.as_json)
     with progress_bar(shown=not written.quiet) as progress, log_said(shown=not written.quiet):
         from infill.formats.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
@@ -149,8 +149,8 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
         if progress is not None:
             progress("write", 0.9)
         parts = _parts(result, written)
-        check_targets(parts, overwrite=written.force)
-        files = [str(path) for path in deliver(parts)]
+        check_outputs(parts, overwrite=written.force, as_json=written.as_json)
+        files = deliver_all(parts)
     if not written.quiet:
         say(_summary(result, files, str(given.source)))
     if written.as_json:

@@ -28,7 +28,8 @@ def make(
         typer.Option(
             "-o",
             "--output",
-            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb. May be given again.",
+            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; - for an STL on stdout, -.3mf for others. May be "
+            "given again.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -135,9 +136,9 @@ def make(
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
+    from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import writer
-    from infill.formats.whole_files import check_targets, deliver
     from infill.making.settings import resolve
 
     flags = {
@@ -158,7 +159,7 @@ def make(
         "waves": waves,
         "hearts": hearts,
     }
-    outputs = output or []
+    outputs = [with_suffix(path) for path in output or []]
     if not (outputs or preview or save_config or dry_run or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
     settings = resolve(flags, config, assigned or [])
@@ -169,7 +170,7 @@ def make(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json)
     if dry_run:
         _show_plan(settings.plan(), limit, as_json=as_json)
         return
@@ -188,8 +189,7 @@ def make(
                 parts[preview] = result.write_picture
         if save_config is not None:
             parts[save_config] = lambda file: file.write(settings.to_toml().encode())
-        written = deliver(parts)
-    files = [str(path) for path in written]
+        files = deliver_all(parts)
     if not quiet:
         say(
             f"wrote {', '.join(files)}"

@@ -39,7 +39,8 @@ def smooth(
         typer.Option(
             "-o",
             "--output",
-            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; or the field: .npz .nrrd. May be given again.",
+            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; or the field: .npz .nrrd; - for an STL on "
+            "stdout, -.3mf for others. May be given again.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -196,12 +197,12 @@ def smooth(
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
+    from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes, parse_level, parse_numbers
     from infill.formats.mesh_files import WRITERS, writer
     from infill.formats.volume_files import FIELD_WRITERS, field_writer
-    from infill.formats.whole_files import check_targets, deliver
 
-    outputs = output or []
+    outputs = [with_suffix(path) for path in output or []]
     if refine and method not in ("auto", "refine"):
         raise typer.BadParameter(f"--refine is --smooth refine, and --smooth {method} is given; leave one of them out")
     if fidelity is not None:
@@ -271,7 +272,7 @@ def smooth(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_targets(filter(None, (*outputs, preview)), overwrite=force)
+    check_outputs((*outputs, preview), overwrite=force, as_json=as_json)
     with progress_bar(shown=not quiet) as progress:
         from infill.smoothing.sources import read_source, smooth_source
 
@@ -314,7 +315,7 @@ def smooth(
                 parts[path] = partial(field_writer(path), cast("Result[SmoothStages]", result).stages.field())
         if preview is not None:
             parts[preview] = result.write_picture
-        written = [str(path) for path in deliver(parts)]
+        written = deliver_all(parts)
     if not quiet:
         if by_component:
             say(component_summary(cast("Result[ComponentStages]", result), written, str(source)))
