@@ -20,7 +20,7 @@ MOST_ROWS = 60  # components in the summary
 ByComponent = Annotated[
     bool,
     typer.Option(
-        "--by-component",
+        "--by-component/--no-by-component",
         help="Smooth each component of a mesh by itself: what overlaps or touches stays apart. A .3mf or .glb names "
         "them.",
         rich_help_panel="What is solid",

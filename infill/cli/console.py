@@ -92,6 +92,16 @@ class _Said(logging.Handler):
         say(record.getMessage())
 
 
+def is_typed(context: typer.Context, name: str) -> bool:
+    """Return whether an option was given, even if its value is the default; `name` is that of its longest flag."""
+    flag = f"--{name.replace('_', '-')}"
+    for each in context.command.params:
+        if flag in each.opts and each.name is not None:
+            source = context.get_parameter_source(each.name)
+            return source is not None and source.name != "DEFAULT"
+    return False
+
+
 def table(rows: Mapping[str, str], title: str = "") -> str:
     """Return rows of a name and a text, with the texts aligned below each other."""
     width = max(len(name) for name in rows)

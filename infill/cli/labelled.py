@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -23,7 +23,7 @@ MOST_ROWS = 60  # labels in the summary
 EachLabel = Annotated[
     bool,
     typer.Option(
-        "--each-label",
+        "--each-label/--no-each-label",
         help="A surface for every label, named and coloured, into one .3mf or .glb; {label} or {number} in the name of "
         "an output implies it, and writes a file for each.",
         rich_help_panel=LABELS,
@@ -41,7 +41,7 @@ Labels = Annotated[
 KeepGoing = Annotated[
     bool,
     typer.Option(
-        "--keep-going",
+        "--keep-going/--no-keep-going",
         help="If a label fails, write the others, list what failed and exit with 1. (default: write nothing)",
         rich_help_panel=LABELS,
     ),
@@ -87,6 +87,7 @@ class Written:
     as_json: bool
     quiet: bool
     keep_going: bool
+    saved: Mapping[Path, Callable[[BinaryIO], object]]
 
 
 def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
@@ -120,7 +121,8 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
         writer(path, ascii=written.ascii_stl)
         if path in single:
             parts_writer(path)
-    check_outputs(single, overwrite=written.force, as_json=written.as_json)
+    text = next(iter(written.saved), None)
+    check_outputs(single, text=text, overwrite=written.force, as_json=written.as_json)
     with progress_bar(shown=not written.quiet) as progress, log_said(shown=not written.quiet):
         from infill.formats.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
@@ -149,8 +151,8 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
         if progress is not None:
             progress("write", 0.9)
         parts = _parts(result, written)
-        check_outputs(parts, overwrite=written.force, as_json=written.as_json)
-        files = deliver_all(parts)
+        check_outputs(parts, text=text, overwrite=written.force, as_json=written.as_json)
+        files = deliver_all(parts | dict(written.saved))
     if not written.quiet:
         say(_summary(result, files, str(given.source)))
     if written.as_json:

@@ -45,7 +45,7 @@ def make(
     ] = None,
     save_config: Annotated[
         Path | None,
-        typer.Option(help="TOML file to write all options to, as resolved.", rich_help_panel=FILES),
+        typer.Option(help="TOML file to write all options to, as resolved; - for stdout.", rich_help_panel=FILES),
     ] = None,
     cell: Annotated[
         float | None,

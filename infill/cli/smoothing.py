@@ -11,14 +11,14 @@ import typer
 
 from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
-from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, reports_errors, say, table
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
 from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
-    from infill.smoothing.request import Method
+    from infill.smoothing.request import Options
     from infill.smoothing.stages import SmoothStages
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
@@ -26,6 +26,7 @@ GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", 
 
 @reports_errors
 def smooth(
+    context: typer.Context,
     source: Annotated[
         Path,
         typer.Argument(
@@ -50,6 +51,13 @@ def smooth(
             help="Picture of before and after to write, what was lost in red, what was added in blue: FILE.png.",
             rich_help_panel=FILES,
         ),
+    ] = None,
+    config: Annotated[
+        Path | None, typer.Option(help="TOML file of options; flags override it.", rich_help_panel=FILES)
+    ] = None,
+    save_config: Annotated[
+        Path | None,
+        typer.Option(help="TOML file to write all options to, as resolved; - for stdout.", rich_help_panel=FILES),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
@@ -109,10 +117,10 @@ def smooth(
         list[int] | None, typer.Option(help="Solid is what has this label. May be given again.", rich_help_panel=SOLID)
     ] = None,
     otsu: Annotated[
-        bool, typer.Option("--otsu", help="Find the threshold by Otsu's method.", rich_help_panel=SOLID)
+        bool, typer.Option("--otsu/--no-otsu", help="Find the threshold by Otsu's method.", rich_help_panel=SOLID)
     ] = False,
     grey: Annotated[
-        bool, typer.Option("--grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
+        bool, typer.Option("--grey/--no-grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
     ] = False,
     by_component: ByComponent = False,
     despeckle: Annotated[
@@ -131,7 +139,7 @@ def smooth(
         ),
     ] = "auto",
     refine: Annotated[
-        bool, typer.Option("--refine", help="The same as --smooth refine.", rich_help_panel=SURFACE)
+        bool, typer.Option("--refine/--no-refine", help="The same as --smooth refine.", rich_help_panel=SURFACE)
     ] = False,
     smooth_radius: Annotated[
         float | None,
@@ -175,12 +183,16 @@ def smooth(
     ] = None,
     allow_broken: Annotated[
         bool,
-        typer.Option("--allow-broken", help="Write the mesh even if something is lost.", rich_help_panel=RUN),
+        typer.Option(
+            "--allow-broken/--no-allow-broken", help="Write the mesh even if something is lost.", rich_help_panel=RUN
+        ),
     ] = False,
     strict: Annotated[
         bool,
         typer.Option(
-            "--strict", help="Try no remedies, and refuse whatever breaks, fuses or vanishes.", rich_help_panel=RUN
+            "--strict/--no-strict",
+            help="Try no remedies, and refuse whatever breaks, fuses or vanishes.",
+            rich_help_panel=RUN,
         ),
     ] = False,
     threads: Annotated[
@@ -198,116 +210,129 @@ def smooth(
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
-    from infill.cli.words import parse_bytes, parse_level, parse_numbers
+    from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import WRITERS, writer
     from infill.formats.volume_files import FIELD_WRITERS, field_writer
+    from infill.smoothing.settings import resolve
 
     outputs = [with_suffix(path) for path in output or []]
     if refine and method not in ("auto", "refine"):
         raise typer.BadParameter(f"--refine is --smooth refine, and --smooth {method} is given; leave one of them out")
-    if fidelity is not None:
-        if refine or method in ("refine", "grey"):
-            raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
-        method = "plain"  # the only way that has a fidelity
-    if not (outputs or preview or as_json):
+    if fidelity is not None and (refine or method in ("refine", "grey")):
+        raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
+    if not (outputs or preview or as_json or save_config):
         raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
-    spaced = None if spacing is None else parse_numbers("spacing", spacing, (1, 3))
-    box = None if roi is None else parse_numbers("roi", roi, (6,))
-    from infill.phasefield.allen_cahn import Smoothing
-    from infill.smoothing.request import AUTO, Options
-
-    options: Options = {
-        "smoothing": Smoothing(
-            steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
-        ),
-        "method": "refine" if refine else cast("Method", method),
-        "radius": smooth_radius,
-        "crumbs": crumbs,
-        "strict": strict,
-        "level": parse_level(level),
+    flags = {
+        "as": kind,
+        "units": units,
+        "array": array,
+        "series": series,
+        "frame": frame,
+        "spacing": spacing,
+        "roi": roi,
+        "resolution": resolution,
+        "voxel": voxel,
+        "shell": shell,
+        "threshold": threshold,
+        "range": between,
+        "label": label,
+        "otsu": otsu,
+        "grey": grey,
+        "by_component": by_component,
+        "each_label": each_label,
+        "labels": labels,
+        "keep_going": keep_going,
         "despeckle": despeckle,
-        "allow_broken": allow_broken,
-        "tolerance": AUTO if tolerance is None else tolerance or None,
+        "steps": steps,
+        "smooth": method,
+        "refine": refine,
+        "smooth_radius": smooth_radius,
+        "crumbs": crumbs,
+        "fidelity": fidelity,
+        "interface": interface,
+        "level": level,
+        "tolerance": tolerance,
         "max_triangles": max_triangles,
+        "allow_broken": allow_broken,
+        "strict": strict,
+    }
+    settings = resolve({name: value for name, value in flags.items() if is_typed(context, name)}, config)
+    settings.check()
+    options: Options = {
+        **settings.options,
         "threads": threads,
         "max_memory": None if max_memory is None else parse_bytes(max_memory),
     }
-    if wants_each(outputs, each_label=each_label, labels=labels, keep_going=keep_going):
+    saved: dict[Path, Callable[[BinaryIO], object]] = {}
+    if save_config is not None:
+        text = settings.to_toml().encode()
+        saved[save_config] = lambda file: file.write(text)
+    if not (outputs or preview or as_json):
+        check_outputs((), text=save_config, overwrite=force, as_json=as_json)
+        written = deliver_all(saved)
+        if not quiet:
+            say(f"wrote {', '.join(written)}")
+        return
+    if wants_each(outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going):
         refuse(
             preview=preview is not None,
-            units=units is not None,
-            resolution=resolution is not None,
-            voxel=voxel is not None,
-            shell=shell is not None,
-            threshold=threshold is not None,
-            range=between is not None,
-            otsu=otsu,
-            grey=grey or method == "grey",
-            by_component=by_component,
+            units=settings.units is not None,
+            resolution=settings.resolution is not None,
+            voxel=settings.voxel is not None,
+            shell=settings.shell is not None,
+            threshold=settings.threshold is not None,
+            range=settings.between is not None,
+            otsu=settings.otsu,
+            grey=settings.grey or settings.method == "grey",
+            by_component=settings.by_component,
         )
         smooth_each(
             GivenLabels(
                 source=source,
-                kind=kind,
-                array=array,
-                series=series,
-                frame=frame,
-                spacing=spaced,
-                roi=box,
-                labels=labels,
+                kind=settings.kind,
+                array=settings.array,
+                series=settings.series,
+                frame=settings.frame,
+                spacing=settings.spacing,
+                roi=settings.roi,
+                labels=settings.labels,
             ),
             Written(
-                outputs=outputs, ascii_stl=ascii_stl, force=force, as_json=as_json, quiet=quiet, keep_going=keep_going
+                outputs=outputs,
+                ascii_stl=ascii_stl,
+                force=force,
+                as_json=as_json,
+                quiet=quiet,
+                keep_going=settings.keep_going,
+                saved=saved,
             ),
-            label=tuple(label) if label else None,
+            label=settings.label,
             options=options,
         )
         return
     for path in outputs:
         if path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
-    if by_component:
+    if settings.by_component:
         check_fields(outputs)
     if preview is not None:
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_outputs((*outputs, preview), overwrite=force, as_json=as_json)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json)
     with progress_bar(shown=not quiet) as progress:
         from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)
         with log_said(shown=not quiet):
-            given = read_source(
-                source,
-                kind=kind,
-                units=units,
-                array=array,
-                series=series,
-                frame=frame,
-                spacing=spaced,
-                roi=box,
-            )
-        with log_said(shown=not quiet):
-            result = smooth_source(
-                given,
-                resolution=resolution,
-                voxel=voxel,
-                shell=shell,
-                threshold=threshold,
-                between=None if between is None else parse_numbers("range", between, (2,)),
-                label=tuple(label) if label else None,
-                otsu=otsu,
-                grey=grey,
-                by_component=by_component,
-                **cast(Options, {**options, "progress": progress}),
-            )
+            given = read_source(source, **settings.reading)
+            result = smooth_source(given, **settings.choice, **cast("Options", {**options, "progress": progress}))
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
         for path in outputs:
-            if by_component:
+            if settings.by_component:
                 parts[path] = component_writer(path, cast("Result[ComponentStages]", result), ascii_stl=ascii_stl)
             elif path.suffix.lower() in WRITERS:
                 parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
@@ -315,9 +340,9 @@ def smooth(
                 parts[path] = partial(field_writer(path), cast("Result[SmoothStages]", result).stages.field())
         if preview is not None:
             parts[preview] = result.write_picture
-        written = deliver_all(parts)
+        written = deliver_all(parts | saved)
     if not quiet:
-        if by_component:
+        if settings.by_component:
             say(component_summary(cast("Result[ComponentStages]", result), written, str(source)))
         else:
             say(_summary(cast("Result[SmoothStages]", result), written, str(source), verbose=verbose))
