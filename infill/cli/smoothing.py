@@ -12,6 +12,7 @@ import typer
 from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
 from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.foreseeing import foresee
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
 from infill.cli.labelled import Given as GivenLabels
 
@@ -202,6 +203,12 @@ def smooth(
         str | None,
         typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
     ] = None,
+    dry_run: Annotated[
+        bool,
+        typer.Option(
+            "--dry-run", help="Only show grid, method, memory and time, and what would be tried.", rich_help_panel=RUN
+        ),
+    ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
     ] = False,
@@ -220,8 +227,8 @@ def smooth(
         raise typer.BadParameter(f"--refine is --smooth refine, and --smooth {method} is given; leave one of them out")
     if fidelity is not None and (refine or method in ("refine", "grey")):
         raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
-    if not (outputs or preview or as_json or save_config):
-        raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
+    if not (outputs or preview or as_json or save_config or dry_run):
+        raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
     flags = {
         "as": kind,
         "units": units,
@@ -267,7 +274,7 @@ def smooth(
     if save_config is not None:
         text = settings.to_toml().encode()
         saved[save_config] = lambda file: file.write(text)
-    if not (outputs or preview or as_json):
+    if not (outputs or preview or as_json or dry_run):
         check_outputs((), text=save_config, overwrite=force, as_json=as_json)
         written = deliver_all(saved)
         if not quiet:
@@ -285,6 +292,7 @@ def smooth(
             otsu=settings.otsu,
             grey=settings.grey or settings.method == "grey",
             by_component=settings.by_component,
+            dry_run=dry_run,
         )
         smooth_each(
             GivenLabels(
@@ -320,6 +328,10 @@ def smooth(
 
         check_preview(preview)
     check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json)
+    if dry_run:
+        files = filter(None, (*outputs, preview, save_config))
+        foresee(source, settings, options, files, as_json=as_json, quiet=quiet)
+        return
     with progress_bar(shown=not quiet) as progress:
         from infill.smoothing.sources import read_source, smooth_source
 
