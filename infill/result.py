@@ -40,10 +40,11 @@ class Pictured(Protocol):
 
 
 Stages = TypeVar("Stages", bound=Pictured, covariant=True)
+Told = TypeVar("Told", bound=Mapping[str, Any], covariant=True)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Generic[Stages]):
+class Result(Generic[Stages, Told]):
     """Surfaces, a report, and the stages they came from.
 
     Parameters
@@ -51,7 +52,8 @@ class Result(Generic[Stages]):
     surfaces : mapping of str to Surface
         The meshes as plain arrays, mm, the main one first. `make` names its surface "block", `smooth` "solid".
     report : dict
-        Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
+        Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key, and `infill.report_keys` has
+        them for type checkers.
     stages : frozen dataclass
         What the surfaces came from: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages`,
         `infill.smoothing.labels.LabelStages` or `infill.smoothing.by_component.ComponentStages`.
@@ -62,7 +64,7 @@ class Result(Generic[Stages]):
     """
 
     surfaces: Mapping[str, Surface]
-    report: dict[str, Any]
+    report: Told
     stages: Stages = field(repr=False)
     colours: Mapping[str, Colour] = field(default_factory=dict)
     joins: bool = False
@@ -145,7 +147,7 @@ class Result(Generic[Stages]):
         return lambda file: several(parts_of(self), file)
 
 
-def parts_of(result: Result[Any]) -> list[Part]:
+def parts_of(result: Result[Any, Any]) -> list[Part]:
     """Return the surfaces of a result with their names and colours, as files hold them."""
     return [
         Part(surface=surface, name=name, colour=result.colours.get(name)) for name, surface in result.surfaces.items()

@@ -29,7 +29,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
-ANSWERS = {"result", "report"}
+ANSWERS = {"result", "report", "report_keys"}
 HALL = {"version", "errors", "checks", "machine", "ragged", "grid", "volume", "surface"}
 MOST_FLOORS = 12
 

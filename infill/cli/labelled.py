@@ -6,13 +6,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
 from infill.cli.console import as_bytes, log_said, print_json, progress_bar, say, table
 
 if TYPE_CHECKING:
+    from infill.report_keys import LabelsReport
     from infill.result import Result
     from infill.smoothing.labels import LabelStages
     from infill.smoothing.request import Options
@@ -170,7 +171,7 @@ def _nearly(progress: Callable[[str, float], None] | None) -> Callable[[str, flo
     return lambda stage, share: progress(stage, 0.9 * share)
 
 
-def _parts(result: Result[LabelStages], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
+def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
     """Return what writes each file."""
     from infill.errors import OutputError
     from infill.formats.mesh_files import parts_writer, writer
@@ -194,9 +195,9 @@ def _parts(result: Result[LabelStages], written: Written) -> dict[Path, Callable
     return parts
 
 
-def _summary(result: Result[LabelStages], files: Sequence[str], name: str) -> str:
+def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], name: str) -> str:
     """Return the short table for stderr: a row for each label, and what is wrong."""
-    report: dict[str, Any] = result.report
+    report = result.report
     rows = {}
     for each in report["labels"][:MOST_ROWS]:
         own = each["report"]
@@ -205,8 +206,8 @@ def _summary(result: Result[LabelStages], files: Sequence[str], name: str) -> st
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"
-    for each in report["failed"]:
-        rows[f"FAILED {each['number']} {each['name']}"] = each["error"]
+    for lost in report["failed"]:
+        rows[f"FAILED {lost['number']} {lost['name']}"] = lost["error"]
     if report["absent"]:
         rows["without a cell"] = ", ".join(report["absent"])
     if report["problems"]:

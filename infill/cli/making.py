@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import typer
 
 from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
 from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+
+if TYPE_CHECKING:
+    from infill.report_keys import MakeReport
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
 BLOCK, FILES, PATTERN, RUN = "Block", "Files", "Pattern", "Run"
@@ -217,7 +220,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
     typer.echo(table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
 
 
-def _summary(report: dict[str, Any], files: list[str], asked: tuple[float, float], *, verbose: bool) -> str:
+def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]

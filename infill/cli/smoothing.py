@@ -17,10 +17,8 @@ from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Writte
 from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
-    from infill.result import Result
-    from infill.smoothing.by_component import ComponentStages
+    from infill.report_keys import SmoothReport
     from infill.smoothing.request import Options
-    from infill.smoothing.stages import SmoothStages
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
 
@@ -339,32 +337,31 @@ def smooth(
             progress("read", 0.0)
         with log_said(shown=not quiet):
             given = read_source(source, **settings.reading)
-            result = smooth_source(given, **settings.choice, **cast("Options", {**options, "progress": progress}))
+            result: Any = smooth_source(given, **settings.choice, **cast("Options", {**options, "progress": progress}))
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
         for path in outputs:
             if settings.by_component:
-                parts[path] = component_writer(path, cast("Result[ComponentStages]", result), ascii_stl=ascii_stl)
+                parts[path] = component_writer(path, result, ascii_stl=ascii_stl)
             elif path.suffix.lower() in WRITERS:
                 parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
             else:
-                parts[path] = partial(field_writer(path), cast("Result[SmoothStages]", result).stages.field())
+                parts[path] = partial(field_writer(path), result.stages.field())
         if preview is not None:
             parts[preview] = result.write_picture
         written = deliver_all(parts | saved)
     if not quiet:
         if settings.by_component:
-            say(component_summary(cast("Result[ComponentStages]", result), written, str(source)))
+            say(component_summary(result, written, str(source)))
         else:
-            say(_summary(cast("Result[SmoothStages]", result), written, str(source), verbose=verbose))
+            say(_summary(result.report, written, str(source), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": written})
 
 
-def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbose: bool) -> str:
+def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool) -> str:
     """Return the short table for stderr."""
-    report: dict[str, Any] = result.report
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     now, was = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])

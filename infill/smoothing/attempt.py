@@ -11,7 +11,7 @@ delivered   the surface in its place, simplified, and the report
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -34,6 +34,7 @@ from infill.surfaces.distance import distances
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
+    from infill.report_keys import SmoothReport
     from infill.smoothing.request import Given, Request
     from infill.surface import Surface
     from infill.volume import Volume
@@ -147,7 +148,7 @@ def attempted(given: Given, request: Request) -> Attempt:
     )
 
 
-def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
+def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Return the result of an attempt, simplified, and what is to be said of what is delivered: the fifth stage."""
     given, request, clock, data = best.given, best.request, best.clock, best.given.data
     judged, surfaced, found, told = best.judged, best.surfaced, best.found, best.told
@@ -187,7 +188,7 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
         },
     )
     stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
-    return Result(surfaces={"solid": surface}, report=report, stages=stages), told
+    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), told
 
 
 def _compared(surface: Surface, raw: Surface, given: Given, field: SparseField, request: Request) -> Fidelity:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
 
@@ -23,6 +23,8 @@ from infill.voxels.from_mesh import RESOLUTION
 
 if TYPE_CHECKING:
     from PIL import Image
+
+    from infill.report_keys import ComponentsReport, SmoothReport
 
 FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size was asked for
 SMALL = 100  # voxels along a component: one thread does it before others have begun
@@ -61,7 +63,7 @@ class ComponentStages:
 
 def by_components(
     surface: Surface, request: Request, *, resolution: int | None = None, voxel: float | None = None
-) -> Result[ComponentStages]:
+) -> Result[ComponentStages, ComponentsReport]:
     """Return a smooth surface around every component of a mesh.
 
     Parameters
@@ -104,7 +106,7 @@ def by_components(
         )
     named = {f"component_{number}": part for number, part in enumerate(parts.surfaces, start=1)}
     surfaces: dict[str, Surface] = {}
-    reports: dict[str, dict[str, Any]] = {}
+    reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
     shares = np.cumsum([0, *(len(part.faces) for part in parts.surfaces)]) / sum(len(p.faces) for p in parts.surfaces)
     with clock.stage("smooth", 0.0):
@@ -150,17 +152,17 @@ def _voxel(surface: Surface, resolution: int | None, voxel: float | None) -> flo
 def _report(
     request: Request,
     surfaces: Mapping[str, Surface],
-    reports: Mapping[str, dict[str, Any]],
+    reports: Mapping[str, SmoothReport],
     failed: Mapping[str, str],
     sheets: int,
     clock: Clock,
-) -> dict[str, Any]:
+) -> ComponentsReport:
     """Return the report: what there is to say of all components, and the report of each."""
     every = list(reports.values())
     corners = np.array([surface.bounds for surface in surfaces.values()])
     volume, data = sum(each["volume"] for each in every), sum(each["solid"]["data"] for each in every)
     words = [each["verdict"]["word"] for each in every] + ["lost"] * bool(failed)
-    return {
+    report = {
         "form": FORM,
         "version": __version__,
         "product": "components",
@@ -177,3 +179,4 @@ def _report(
         "sheets": sheets,
         "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
     }
+    return cast("ComponentsReport", report)

@@ -19,6 +19,7 @@ from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
 if TYPE_CHECKING:
+    from infill.report_keys import Spread
     from infill.smoothing.request import Request
 
 COMPARED = 5_000  # vertices whose distance is measured
@@ -73,7 +74,7 @@ def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
     return vertices[:: max(1, len(vertices) // COMPARED)]
 
 
-def summary(distance: NDArray[np.float64]) -> dict[str, float]:
+def summary(distance: NDArray[np.float64]) -> Spread:
     """Return the mean, root mean square and maximum of the distances."""
     return {
         "mean": float(distance.mean()),

@@ -15,6 +15,7 @@ from infill.phasefield.schedule import FEWEST
 from infill.smoothing.attempt import Attempt, attempted, delivered
 
 if TYPE_CHECKING:
+    from infill.report_keys import SmoothReport, VerdictKeys
     from infill.result import Result
     from infill.smoothing.request import Given, Request
     from infill.smoothing.stages import SmoothStages
@@ -43,7 +44,7 @@ class Way:
     cost: float = 1.0
 
 
-def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
+def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, SmoothReport]:
     """Return the result of the first way that loses nothing, or else of the best.
 
     Parameters
@@ -90,7 +91,7 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
     refused = told.losses if not request.strict else (*told.losses, *told.problems)
     if refused and not request.allow_broken:
         raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(best)}")
-    verdict = {**result.report["verdict"], "tried": tried, "taken": taken}
+    verdict: VerdictKeys = {**result.report["verdict"], "tried": tried, "taken": taken}
     return replace(result, report={**result.report, "verdict": verdict})
 
 

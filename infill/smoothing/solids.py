@@ -34,6 +34,8 @@ from infill.voxels.masked import void_where_masked
 if TYPE_CHECKING:
     import trimesh
 
+    from infill.report_keys import ComponentsReport, SmoothReport
+
 
 def smooth_volume(
     volume: ArrayLike | Volume,
@@ -45,7 +47,7 @@ def smooth_volume(
     grey: bool = False,
     voxel: float | None = None,
     **options: Unpack[Options],
-) -> Result[SmoothStages]:
+) -> Result[SmoothStages, SmoothReport]:
     """Return a smooth surface around what is solid in a volume.
 
     Parameters
@@ -146,7 +148,7 @@ def smooth_mesh(
     voxel: float | None = None,
     by_component: Literal[False] = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages]: ...
+) -> Result[SmoothStages, SmoothReport]: ...
 @overload
 def smooth_mesh(
     mesh: trimesh.Trimesh | Surface,
@@ -155,7 +157,7 @@ def smooth_mesh(
     voxel: float | None = None,
     by_component: Literal[True],
     **options: Unpack[Options],
-) -> Result[ComponentStages]: ...
+) -> Result[ComponentStages, ComponentsReport]: ...
 def smooth_mesh(
     mesh: trimesh.Trimesh | Surface,
     *,
@@ -163,7 +165,7 @@ def smooth_mesh(
     voxel: float | None = None,
     by_component: bool = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages] | Result[ComponentStages]:
+) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Return the smooth surface of a mesh, by way of voxels.
 
     Parameters
@@ -199,7 +201,7 @@ def smooth_points(
     shell: float | None = None,
     normals: ArrayLike | None = None,
     **options: Unpack[Options],
-) -> Result[SmoothStages]:
+) -> Result[SmoothStages, SmoothReport]:
     """Return the smooth surface of a cloud of points.
 
     Parameters

@@ -24,6 +24,7 @@ from infill.volume import Volume
 from infill.voxels.cropping import cropped
 
 if TYPE_CHECKING:
+    from infill.report_keys import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
     from infill.smoothing.request import Options
@@ -165,7 +166,7 @@ def smooth_source(
     grey: bool = False,
     by_component: bool = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages] | Result[ComponentStages]:
+) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Smooth what `read_source` returned; raise ParameterError for options that do not fit its kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
