@@ -27,7 +27,7 @@ NASTY: dict[str, tuple[str, float, float]] = {
     "20mmbox_CR_line_ends.stl": ("", 8000, 0.001),
     "20mmbox_nonstandard.stl": ("", 8000, 0.001),
     "cubes_touching_edge.stl": ("", 2, 0.02),
-    "empty_0bytes.stl": ("neither text nor a whole binary STL .0 bytes", 0, 0),
+    "empty_0bytes.stl": ("is empty .0 bytes.", 0, 0),
     "empty_binary.stl": ("holds no triangles", 0, 0),
     "extruder_idler_overlapping.obj": ("", 5420, 0.02),
     "frog_legs_open.obj": ("", 1317, 0.15),  # 2 mm thick: two cells

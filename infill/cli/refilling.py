@@ -121,7 +121,7 @@ def refill(
     with contextlib.ExitStack() as stack:
         if piped:
             check_outputs([output], overwrite=force, as_json=as_json)
-            output = Path(stack.enter_context(tempfile.TemporaryDirectory())) / gcode.name
+            output = Path(stack.enter_context(tempfile.TemporaryDirectory())) / (gcode.name or "print")
         with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
             from infill.filling.refilling import refill as refilled
             from infill.filling.settings import resolve

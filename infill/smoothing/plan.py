@@ -20,7 +20,9 @@ from infill.errors import GeometryError
 from infill.grid import Grid
 from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
+from infill.phasefield.schedule import FEWEST
 from infill.smoothing.cleaning import BYTES_PER_SURFACE_CELL, BYTES_TO_REFINE
+from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
 from infill.smoothing.meshes import MARGIN, ways_of_mesh
 from infill.smoothing.remedies import Way, best_of
 from infill.smoothing.request import AUTO, Request
@@ -29,7 +31,7 @@ from infill.smoothing.sources import AXES, Source, check_fitting, threshold_of, 
 from infill.surface import Surface
 from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
-from infill.voxels.from_mesh import grid_around
+from infill.voxels.from_mesh import enclosed_cells, grid_around
 from infill.voxels.from_points import grid_around_points, voxelise_points
 
 if TYPE_CHECKING:
@@ -40,7 +42,7 @@ BALL = 16.0  # cells: the radius of the ball on which it is measured how long a 
 MESHES = 0.85  # of that: a triangle of a mesh takes 0.5 to 1.6 times as long, one of a scan 1.0 to 1.2 times; measured
 COARSE = 60  # voxels along the longest side: points are looked at with as many
 BYTES_BEFORE = 300e6  # of the program itself, a measured peak
-BYTES_PER_CELL = 6  # which cells are solid, and the data as 32-bit numbers, beside what was read
+BYTES_PER_CELL = 6  # of a volume: which cells are solid, and the data as 32-bit numbers, beside what was read
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -143,7 +145,7 @@ def planned(
         grey=grey,
         by_component=by_component,
     )
-    request, space, more, share = Request(**options), "", 0.0, 1.0
+    request, space, more, share, per_cell = Request(**options), "", 0.0, 1.0, BYTES_PER_CELL
     solid: float
     vertices: float
     if isinstance(source, Volume):
@@ -163,8 +165,8 @@ def planned(
         cell = float(grid.cell_size[0])
         asked = replace(request, method=cast("Method", first.name), refine=None)
         facts = {"source": "mesh", "triangles": len(source.faces)}
-        solid, vertices = abs(mesh.volume) / cell**3, _crossed(mesh) / cell**2
-        share = MESHES
+        solid, vertices = enclosed_cells(mesh, grid), _crossed(mesh) / cell**2
+        share, per_cell = MESHES, MESH_BYTES_PER_CELL
     else:
         points = source[:, :AXES]
         cell = voxel_of_points(points, resolution, voxel)
@@ -174,11 +176,12 @@ def planned(
         facts = {"source": "points", "points": len(points), "shell": shell}
     asked = asked.at(float(grid.cell_size.min()))
     each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if asked.refined else 0)
-    memory = round(BYTES_BEFORE + BYTES_PER_CELL * grid.cells + each * vertices)
+    memory = round(BYTES_BEFORE + per_cell * grid.cells + each * vertices)
     if request.max_memory is not None:
         require_memory(memory, request.max_memory, "give larger voxels, or --roi for a part of a volume")
     triangles = PER_VERTEX * vertices
-    _trial(asked, grid)  # which loads what a run has to load
+    few = replace(asked.smoothing, steps=min(asked.smoothing.steps, FEWEST))
+    _trial(replace(asked, smoothing=few), grid)  # which loads what a run has to load
     loaded = time.perf_counter()
     one = _trial(asked, grid)
     return Plan(

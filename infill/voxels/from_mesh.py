@@ -105,6 +105,30 @@ def grid_around(
     return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
 
 
+def enclosed_cells(surface: Surface, grid: Grid) -> float:
+    """Return how many cells a mesh and the caps on its holes enclose, about: what overlaps counts twice.
+
+    Raises
+    ------
+    GeometryError
+        If it encloses nothing.
+    """
+    vertices, faces, _ = capped((surface.vertices - np.array(grid.origin)) / grid.cell_size - 0.5, surface.faces)
+    return abs(float(_components(vertices, faces, len(surface.faces))[1].sum()))
+
+
+def _components(
+    vertices: NDArray[np.float64], faces: NDArray[np.integer], given: int
+) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
+    """Return the component of each face, and what each encloses, signed; `given` is how many faces are no caps."""
+    component, volumes = components(vertices, faces)
+    if not volumes.any():
+        raise GeometryError(
+            f"the mesh of {given} triangles encloses nothing (loose triangles or a flat sheet); give a closed mesh"
+        )
+    return component, volumes
+
+
 def voxelise(
     surface: Surface,
     *,
@@ -194,12 +218,7 @@ def voxelise_reported(
     needed = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
     require_memory(int(needed), max_memory, advice)
     areas = np.linalg.norm(doubled, axis=1)
-    component, volumes = components(vertices, faces)
-    if not volumes.any():
-        raise GeometryError(
-            f"the mesh of {len(mesh.faces)} triangles encloses nothing (loose triangles or a flat sheet); "
-            "give a closed mesh"
-        )
+    component, volumes = _components(vertices, faces, len(mesh.faces))
     found = crossings(vertices, faces, shape)
     turned = inside_out(found, component, volumes)
     if turned.any():
