@@ -236,7 +236,7 @@ def test_meshes_cut_off_are_told_or_closed(suffix: str, tmp_path: Path) -> None:
 
 
 TEXT: list[tuple[str, str, str]] = [
-    ("a.xyz", "", "no points"),
+    ("a.xyz", "", "is empty .0 bytes."),
     ("a.xyz", "1 2 3\n", "1 point"),
     ("a.xyz", "1 2\n3 4\n5 6\n7 8\n", "column|three|axes|numbers"),
     ("a.xyz", "1 2 x\n" * 9, "broken|numbers|could not"),
