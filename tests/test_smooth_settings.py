@@ -95,6 +95,10 @@ def test_flags_win_over_the_file(folder: Path) -> None:
     assert resolve({"steps": 20}, config) == dataclasses.replace(resolve({}, config), smooth_radius=None, steps=20)
     assert resolve({"refine": True}, config) == dataclasses.replace(resolve({}, config), fidelity=None, refine=True)
     assert resolve({"resolution": 9}, config) == dataclasses.replace(resolve({}, config), voxel=None, resolution=9)
+    assert resolve({"otsu": False}, config) == dataclasses.replace(resolve({}, config), otsu=False)
+    assert resolve({"threshold": 0.0}, config) == dataclasses.replace(resolve({}, config), otsu=False, threshold=0)
+    (folder / "b.toml").write_text("threshold = 3\n")
+    assert resolve({"otsu": False}, folder / "b.toml") == SmoothSettings(threshold=3)
     assert resolve({"grey": False}, config) == dataclasses.replace(resolve({}, config), grey=False)
 
 

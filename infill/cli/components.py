@@ -22,6 +22,7 @@ ByComponent = Annotated[
     bool,
     typer.Option(
         "--by-component/--no-by-component",
+        show_default=False,
         help="Smooth each component of a mesh by itself: what overlaps or touches stays apart. A .3mf or .glb names "
         "them.",
         rich_help_panel="What is solid",

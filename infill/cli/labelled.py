@@ -25,6 +25,7 @@ EachLabel = Annotated[
     bool,
     typer.Option(
         "--each-label/--no-each-label",
+        show_default=False,
         help="A surface for every label, named and coloured, into one .3mf or .glb; {label} or {number} in the name of "
         "an output implies it, and writes a file for each.",
         rich_help_panel=LABELS,
@@ -43,6 +44,7 @@ KeepGoing = Annotated[
     bool,
     typer.Option(
         "--keep-going/--no-keep-going",
+        show_default=False,
         help="If a label fails, write the others, list what failed and exit with 1. (default: write nothing)",
         rich_help_panel=LABELS,
     ),

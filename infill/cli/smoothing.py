@@ -116,10 +116,19 @@ def smooth(
         list[int] | None, typer.Option(help="Solid is what has this label. May be given again.", rich_help_panel=SOLID)
     ] = None,
     otsu: Annotated[
-        bool, typer.Option("--otsu/--no-otsu", help="Find the threshold by Otsu's method.", rich_help_panel=SOLID)
+        bool,
+        typer.Option(
+            "--otsu/--no-otsu", show_default=False, help="Find the threshold by Otsu's method.", rich_help_panel=SOLID
+        ),
     ] = False,
     grey: Annotated[
-        bool, typer.Option("--grey/--no-grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
+        bool,
+        typer.Option(
+            "--grey/--no-grey",
+            show_default=False,
+            help="Keep the grey levels around the threshold.",
+            rich_help_panel=SOLID,
+        ),
     ] = False,
     by_component: ByComponent = False,
     despeckle: Annotated[
@@ -138,7 +147,10 @@ def smooth(
         ),
     ] = "auto",
     refine: Annotated[
-        bool, typer.Option("--refine/--no-refine", help="The same as --smooth refine.", rich_help_panel=SURFACE)
+        bool,
+        typer.Option(
+            "--refine/--no-refine", show_default=False, help="The same as --smooth refine.", rich_help_panel=SURFACE
+        ),
     ] = False,
     smooth_radius: Annotated[
         float | None,
@@ -183,13 +195,17 @@ def smooth(
     allow_broken: Annotated[
         bool,
         typer.Option(
-            "--allow-broken/--no-allow-broken", help="Write the mesh even if something is lost.", rich_help_panel=RUN
+            "--allow-broken/--no-allow-broken",
+            show_default=False,
+            help="Write the mesh even if something is lost.",
+            rich_help_panel=RUN,
         ),
     ] = False,
     strict: Annotated[
         bool,
         typer.Option(
             "--strict/--no-strict",
+            show_default=False,
             help="Try no remedies, and refuse whatever breaks, fuses or vanishes.",
             rich_help_panel=RUN,
         ),

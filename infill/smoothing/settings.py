@@ -178,7 +178,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None) -> SmoothSetti
     typed = parsed("smooth", READERS, {name: value for name, value in flags.items() if value is not None})
     filed = parsed("smooth", READERS, read_toml(config, example="threshold = 226")) if config else {}
     for rivals in RIVALS:
-        if any(name in typed for name in rivals):
+        if any(typed.get(name, False) is not False for name in rivals):  # what is turned off takes no place
             filed = {name: value for name, value in filed.items() if name not in rivals}
     return SmoothSettings(**{FIELDS.get(name, name): value for name, value in {**filed, **typed}.items()})
 
