@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -67,6 +68,11 @@ def test_a_refilled_print_goes_to_stdout(folder: Path) -> None:
     assert (folder / "print.gcode").read_bytes() == written(Dialect(layers=4))
     dry = run("refill", "print.gcode", "-o", "-", "--dry-run", "--quiet")
     assert (dry.exit_code, dry.stdout) == (0, "")
+
+
+def test_a_dry_run_leaves_stdout_to_what_it_says() -> None:
+    plan = json.loads(run(*SMALL, "-o", "-", "--dry-run", "--json").stdout)
+    assert plan["triangles"] > 0
 
 
 @pytest.mark.parametrize(

@@ -173,7 +173,7 @@ def make(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
     if dry_run:
         _show_plan(settings.plan(), limit, as_json=as_json)
         return

@@ -38,7 +38,9 @@ def is_piped(path: Path) -> bool:
     return len(path.parts) == 1 and path.stem == STDOUT
 
 
-def check_outputs(paths: Iterable[Path | None], *, overwrite: bool, as_json: bool, text: Path | None = None) -> None:
+def check_outputs(
+    paths: Iterable[Path | None], *, overwrite: bool, as_json: bool, text: Path | None = None, dry_run: bool = False
+) -> None:
     """Raise an error if an output cannot be written, or if more than one thing would go to stdout; before the work.
 
     Parameters
@@ -48,6 +50,8 @@ def check_outputs(paths: Iterable[Path | None], *, overwrite: bool, as_json: boo
     overwrite, as_json : bool
     text : Path, optional
         Of a file that is text, which a terminal can show.
+    dry_run : bool
+        Whether nothing is written, to stdout neither.
 
     Raises
     ------
@@ -61,9 +65,11 @@ def check_outputs(paths: Iterable[Path | None], *, overwrite: bool, as_json: boo
     piped = [path for path in every if is_piped(path)]
     if len(piped) > 1:
         raise typer.BadParameter("two outputs are '-' and would both go to stdout; give one of them a name")
+    if dry_run:
+        piped = []
     if piped and as_json:
         raise typer.BadParameter("'-' and --json would both go to stdout; give a file name, or leave --json out")
-    if any(is_piped(path) for path in binary) and sys.stdout.isatty():
+    if any(path in binary for path in piped) and sys.stdout.isatty():
         raise OutputError("'-' is stdout, and that is a terminal; send it on (> FILE, | PROGRAM), or name a file")
     check_targets((path for path in every if not is_piped(path)), overwrite=overwrite)
 

@@ -120,7 +120,7 @@ def refill(
     piped = output is not None and is_piped(output)
     with contextlib.ExitStack() as stack:
         if piped:
-            check_outputs([output], overwrite=force, as_json=as_json)
+            check_outputs([output], overwrite=force, as_json=as_json, dry_run=dry_run)
             output = Path(stack.enter_context(tempfile.TemporaryDirectory())) / (gcode.name or "print")
         with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
             from infill.filling.refilling import refill as refilled

@@ -341,7 +341,7 @@ def smooth(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
     if dry_run:
         files = filter(None, (*outputs, preview, save_config))
         foresee(source, settings, options, files, as_json=as_json, quiet=quiet)

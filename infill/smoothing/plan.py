@@ -145,55 +145,122 @@ def planned(
         grey=grey,
         by_component=by_component,
     )
-    request, space, more, share, per_cell = Request(**options), "", 0.0, 1.0, BYTES_PER_CELL
-    solid: float
-    vertices: float
+    request = Request(**options)
     if isinstance(source, Volume):
         chosen = threshold_of(threshold, between, otsu=otsu)
-        ways = ways_of_volume(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel)
-        first = next(ways)
-        data, asked = first.make()
-        grid, facts, space = _grid_of(data.data), data.facts, data.data.space
-        solid, vertices = _counted(np.asarray(data.data.values) > 0)
+        found = _of_volume(ways_of_volume(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel))
     elif isinstance(source, Surface):
-        ways = ways_of_mesh(
-            source, request, resolution=resolution, voxel=voxel, fixed=resolution is not None or voxel is not None
-        )
-        first = next(ways)
-        mesh = closed_or_merged(source.vertices, source.faces)
-        grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=MARGIN)
-        cell = float(grid.cell_size[0])
-        asked = replace(request, method=cast("Method", first.name), refine=None)
-        facts = {"source": "mesh", "triangles": len(source.faces)}
-        solid, vertices = enclosed_cells(mesh, grid), _crossed(mesh) / cell**2
-        share, per_cell = MESHES, MESH_BYTES_PER_CELL
+        found = _of_mesh(source, request, resolution, voxel)
     else:
         points = source[:, :AXES]
-        cell = voxel_of_points(points, resolution, voxel)
-        grid, solid, vertices, ways, more = _of_points(points, cell, shell, request)
-        first = next(ways)
-        _, asked = first.make()
-        facts = {"source": "points", "points": len(points), "shell": shell}
-    asked = asked.at(float(grid.cell_size.min()))
+        found = _of_points(points, voxel_of_points(points, resolution, voxel), shell, request)
+    grid, asked = found.grid, found.request.at(float(found.grid.cell_size.min()))
     each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if asked.refined else 0)
-    memory = round(BYTES_BEFORE + per_cell * grid.cells + each * vertices)
+    cells, surface = found.bytes_per_cell * grid.cells, each * found.vertices
     if request.max_memory is not None:
-        require_memory(memory, request.max_memory, "give larger voxels, or --roi for a part of a volume")
-    triangles = PER_VERTEX * vertices
+        needed = round(max(cells, surface))
+        require_memory(needed, request.max_memory, "give larger voxels, or --roi for a part of a volume")
     few = replace(asked.smoothing, steps=min(asked.smoothing.steps, FEWEST))
     _trial(replace(asked, smoothing=few), grid)  # which loads what a run has to load
     loaded = time.perf_counter()
-    one = _trial(asked, grid)
+    work = found.share * _trial(asked, grid) * PER_VERTEX * found.vertices
     return Plan(
         request=asked,
         grid=grid,
-        space=space,
-        facts=facts,
+        space=found.space,
+        facts=found.facts,
+        solid=found.solid,
+        ways=found.ways,
+        triangles=round(PER_VERTEX * found.vertices),
+        memory=round(BYTES_BEFORE + cells + surface),
+        seconds=loaded - begin + work + found.seconds,
+    )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Found:
+    """What is known of an input before it is smoothed.
+
+    Parameters
+    ----------
+    request, grid, space, facts, solid, ways
+        See `Plan`; lengths of the request are in mm.
+    vertices : float
+        Edges of the grid that cross the surface, about.
+    bytes_per_cell : int
+        Of the grid.
+    share : float
+        How long a triangle takes, relative to one of the ball.
+    seconds : float
+        That it takes to find what is solid, if that was not done here.
+    """
+
+    request: Request
+    grid: Grid
+    facts: Mapping[str, Any]
+    solid: float
+    vertices: float
+    ways: tuple[str, ...]
+    space: str = ""
+    bytes_per_cell: int = BYTES_PER_CELL
+    share: float = 1.0
+    seconds: float = 0.0
+
+
+def _of_volume(ways: Iterator[Way]) -> _Found:
+    first = next(ways)
+    given, asked = first.make()
+    data = given.data
+    solid, vertices = _counted(np.asarray(data.values) > 0)
+    return _Found(
+        request=asked,
+        grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
+        space=data.space,
+        facts=given.facts,
         solid=solid,
+        vertices=vertices,
         ways=(first.name, *(way.name for way in ways)),
-        triangles=round(triangles),
-        memory=memory,
-        seconds=loaded - begin + share * one * triangles + more,
+    )
+
+
+def _of_mesh(surface: Surface, request: Request, resolution: int | None, voxel: float | None) -> _Found:
+    """Return what is known of a mesh: nothing of it is looked at cell by cell."""
+    fixed = resolution is not None or voxel is not None
+    ways = [way.name for way in ways_of_mesh(surface, request, resolution=resolution, voxel=voxel, fixed=fixed)]
+    mesh = closed_or_merged(surface.vertices, surface.faces)
+    grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=MARGIN)
+    return _Found(
+        request=replace(request, method=cast("Method", ways[0]), refine=None),
+        grid=grid,
+        facts={"source": "mesh", "triangles": len(surface.faces)},
+        solid=enclosed_cells(mesh, grid),
+        vertices=_crossed(mesh) / float(grid.cell_size[0]) ** 2,
+        ways=tuple(ways),
+        bytes_per_cell=MESH_BYTES_PER_CELL,
+        share=MESHES,
+    )
+
+
+def _of_points(points: NDArray[np.float64], cell: float, shell: float | None, request: Request) -> _Found:
+    """Return what is known of points, looked at with voxels so large that it is quickly done."""
+    narrow = shell is not None and shell < cell  # an error, of the voxels that were asked for
+    times = 1.0 if narrow else max(1.0, float(np.ptp(points, axis=0).max()) / cell / COARSE)
+    begin = time.perf_counter()
+    wide = shell if shell is None or narrow else max(shell, times * cell)
+    solid = voxelise_points(points, voxel=times * cell, shell=wide, margin=MARGIN, threads=request.threads)
+    took = time.perf_counter() - begin
+    cells, vertices = _counted(np.asarray(solid.values))
+    phase = shell is None and request.method != "plain"
+    ways = ways_of_scan(solid, solid, {"method": "points"}, {}, request, grey=False, phase=phase)
+    first = next(ways)
+    return _Found(
+        request=first.make()[1],
+        grid=grid_around_points(points, voxel=cell, shell=shell, margin=MARGIN),
+        facts={"source": "points", "points": len(points), "shell": shell},
+        solid=cells * times**3,
+        vertices=vertices * times**2,
+        ways=(first.name, *(way.name for way in ways)),
+        seconds=took * (times**2 - 1),
     )
 
 
@@ -216,29 +283,6 @@ def _trial(request: Request, grid: Grid) -> float:
     with contextlib.suppress(GeometryError):  # nothing is left of it after many steps, which took as long
         best_of(ways_of_volume(ball, asked), asked)
     return (time.perf_counter() - begin) / (PER_VERTEX * _counted(np.asarray(ball.values))[1])
-
-
-def _of_points(
-    points: NDArray[np.float64], cell: float, shell: float | None, request: Request
-) -> tuple[Grid, float, float, Iterator[Way], float]:
-    """Return the grid, solid cells and vertices of points, the ways to smooth them, and seconds to find what is solid.
-
-    They are looked at with voxels so large that it is quickly done.
-    """
-    grid = grid_around_points(points, voxel=cell, shell=shell, margin=MARGIN)
-    times = max(1.0, float(np.ptp(points, axis=0).max()) / cell / COARSE)
-    begin = time.perf_counter()
-    wide = None if shell is None else max(shell, times * cell)
-    solid = voxelise_points(points, voxel=times * cell, shell=wide, margin=MARGIN, threads=request.threads)
-    took = time.perf_counter() - begin
-    cells, vertices = _counted(np.asarray(solid.values))
-    phase = shell is None and request.method != "plain"
-    ways = ways_of_scan(solid, solid, {"method": "points"}, {}, request, grey=False, phase=phase)
-    return grid, cells * times**3, vertices * times**2, ways, took * (times**2 - 1)
-
-
-def _grid_of(data: Volume) -> Grid:
-    return Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin)
 
 
 def _counted(solid: NDArray[np.bool_]) -> tuple[int, int]:
