@@ -31,7 +31,7 @@ def ball() -> str:
     return "ball.npy"
 
 
-@pytest.mark.parametrize("output", ["-", "-.obj", "-.PLY", "-.3mf", "-.glb"])
+@pytest.mark.parametrize("output", ["-", "-.PLY", "-.3mf"])
 def test_a_block_goes_to_stdout_in_the_format_that_is_named(output: str, folder: Path) -> None:
     suffix = Path(f"a{output[1:]}").suffix or ".stl"
     file = folder / f"file{suffix}"
@@ -102,15 +102,9 @@ def test_an_error_leaves_stdout_empty(words: list[str], says: str) -> None:
     assert says in result.stderr
 
 
-@pytest.mark.parametrize("buffered", [True, False])
-def test_a_reader_that_is_gone_leaves_no_file(buffered: bool, folder: Path) -> None:
-    """More than a pipe holds; without a buffer, a write may take only a part."""
-    pipe = subprocess.Popen(
-        [*RUN, *SMALL, "-o", "-", "-o", "a.stl"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        env={**os.environ, "PYTHONUNBUFFERED": "" if buffered else "1"},
-    )
+def test_a_reader_that_is_gone_leaves_no_file(folder: Path) -> None:
+    """More than a pipe holds."""
+    pipe = subprocess.Popen([*RUN, *SMALL, "-o", "-", "-o", "a.stl"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     assert pipe.stdout is not None
     assert os.read(pipe.stdout.fileno(), 9) == b"phasefill"
     pipe.stdout.close()
@@ -120,14 +114,10 @@ def test_a_reader_that_is_gone_leaves_no_file(buffered: bool, folder: Path) -> N
     assert list(folder.iterdir()) == []
 
 
-@pytest.mark.parametrize("buffered", [True, False])
-def test_a_slow_reader_gets_everything(buffered: bool, folder: Path) -> None:
-    done = subprocess.run(
-        [*RUN, *SMALL, "-o", "-", "-o", "a.stl"],
-        capture_output=True,
-        check=True,
-        env={**os.environ, "PYTHONUNBUFFERED": "" if buffered else "1"},
-    )
+def test_a_stream_without_a_buffer_takes_everything(folder: Path) -> None:
+    """Such a one may take only a part of what it is given at once."""
+    command = [*RUN, *SMALL, "-o", "-", "-o", "a.stl"]
+    done = subprocess.run(command, capture_output=True, check=True, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     assert done.stdout == (folder / "a.stl").read_bytes()
 
 

@@ -39,7 +39,6 @@ def printed(*words: str) -> dict[str, Any]:
 @pytest.mark.parametrize(
     "words",
     [
-        ["ball.npy"],
         ["thick.npy", "--spacing", "1,1,4"],
         ["ct.npy", "--otsu", "--voxel", "1.5", "--smooth", "plain", "--tolerance", "0"],
         ["two.stl", "--resolution", "30", "--max-triangles", "3000"],
