@@ -12,7 +12,6 @@ from PIL import Image
 
 from infill import make, refill, smooth_volume
 from infill.inspection.layer_speeds import layer_speeds
-from infill.pictures.preview import save_preview
 from infill.pictures.render import render
 from infill.pictures.speeds import write_speeds
 
@@ -26,7 +25,7 @@ from tests import prints, slicers  # noqa: E402 - the folder beside this one
 def main() -> None:
     """Write the four stages of a design, the mesh of each, both stamps, a solid and two prints before and after."""
     FOLDER.mkdir(exist_ok=True)
-    save_preview(make("honeycomb"), FOLDER / "honeycomb.png")
+    make("honeycomb").save(FOLDER / "honeycomb.png")
     for name in ("honeycomb", "zigzag", "concentric-heart"):
         block = make(name, size=40, height=8, stamp="exact")
         picture = Image.fromarray(render(block.surface, width=360, height=240))
@@ -36,7 +35,7 @@ def main() -> None:
         block = make("honeycomb", size=14, height=3, angle=7, stamp=stamp)
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
-    save_preview(smooth_volume(gyroid(), spacing=0.5), FOLDER / "smooth.png")
+    smooth_volume(gyroid(), spacing=0.5).save(FOLDER / "smooth.png")
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
     if not slicers.missing_cura():

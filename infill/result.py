@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import time
 from collections.abc import Callable, Iterator, Mapping
@@ -9,26 +10,41 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
 
 import numpy as np
 
+from infill.errors import OutputError
 from infill.formats.label_tables import Colour
-from infill.formats.mesh_files import PART_WRITERS, parts_writer, save
+from infill.formats.mesh_files import PART_WRITERS, parts_writer, writer
 from infill.formats.parts import Part
 from infill.formats.whole_files import whole_file
+from infill.pictures.preview import SUFFIXES as PICTURES
+from infill.pictures.preview import is_picture
 from infill.surface import Surface
 from infill.surfaces.parting import joined
 
 if TYPE_CHECKING:
     import trimesh
+    from PIL import Image
 
 Progress = Callable[[str, float], None]
-Stages = TypeVar("Stages", covariant=True)
+
+
+class Pictured(Protocol):
+    """Stages that can be shown."""
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return them, and the surface that came of them, as one picture."""
+        ...
+
+
+Stages = TypeVar("Stages", bound=Pictured, covariant=True)
+Told = TypeVar("Told", bound=Mapping[str, Any], covariant=True)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
-class Result(Generic[Stages]):
+class Result(Generic[Stages, Told]):
     """Surfaces, a report, and the stages they came from.
 
     Parameters
@@ -36,7 +52,8 @@ class Result(Generic[Stages]):
     surfaces : mapping of str to Surface
         The meshes as plain arrays, mm, the main one first. `make` names its surface "block", `smooth` "solid".
     report : dict
-        Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
+        Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key, and `infill.report_keys` has
+        them for type checkers.
     stages : frozen dataclass
         What the surfaces came from: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages`,
         `infill.smoothing.labels.LabelStages` or `infill.smoothing.by_component.ComponentStages`.
@@ -47,7 +64,7 @@ class Result(Generic[Stages]):
     """
 
     surfaces: Mapping[str, Surface]
-    report: dict[str, Any]
+    report: Told
     stages: Stages = field(repr=False)
     colours: Mapping[str, Colour] = field(default_factory=dict)
     joins: bool = False
@@ -76,21 +93,61 @@ class Result(Generic[Stages]):
         """The only or main surface as a trimesh.Trimesh, mm."""
         return self.surface.to_trimesh()
 
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write the surface, the format by suffix, and return the path.
+    def picture(self) -> Image.Image:
+        """Return the stages as one picture: points, stamp, field and mesh of a block; before and after of a solid."""
+        return self.stages.picture(self.whole, self.report)
+
+    def write_picture(self, file: BinaryIO) -> None:
+        """Write `picture` as PNG."""
+        self.picture().save(file, format="PNG")
+
+    def _repr_png_(self) -> bytes:
+        """Return the picture that a notebook shows of a result."""
+        with io.BytesIO() as file:
+            self.write_picture(file)
+            return file.getvalue()
+
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
+        """Write the mesh, or a picture of how it came about, the format by suffix, and return the path.
 
         Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format.
+
+        Parameters
+        ----------
+        path : str or Path
+            .stl, .3mf, .obj, .ply or .glb for the mesh, in mm; .png for `picture`.
+        overwrite : bool
+            Whether an existing file is replaced, once the new one is complete. By default it is, as by `numpy.save`,
+            `Image.save` and `Trimesh.export`: a script or a notebook cell that is run again should not fail. The
+            command keeps existing files unless it is told otherwise, since a name typed by mistake is gone for good.
+
+        Raises
+        ------
+        FormatError
+            For an unknown suffix, or a format that cannot hold several surfaces.
+        OutputError
+            If the file cannot be written, or exists and may not be overwritten.
         """
         target = Path(path)
-        if len(self.surfaces) == 1 or (self.joins and target.suffix.lower() not in PART_WRITERS):
-            return save(self.whole, target)
-        write = parts_writer(target)
+        write = self._writer(target)
+        if not overwrite and os.path.lexists(target):
+            raise OutputError(f"{target} exists; give another name, or leave out overwrite=False")
         with whole_file(target) as file:
-            write(parts_of(self), file)
+            write(file)
         return target
 
+    def _writer(self, target: Path) -> Callable[[BinaryIO], None]:
+        """Return what writes the format of a path."""
+        if is_picture(target):
+            return self.write_picture
+        one = writer(target, more=PICTURES)  # raises for an unknown suffix
+        if len(self.surfaces) == 1 or (self.joins and target.suffix.lower() not in PART_WRITERS):
+            return lambda file: one(self.whole, file)
+        several = parts_writer(target)
+        return lambda file: several(parts_of(self), file)
 
-def parts_of(result: Result[object]) -> list[Part]:
+
+def parts_of(result: Result[Any, Any]) -> list[Part]:
     """Return the surfaces of a result with their names and colours, as files hold them."""
     return [
         Part(surface=surface, name=name, colour=result.colours.get(name)) for name, surface in result.surfaces.items()

@@ -23,13 +23,13 @@ ROWS: tuple[tuple[str, ...], ...] = (
     ("surfaces",),
     ("formats", "voxels", "gcode"),
     ("inspection",),
+    ("pictures",),
     ("result",),
     ("making", "smoothing", "filling", "slicers"),
-    ("pictures",),
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
-ANSWERS = {"result", "report"}
+ANSWERS = {"result", "report", "report_keys"}
 HALL = {"version", "errors", "checks", "machine", "ragged", "sections", "grid", "volume", "surface"}
 MOST_FLOORS = 12
 
@@ -43,7 +43,8 @@ KEPT = {
 }
 PATTERNS_TAKE = {"numpy", "shapely"}
 ANNOUNCED = {"fill"}  # public functions that are to come
-UNDERSCORED = {"_exit", "_replace", "_asdict", "_fields", "_make"}  # of os and of named tuples: documented, so public
+# Of os, of named tuples and of notebooks: documented, so public.
+UNDERSCORED = {"_exit", "_replace", "_asdict", "_fields", "_make", "_repr_png_"}
 HEAVY = {"trimesh", "skimage", "scipy", "manifold3d", "numba", "PIL", "shapely", "numpy", "rich.progress"}
 
 

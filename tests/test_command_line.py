@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from PIL import Image
 from shapely import box
 from shapes import BUILT_IN
@@ -228,6 +229,40 @@ def test_check_strict_minds_warnings(data: Path) -> None:
 
 def test_check_tells_what_it_cannot_read(tmp_path: Path) -> None:
     one_line_error(run("check", tmp_path / "gone.stl"), "there is no file")
+
+
+def test_check_takes_several_meshes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line for each, in their order; one that cannot be read does not stop the others."""
+    monkeypatch.chdir(tmp_path)
+    box = trimesh.creation.box((10, 20, 30))
+    box.export("good.stl")
+    box.copy().apply_scale(0.01).export("tiny.stl")  # of a likely size in another unit: a warning
+    box.update_faces(np.arange(len(box.faces)) > 0)
+    box.export("bad.stl")
+    result = run("check", "good.stl", "gone.stl", "bad.stl", "tiny.stl")
+    assert result.exit_code == 1
+    assert re.fullmatch("error: there is no file gone.stl; .*\n", result.stderr)
+    good, bad, tiny = result.stdout.splitlines()
+    assert re.fullmatch(r"good\.stl +yes +12 triangles, 1 component\(s\), 10 x 20 x 30", good)
+    assert re.fullmatch(r"bad\.stl +NO +3 edge\(s\) without exactly two faces.*", bad)
+    assert re.fullmatch(r"tiny\.stl +yes .*; warning: the size suggests that the unit is m, not mm", tiny)
+    assert run("check", "good.stl", "tiny.stl").exit_code == 0
+    assert run("check", "good.stl", "tiny.stl", "--strict").exit_code == 1
+
+
+def test_check_tells_of_several_meshes_in_a_list(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each object is that of the mesh alone, with its file."""
+    monkeypatch.chdir(tmp_path)
+    trimesh.creation.box((10, 20, 30)).export("a.stl")
+    (tmp_path / "b.stl").write_bytes(b"")
+    alone = json.loads(run("check", "a.stl", "--json").stdout)
+    result = run("check", "a.stl", "b.stl", "--json")
+    assert result.exit_code == 1
+    one, other = json.loads(result.stdout)
+    assert one == {"file": "a.stl", **alone}
+    assert set(other) == {"file", "error"}
+    assert other["file"] == "b.stl"
+    assert result.stderr == f"error: {other['error']}\n"
 
 
 # --- make ------------------------------------------------------------------------------------------------

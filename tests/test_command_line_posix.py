@@ -176,7 +176,7 @@ def test_a_full_stdout_is_told() -> None:
         )
     assert done.returncode == 1
     assert done.stderr.count("\n") == 1
-    assert "cannot write the report: No space left" in done.stderr
+    assert "cannot write to stdout: No space left" in done.stderr
 
 
 def test_a_bar_moves_where_somebody_sees_it(tmp_path: Path) -> None:

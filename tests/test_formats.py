@@ -374,7 +374,7 @@ def test_a_missing_file_is_told(tmp_path: Path) -> None:
 
 def test_an_unreadable_file_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "x.stl"
-    path.write_bytes(b"")
+    path.write_bytes(b"solid")
     monkeypatch.setitem(READERS, ".stl", lambda path: open(path / "below"))  # noqa: SIM115 - raises
     with pytest.raises(FormatError, match="cannot read"):
         read_mesh(path)

@@ -213,11 +213,11 @@ TABLE = (
 
 
 @pytest.fixture(scope="module")
-def result(compiled: None) -> Result[Any]:
+def result(compiled: None) -> Result[Any, Any]:
     return smooth_labels(bones(), table=TABLE)
 
 
-def test_a_3mf_has_an_object_for_each_with_name_and_colour(result: Result[Any], tmp_path: Path) -> None:
+def test_a_3mf_has_an_object_for_each_with_name_and_colour(result: Result[Any, Any], tmp_path: Path) -> None:
     lib3mf = pytest.importorskip("lib3mf", reason="lib3mf is not installed (extra test)")
     path = result.save(tmp_path / "all.3mf")
     model = lib3mf.get_wrapper().CreateModel()
@@ -244,7 +244,7 @@ def test_a_3mf_has_an_object_for_each_with_name_and_colour(result: Result[Any], 
     ]
 
 
-def test_a_glb_has_a_node_for_each_with_name_and_colour(result: Result[Any], tmp_path: Path) -> None:
+def test_a_glb_has_a_node_for_each_with_name_and_colour(result: Result[Any, Any], tmp_path: Path) -> None:
     scene = trimesh.load_scene(result.save(tmp_path / "all.glb"), process=False)
     assert list(scene.geometry) == ['Femur <left> & "right"', "骨盆", "ab"]
     for mesh, surface in zip(scene.geometry.values(), result.surfaces.values(), strict=True):
@@ -257,12 +257,12 @@ def test_a_glb_has_a_node_for_each_with_name_and_colour(result: Result[Any], tmp
 
 
 @pytest.mark.parametrize("suffix", [".3mf", ".glb"])
-def test_several_objects_are_read_back_as_one_mesh(suffix: str, result: Result[Any], tmp_path: Path) -> None:
+def test_several_objects_are_read_back_as_one_mesh(suffix: str, result: Result[Any, Any], tmp_path: Path) -> None:
     back = read_mesh(result.save(tmp_path / f"all{suffix}"))
     assert back.volume == pytest.approx(sum(each.volume for each in result.surfaces.values()), rel=1e-5)
 
 
-def test_a_format_of_one_mesh_is_told(result: Result[Any], tmp_path: Path) -> None:
+def test_a_format_of_one_mesh_is_told(result: Result[Any, Any], tmp_path: Path) -> None:
     with pytest.raises(FormatError, match=r"can hold one mesh .*; use .3mf or .glb, or \{label\} in the name"):
         result.save(tmp_path / "all.stl")
     with pytest.raises(FormatError, match="cannot tell a mesh format"):

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
+from test_command_line import run
 
-from infill import FormatError, Smoothing, Surface, make, smooth_mesh, smooth_volume
+from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_labels, smooth_mesh, smooth_volume
 from infill.pictures.before_and_after import FAR, Marked
-from infill.pictures.preview import preview, save_preview
+from infill.pictures.preview import check_preview
 from infill.pictures.render import render
-from infill.pictures.sheet import MARGIN, PANEL
+from infill.pictures.sheet import CAPTION, MARGIN, PANEL
 from infill.surfaces.winding import bounds_solid, winding
 
 WHITE = 255
@@ -61,7 +62,7 @@ def test_many_fragments_are_drawn_some_at_a_time(monkeypatch: pytest.MonkeyPatch
 
 def test_the_preview_shows_four_stages(tmp_path: Path) -> None:
     result = make("honeycomb", size=(40, 20))
-    path = save_preview(result, tmp_path / "stages.png")
+    path = result.save(tmp_path / "stages.png")
     with Image.open(path) as picture:
         pixels = np.asarray(picture.convert("RGB")).astype(int)
     panels = np.array_split(pixels, 4, axis=1)
@@ -74,16 +75,16 @@ def test_the_preview_shows_four_stages(tmp_path: Path) -> None:
 
 def test_y_points_up() -> None:
     """The tip of the heart, at the lower left, is drawn at the lower left."""
-    sheet = np.asarray(preview(make("concentric-heart", hearts=1, size=40)).convert("L")).astype(int)
+    sheet = np.asarray(make("concentric-heart", hearts=1, size=40).picture().convert("L")).astype(int)
     panel = sheet[34:454, 14:434] < 100
     assert panel[-40:, :40].any()
     assert not panel[:40, -40:].any()
 
 
 @pytest.mark.parametrize("name", ["x.jpg", "x", "x.stl"])
-def test_only_png_is_written(name: str, tmp_path: Path) -> None:
+def test_only_png_is_written(name: str) -> None:
     with pytest.raises(FormatError, match=r"ends in \.png"):
-        save_preview(make("honeycomb", size=20), tmp_path / name)
+        check_preview(name)
 
 
 def test_a_window_shows_lengths_where_they_are() -> None:
@@ -140,7 +141,7 @@ def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
     plate, fin = trimesh.creation.box((20, 20, 4)), trimesh.creation.box((16, 0.1, 8))
     fin.apply_translation((0, 0, 5.5))
     result = smooth_mesh(trimesh.util.concatenate([plate, fin]), voxel=0.2, allow_broken=True)
-    before, after = panels(np.asarray(preview(result)))
+    before, after = panels(np.asarray(result.picture()))
     assert reddish(before) > 5000
     assert reddish(after) == bluish(before) == bluish(after) == 0
 
@@ -148,7 +149,7 @@ def test_what_is_lost_is_red_before_and_nothing_is_marked_after() -> None:
 @pytest.mark.usefixtures("compiled")
 def test_what_is_kept_is_not_marked_and_stays_in_its_place() -> None:
     result = smooth_mesh(trimesh.creation.icosphere(subdivisions=4, radius=10), resolution=60)
-    both = panels(np.asarray(preview(result)))
+    both = panels(np.asarray(result.picture()))
     assert [reddish(each) + bluish(each) for each in both] == [0, 0]
     one, other = ((each < WHITE).any(axis=2) for each in both)
     assert (one != other).mean() < 0.01
@@ -159,7 +160,7 @@ def test_before_and_after_have_one_scale() -> None:
     """At the level 0 a ball shrinks, and so does its picture."""
     cells = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 81
     result = smooth_volume(cells, smoothing=Smoothing(steps=60), method="plain", level=0, allow_broken=True)
-    before, after = (np.flatnonzero((each < WHITE).any(axis=(0, 2))) for each in panels(np.asarray(preview(result))))
+    before, after = (np.flatnonzero((each < WHITE).any(axis=(0, 2))) for each in panels(np.asarray(result.picture())))
     shrunk = result.surface.bounds[1, 0] - result.surface.bounds[0, 0]
     assert np.ptp(after) / np.ptp(before) == pytest.approx(shrunk / 18, abs=0.03)  # 18 cells wide, pixels of 1/400
     assert shrunk < 17
@@ -196,3 +197,46 @@ def test_winding_counts_bodies() -> None:
     face = np.flatnonzero(inside.vertices[inside.faces][..., 0].min(axis=1) == 5)[:1]
     assert bounds_solid(np.array([[5.0, 1, 2]]), face, inside, 1e-3).all()
     assert len(bounds_solid(np.zeros((0, 3)), np.zeros(0, int), inside, 1e-3)) == 0
+
+
+# --- of a result -----------------------------------------------------------------------------------------
+
+
+def test_a_notebook_shows_what_is_saved_and_what_the_command_writes(tmp_path: Path) -> None:
+    result = make("honeycomb", size=20, height=3)
+    shown = result._repr_png_()
+    assert shown == result.save(tmp_path / "a.PNG").read_bytes()
+    with Image.open(tmp_path / "a.PNG") as picture:
+        assert np.array_equal(np.asarray(picture), np.asarray(result.picture()))
+    done = run("make", "honeycomb", "--size", "20", "--height", "3", "--preview", tmp_path / "b.png")
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "b.png").read_bytes() == shown
+
+
+def test_all_labels_are_one_picture() -> None:
+    labels = np.zeros((40, 20, 20), dtype=np.uint8)
+    labels[4:16, 4:16, 4:16], labels[24:36, 4:16, 4:16] = 1, 2
+    panel = (np.asarray(smooth_labels(labels).picture()) < WHITE).any(axis=2)[CAPTION : CAPTION + PANEL]
+    seen = panel.any(axis=0)
+    assert np.count_nonzero(np.diff(seen.astype(int)) == 1) >= 1
+    assert panel.mean() > 0.1
+
+
+def test_an_existing_file_is_replaced_unless_it_may_not_be(tmp_path: Path) -> None:
+    """As other Python libraries do, and as the command does."""
+    result, path = make("honeycomb", size=20, height=3), tmp_path / "a.stl"
+    path.write_text("precious")
+    for suffix in (".stl", ".png"):
+        path = tmp_path / f"a{suffix}"
+        path.write_text("precious")
+        with pytest.raises(OutputError, match=r"a\.\w+ exists; give another name, or leave out overwrite=False"):
+            result.save(path, overwrite=False)
+        assert path.read_text() == "precious"
+        assert result.save(path).stat().st_size > 1000
+        path.unlink()
+        assert result.save(path, overwrite=False).stat().st_size > 1000
+    with pytest.raises(FormatError, match=r"\.glb, \.png"):
+        result.save(tmp_path / "a.jpg")
+    with pytest.raises(OutputError, match="there is no folder|No such file"):
+        result.save(tmp_path / "no" / "a.png")
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["a.png", "a.stl"]

@@ -146,7 +146,7 @@ def test_ply_of_trimesh(encoding: Any, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "content", "says"),
     [
-        ("a.xyz", "", "holds no points"),
+        ("a.xyz", "", "is empty .0 bytes."),
         ("a.xyz", "# nothing\n\n", "holds no points"),
         ("a.xyz", "x y z\n", "holds no points"),
         ("a.pts", "5\n", "holds no points"),
@@ -211,7 +211,7 @@ def test_a_broken_file_is_one_clear_line(name: str, content: str, says: str, tmp
         (np.zeros((0, 3)), "holds no points|is broken"),
         (np.zeros((4, 3), complex), "type complex"),
         (np.full((4, 3), "x"), "type <U1"),
-        (np.array([[object()] * 3]), "is broken"),
+        (np.array([[object()] * 3]), "is empty"),
         (np.full((4, 3), np.nan), r"4 point\(s\) with NaN"),
     ],
 )

@@ -14,7 +14,6 @@ from infill.phasefield.profile import REFINED
 from infill.phasefield.refining import filtered_bricks, filtered_reference, refine_bricks, refine_reference
 from infill.phasefield.schedule import FILTERS, Schedule
 from infill.phasefield.sparse import SparseField, smooth_bricks
-from infill.smoothing.placing import field_volume
 from infill.surface import Surface
 from infill.surfaces.components import components, data_bits
 from infill.surfaces.levels import at_volume, straightened
@@ -200,7 +199,7 @@ def test_levels_and_fields_of_a_result_are_those_of_phi() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12.2**2
     at_half = smooth_volume(ball, refine=True, level=0.5)
     assert at_half.report["solid"]["level"]["common"] == 0.5
-    values = field_volume(at_half).values
+    values = at_half.stages.field().values
     assert np.abs(values).max() <= 1
     assert (values > 0).sum() == pytest.approx(at_half.mesh.volume, rel=0.03)  # cells counted against a surface
     by_volume = smooth_volume(ball, refine=True)

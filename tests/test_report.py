@@ -7,7 +7,8 @@ import re
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from types import UnionType
+from typing import Any, NotRequired, Union, get_args, get_origin, get_type_hints, is_typeddict
 
 import numpy as np
 import pytest
@@ -27,6 +28,7 @@ from infill import (
     smooth_volume,
 )
 from infill.report import FORM
+from infill.report_keys import ComponentsReport, LabelsReport, MakeReport, SmoothReport
 from tests.handmade_prints import Dialect, written
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -47,7 +49,7 @@ FIN[5:25, 5:15, 5:25] = True
 FIN[14:16, 5:36, 5:25] = True  # two cells thick: gone after 40 steps
 
 
-def every_result() -> Iterator[tuple[str, Result[Any]]]:
+def every_result() -> Iterator[tuple[str, Result[Any, Any]]]:
     """Results over all options that change which keys a report has."""
     yield "block", make("honeycomb", size=20, height=3)
     yield "exact", make("concentric-heart", size=20, height=3, stamp="exact", hearts=2)
@@ -68,7 +70,7 @@ def every_result() -> Iterator[tuple[str, Result[Any]]]:
 
 
 @pytest.fixture(scope="module")
-def results() -> dict[str, Result[Any]]:
+def results() -> dict[str, Result[Any, Any]]:
     return dict(every_result())
 
 
@@ -145,7 +147,7 @@ def differences(
     return found
 
 
-def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Result[Any]]) -> None:
+def test_the_page_lists_exactly_the_keys_of_all_reports(results: dict[str, Result[Any, Any]]) -> None:
     page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[0])
     assert len(page) > 100
     assert differences(page, {name: result.report for name, result in results.items()}) == []
@@ -177,7 +179,7 @@ def test_the_page_lists_exactly_the_keys_of_a_refill(tmp_path: Path) -> None:
         assert json.loads(json.dumps(report, allow_nan=False)) == report
 
 
-def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result[Any]]) -> None:
+def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result[Any, Any]]) -> None:
     """But for the report of each label, which is that of smoothing."""
     page = described(PAGE.read_text(encoding="utf-8").partition(ALL_LABELS)[2].partition(ALL_COMPONENTS)[0])
     assert len(page) > 20
@@ -197,10 +199,11 @@ def test_the_page_lists_exactly_the_keys_of_all_labels(results: dict[str, Result
         inner = [{**each, "report": {}} for each in result.report["labels"]]
         reports[name] = {**result.report, "labels": inner, "request": {}}
         assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
+        assert list(misfits(result.report, LabelsReport)) == []
     assert differences(page, reports, ("labels",)) == []
 
 
-def test_the_page_lists_exactly_the_keys_of_all_components(results: dict[str, Result[Any]]) -> None:
+def test_the_page_lists_exactly_the_keys_of_all_components(results: dict[str, Result[Any, Any]]) -> None:
     """But for the report of each component, which is that of smoothing."""
     page = described(PAGE.read_text(encoding="utf-8").partition(ALL_COMPONENTS)[2])
     assert len(page) > 20
@@ -213,7 +216,100 @@ def test_the_page_lists_exactly_the_keys_of_all_components(results: dict[str, Re
     inner = [{**each, "report": {}} for each in result.report["components"]]
     report = {**result.report, "components": inner, "request": {}}
     assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
+    assert list(misfits(result.report, ComponentsReport)) == []
     assert differences(page, {"both": report}, ("components",)) == []
+
+
+# --- for type checkers ----------------------------------------------------------------------------------------------
+
+TYPED = {"make": MakeReport, "smooth": SmoothReport, "labels": LabelsReport, "components": ComponentsReport}
+PLAIN = {int: "int", float: "float", bool: "bool", str: "str", type(None): "null"}
+
+
+def spelt(hint: Any) -> str:
+    """Return a hint as the page would say it."""
+    if get_origin(hint) is NotRequired:
+        return spelt(get_args(hint)[0])
+    if get_origin(hint) in (Union, UnionType):
+        return " or ".join(spelt(each) for each in get_args(hint))
+    if get_origin(hint) is list:
+        return "list"
+    return PLAIN.get(hint, "object")
+
+
+def hinted(kind: Any, name: str = "") -> Iterator[tuple[str, str, bool]]:
+    """Yield every key of a report's type, nested ones with dots, how it is spelt, and whether it must be there."""
+    for key, hint in get_type_hints(kind, include_extras=True).items():
+        place = f"{name}.{key}" if name else key
+        yield place, spelt(hint), get_origin(hint) is not NotRequired
+        inner = get_args(hint)[0] if get_origin(hint) is NotRequired else hint
+        item = get_args(inner)[0] if get_origin(inner) is list else None
+        if is_typeddict(inner):
+            yield from hinted(inner, place)
+        elif is_typeddict(item) and item is not SmoothReport:
+            yield from hinted(item, f"{place}[]")
+
+
+def misfits(value: Any, hint: Any, name: str = "report") -> Iterator[str]:
+    """Yield where a value is not what a hint says, down to the last number."""
+    if get_origin(hint) is NotRequired:
+        hint = get_args(hint)[0]
+    if get_origin(hint) in (Union, UnionType):
+        if all(any(True for _ in misfits(value, each, name)) for each in get_args(hint)):
+            yield f"{name} is {value!r}, not {hint}"
+    elif is_typeddict(hint):
+        hints = get_type_hints(hint, include_extras=True)
+        yield from (f"{name}.{key} has no type" for key in value if key not in hints)
+        for key, each in hints.items():
+            if key in value:
+                yield from misfits(value[key], each, f"{name}.{key}")
+            elif get_origin(each) is not NotRequired:
+                yield f"{name}.{key} is missing"
+    elif get_origin(hint) is list:
+        if type(value) is not list:
+            yield f"{name} is {value!r}, not a list"
+        else:
+            for number, each in enumerate(value):
+                yield from misfits(each, get_args(hint)[0], f"{name}[{number}]")
+    elif hint is not Any and type(value) is not (get_origin(hint) or hint):
+        yield f"{name} is {value!r}, not {hint}"
+
+
+@pytest.mark.parametrize("product", ["make", "smooth"])
+def test_the_types_are_those_of_the_page(product: str) -> None:
+    page = described(PAGE.read_text(encoding="utf-8").partition(REFILL)[0])
+    typed = {key: (kind, must) for key, kind, must in hinted(TYPED[product])}
+    expected = {
+        key: (re.sub(r"(list) \d", r"\1", kind), where in ("all", product) and key not in ONLY_AT_THE_COMMAND_LINE)
+        for key, (kind, where) in page.items()
+        if where.split(" ")[0] in ("all", product)
+    }
+    # What is nested in something that may be missing must be there if that is.
+    optional = {key for key, (_, must) in typed.items() if not must}
+    for key, (kind, must) in expected.items():
+        inside = any(key.startswith(f"{each}.") for each in optional)
+        assert typed[key][0] == kind, key
+        assert typed[key][1] == must or inside, key
+    assert set(typed) == set(expected)
+
+
+def test_every_report_is_of_its_type(results: dict[str, Result[Any, Any]]) -> None:
+    for name, result in results.items():
+        assert list(misfits(result.report, TYPED[result.report["product"]])) == [], name
+
+
+def test_a_misfit_is_found(results: dict[str, Result[Any, Any]]) -> None:
+    report = results["block"].report
+    for wrong, said in (
+        ({**report, "volume": 3}, "report.volume is 3, not <class 'float'>"),
+        ({**report, "new": 3}, "report.new has no type"),
+        ({**report, "extents": [1.0, 2, 3.0]}, "report.extents[1] is 2, not <class 'float'>"),
+        ({**report, "closed": 1}, "report.closed is 1, not <class 'bool'>"),
+        ({key: value for key, value in report.items() if key != "mesh"}, "report.mesh is missing"),
+        ({**report, "walls": {"width": {**report["walls"]["width"], "mean": "thin"}}}, "mean is 'thin'"),
+    ):
+        (found,) = misfits(wrong, MakeReport)
+        assert said in found
 
 
 def test_the_comparison_can_fail() -> None:
@@ -231,12 +327,12 @@ def test_the_comparison_can_fail() -> None:
     )
 
 
-def test_a_report_is_json_as_it_stands(results: dict[str, Result[Any]]) -> None:
+def test_a_report_is_json_as_it_stands(results: dict[str, Result[Any, Any]]) -> None:
     for result in results.values():
         assert json.loads(json.dumps(result.report, allow_nan=False)) == result.report
 
 
-def test_what_stands_first_is_what_the_sections_say(results: dict[str, Result[Any]]) -> None:
+def test_what_stands_first_is_what_the_sections_say(results: dict[str, Result[Any, Any]]) -> None:
     for result in results.values():
         report = result.report
         assert report["form"] == FORM
@@ -249,7 +345,7 @@ def test_what_stands_first_is_what_the_sections_say(results: dict[str, Result[An
         assert report.get("wall_width") == report["walls"].get("width")
 
 
-def test_a_report_tells_of_the_mesh_that_is_handed_over(results: dict[str, Result[Any]]) -> None:
+def test_a_report_tells_of_the_mesh_that_is_handed_over(results: dict[str, Result[Any, Any]]) -> None:
     for name, result in results.items():
         report, mesh = result.report, result.mesh
         assert report["mesh"]["vertices"] == len(mesh.vertices), name
@@ -262,7 +358,7 @@ def test_a_report_tells_of_the_mesh_that_is_handed_over(results: dict[str, Resul
             assert counts["euler_number"] == expected, name
 
 
-def test_a_named_surface_is_the_main_one(results: dict[str, Result[Any]]) -> None:
+def test_a_named_surface_is_the_main_one(results: dict[str, Result[Any, Any]]) -> None:
     assert {tuple(result.surfaces) for result in results.values()} == {("block",), ("solid",)}
     for result in results.values():
         assert result.surface is next(iter(result.surfaces.values()))

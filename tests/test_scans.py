@@ -633,7 +633,7 @@ def test_names_that_cannot_be(tmp_path: Path) -> None:
 
 
 def test_an_unreadable_file_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (tmp_path / "a.npy").write_bytes(b"")
+    (tmp_path / "a.npy").write_bytes(b"not empty")
     monkeypatch.setitem(READERS, ".npy", lambda path: open(path / "below"))  # noqa: SIM115 - raises
     with pytest.raises(FormatError, match="cannot read .*check the file"):
         read_volume(tmp_path / "a.npy")

@@ -27,7 +27,7 @@ NASTY: dict[str, tuple[str, float, float]] = {
     "20mmbox_CR_line_ends.stl": ("", 8000, 0.001),
     "20mmbox_nonstandard.stl": ("", 8000, 0.001),
     "cubes_touching_edge.stl": ("", 2, 0.02),
-    "empty_0bytes.stl": ("neither text nor a whole binary STL .0 bytes", 0, 0),
+    "empty_0bytes.stl": ("is empty .0 bytes.", 0, 0),
     "empty_binary.stl": ("holds no triangles", 0, 0),
     "extruder_idler_overlapping.obj": ("", 5420, 0.02),
     "frog_legs_open.obj": ("", 1317, 0.15),  # 2 mm thick: two cells
@@ -236,7 +236,7 @@ def test_meshes_cut_off_are_told_or_closed(suffix: str, tmp_path: Path) -> None:
 
 
 TEXT: list[tuple[str, str, str]] = [
-    ("a.xyz", "", "no points"),
+    ("a.xyz", "", "is empty .0 bytes."),
     ("a.xyz", "1 2 3\n", "1 point"),
     ("a.xyz", "1 2\n3 4\n5 6\n7 8\n", "column|three|axes|numbers"),
     ("a.xyz", "1 2 x\n" * 9, "broken|numbers|could not"),

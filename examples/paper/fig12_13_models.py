@@ -14,7 +14,6 @@ from examples.paper import models, plots
 from examples.paper.entry import Entry, Row, run
 from examples.paper.measures import mse
 from infill import Smoothing, smooth, smooth_volume
-from infill.smoothing.placing import staircase
 
 STEPS = 20
 PRINTED = {"pig": 0.78, "bunny": 0.45, "armadillo": 0.52}
@@ -43,7 +42,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
             )
             for level, refine in ((0, False), ("volume", False), ("volume", True))
         )
-        raw, solid = staircase(plain.stages), f > 0
+        raw, solid = plain.stages.staircase(), f > 0
         change, held = (result.report["volume_change"] for result in (plain, kept))
         found = [result.report["problems"] for result in (plain, refined)]
         readings = {

@@ -14,7 +14,7 @@ from benchmarks.peers.meshers import surface_nets
 from examples.paper import models, plots
 from examples.paper.entry import NOT_GIVEN, PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing, smooth_points
-from infill.smoothing.placing import some, staircase
+from infill.smoothing.placing import some
 from infill.surfaces.distance import distances
 
 STEPS, WIDTH = 30, 5  # voxels
@@ -33,7 +33,7 @@ def main(folder: Path, *, small: bool = False) -> Entry:
         shell = {"voxel": voxel, "shell": WIDTH * voxel, "allow_broken": True}
         result = smooth_points(points, smoothing=Smoothing(steps=STEPS), method="plain", **shell)
         refined = smooth_points(points, refine=True, **shell)
-        report, raw, counts = result.report, staircase(result.stages), result.report["topology"]
+        report, raw, counts = result.report, result.stages.staircase(), result.report["topology"]
         surfaces = {"data": raw, "ours": result.surface, "refined": refined.surface}
         off = {which: distances(some(surface.vertices), bone) / voxel for which, surface in surfaces.items()}
         data = result.stages.data

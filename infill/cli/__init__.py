@@ -34,7 +34,7 @@ def main() -> None:
         raise
     except OSError as error:  # stdout or stderr is full or gone; files have errors of their own
         with contextlib.suppress(OSError):
-            sys.stderr.write(f"error: cannot write the report: {error.strerror or error}\n")
+            sys.stderr.write(f"error: cannot write to stdout: {error.strerror or error}\n")
         # Whatever is still buffered for stdout would fail again when Python exits.
         sys.stdout = None
         sys.exit(1)

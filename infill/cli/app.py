@@ -24,7 +24,7 @@ COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
     "smooth": (smooth, "infill smooth scan.nrrd --threshold 226 -o bone.stl"),
     "refill": (refill, "infill refill print.gcode -o smooth.gcode"),
     "list": (list_patterns, "infill list honeycomb --preview honeycomb.png"),
-    "check": (check, "infill check part.stl --json"),
+    "check": (check, "infill check part.stl smooth.stl --json"),
     "motion": (motion, "infill motion part.gcode smooth.gcode --plot speeds.png"),
 }
 

@@ -1,45 +1,91 @@
-"""``infill check``: whether a mesh is printable."""
+"""``infill check``: whether meshes are printable."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from infill.cli.console import print_json, reports_errors, table
+from infill.cli.console import print_json, reports_errors, say, table
+from infill.errors import InfillError
+
+if TYPE_CHECKING:
+    from infill.inspection.printability import Inspection
 
 
 @reports_errors
 def check(
-    mesh: Annotated[Path, typer.Argument(help="Mesh to look at: .stl .3mf .obj .ply .off .glb.")],
+    meshes: Annotated[
+        list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb.")
+    ],
     strict: Annotated[bool, typer.Option("--strict", help="Exit 1 for warnings too.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object to stdout; of several meshes, a list of them.")
+    ] = False,
 ) -> None:
-    """Say whether a mesh is printable, and if not, why; exit 1 when it is not."""
+    """Say whether meshes are printable, and if not, why; exit 1 when one is not."""
     from infill.inspection.printability import check as inspect
 
-    found = inspect(mesh)
+    if len(meshes) == 1:
+        found = inspect(meshes[0])
+        if as_json:
+            print_json(found.to_dict())
+        else:
+            typer.echo(_described(found, str(meshes[0])))
+        if not _passes(found, strict=strict):
+            raise typer.Exit(1)
+        return
+    passed, told = True, []
+    width = max(len(str(path)) for path in meshes)
+    for path in meshes:
+        each: dict[str, Any] = {"file": str(path)}
+        try:
+            found = inspect(path)
+        except InfillError as error:
+            say(f"error: {error}")
+            passed = False
+            told.append(each | {"error": str(error)})
+            continue
+        passed &= _passes(found, strict=strict)
+        told.append(each | found.to_dict())
+        if not as_json:  # each as soon as it is known
+            typer.echo(f"{path!s:<{width}}  {_in_a_line(found)}")
     if as_json:
-        print_json(found.to_dict())
-    else:
-        extents = " x ".join(f"{length:.4g}" for length in found.extents)
-        rows = {
-            "printable": "yes" if found.printable else "NO",
-            **{f"problem {i}": text for i, text in enumerate(found.problems, 1)},
-            **{f"warning {i}": text for i, text in enumerate(found.warnings, 1)},
-            "closed": f"{_yes(found.closed)}, {found.open_edges} open edge(s)",
-            "outward": _yes(found.outward),
-            "manifold3d": found.manifold,
-            "self-intersections": str(found.self_intersections),
-            "components": str(found.components),
-            "triangles": f"{found.triangles:,}, {found.degenerate} degenerate, {found.duplicate} duplicate",
-            "volume, area": f"{found.volume:.6g}, {found.area:.6g}",
-            "extents": extents,
-        }
-        typer.echo(table(rows, title=str(mesh)))
-    if not found.printable or (strict and found.warnings):
+        print_json(told)
+    if not passed:
         raise typer.Exit(1)
+
+
+def _passes(found: Inspection, *, strict: bool) -> bool:
+    return found.printable and not (strict and found.warnings)
+
+
+def _in_a_line(found: Inspection) -> str:
+    """Return the verdict on one of several meshes, and what it rests on."""
+    if not found.printable:
+        return f"NO   {'; '.join(found.problems)}"
+    size = " x ".join(f"{length:.4g}" for length in found.extents)
+    text = f"yes  {found.triangles:,} triangles, {found.components} component(s), {size}"
+    return "; ".join([text, *(f"warning: {each}" for each in found.warnings)])
+
+
+def _described(found: Inspection, name: str) -> str:
+    """Return all that there is to say of a mesh, as a table."""
+    rows = {
+        "printable": "yes" if found.printable else "NO",
+        **{f"problem {i}": text for i, text in enumerate(found.problems, 1)},
+        **{f"warning {i}": text for i, text in enumerate(found.warnings, 1)},
+        "closed": f"{_yes(found.closed)}, {found.open_edges} open edge(s)",
+        "outward": _yes(found.outward),
+        "manifold3d": found.manifold,
+        "self-intersections": str(found.self_intersections),
+        "components": str(found.components),
+        "triangles": f"{found.triangles:,}, {found.degenerate} degenerate, {found.duplicate} duplicate",
+        "volume, area": f"{found.volume:.6g}, {found.area:.6g}",
+        "extents": " x ".join(f"{length:.4g}" for length in found.extents),
+    }
+    return table(rows, title=name)
 
 
 def _yes(holds: bool) -> str:

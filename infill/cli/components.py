@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
 from infill.cli.console import as_bytes, table
 
 if TYPE_CHECKING:
+    from infill.report_keys import ComponentsReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
 
@@ -20,7 +21,8 @@ MOST_ROWS = 60  # components in the summary
 ByComponent = Annotated[
     bool,
     typer.Option(
-        "--by-component",
+        "--by-component/--no-by-component",
+        show_default=False,
         help="Smooth each component of a mesh by itself: what overlaps or touches stays apart. A .3mf or .glb names "
         "them.",
         rich_help_panel="What is solid",
@@ -37,7 +39,9 @@ def check_fields(outputs: Sequence[Path]) -> None:
             raise typer.BadParameter(f"--by-component makes meshes, and {path} is a field; leave one of them out")
 
 
-def component_writer(path: Path, result: Result[ComponentStages], *, ascii_stl: bool) -> Callable[[BinaryIO], object]:
+def component_writer(
+    path: Path, result: Result[ComponentStages, ComponentsReport], *, ascii_stl: bool
+) -> Callable[[BinaryIO], object]:
     """Return what writes all components into one file: by name if it can hold names, else one after the other."""
     from infill.formats.mesh_files import PART_WRITERS, writer
     from infill.result import parts_of
@@ -47,9 +51,9 @@ def component_writer(path: Path, result: Result[ComponentStages], *, ascii_stl: 
     return partial(writer(path, ascii=ascii_stl), result.whole)
 
 
-def component_summary(result: Result[ComponentStages], files: Sequence[str], name: str) -> str:
+def component_summary(result: Result[ComponentStages, ComponentsReport], files: Sequence[str], name: str) -> str:
     """Return the short table for stderr: a row for each component, and what is wrong."""
-    report: dict[str, Any] = result.report
+    report = result.report
     rows = {}
     for each in report["components"][:MOST_ROWS]:
         own = each["report"]
@@ -59,8 +63,8 @@ def component_summary(result: Result[ComponentStages], files: Sequence[str], nam
         )
     if len(report["components"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['components']) - MOST_ROWS} more"
-    for each in report["failed"]:
-        rows[f"FAILED {each['name']}"] = each["error"]
+    for lost in report["failed"]:
+        rows[f"FAILED {lost['name']}"] = lost["error"]
     if report["sheets"]:
         rows["left out"] = f"{report['sheets']} components that enclose nothing"
     rows["verdict"] = report["verdict"]["word"]

@@ -7,7 +7,7 @@ import functools
 import json
 import logging
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TextIO, TypeVar
 
 import typer
@@ -92,6 +92,16 @@ class _Said(logging.Handler):
         say(record.getMessage())
 
 
+def is_typed(context: typer.Context, name: str) -> bool:
+    """Return whether an option was given, even if its value is the default; `name` is that of its longest flag."""
+    flag = f"--{name.replace('_', '-')}"
+    for each in context.command.params:
+        if flag in each.opts and each.name is not None:
+            source = context.get_parameter_source(each.name)
+            return source is not None and source.name != "DEFAULT"
+    return False
+
+
 def table(rows: Mapping[str, str], title: str = "") -> str:
     """Return rows of a name and a text, with the texts aligned below each other."""
     width = max(len(name) for name in rows)
@@ -108,8 +118,8 @@ def can_show(text: str) -> bool:
     return True
 
 
-def print_json(value: Mapping[str, Any]) -> None:
-    """Print one JSON object to stdout."""
+def print_json(value: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:
+    """Print one JSON object to stdout, or a list of them."""
     typer.echo(json.dumps(value, indent=2, allow_nan=False))
 
 

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, BinaryIO
 
 import typer
 
 from infill.cli.console import as_bytes, log_said, print_json, progress_bar, say, table
 
 if TYPE_CHECKING:
+    from infill.report_keys import LabelsReport
     from infill.result import Result
     from infill.smoothing.labels import LabelStages
     from infill.smoothing.request import Options
@@ -23,7 +24,8 @@ MOST_ROWS = 60  # labels in the summary
 EachLabel = Annotated[
     bool,
     typer.Option(
-        "--each-label",
+        "--each-label/--no-each-label",
+        show_default=False,
         help="A surface for every label, named and coloured, into one .3mf or .glb; {label} or {number} in the name of "
         "an output implies it, and writes a file for each.",
         rich_help_panel=LABELS,
@@ -41,7 +43,8 @@ Labels = Annotated[
 KeepGoing = Annotated[
     bool,
     typer.Option(
-        "--keep-going",
+        "--keep-going/--no-keep-going",
+        show_default=False,
         help="If a label fails, write the others, list what failed and exit with 1. (default: write nothing)",
         rich_help_panel=LABELS,
     ),
@@ -87,6 +90,7 @@ class Written:
     as_json: bool
     quiet: bool
     keep_going: bool
+    saved: Mapping[Path, Callable[[BinaryIO], object]]
 
 
 def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
@@ -111,16 +115,17 @@ def refuse(**given: bool) -> None:
 
 def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None, options: Options) -> None:
     """Smooth every label, write the files and say what was done."""
+    from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import parts_writer, writer
     from infill.formats.name_templates import is_template
-    from infill.formats.whole_files import check_targets, deliver
 
     single = [path for path in written.outputs if not is_template(path)]
     for path in written.outputs:
         writer(path, ascii=written.ascii_stl)
         if path in single:
             parts_writer(path)
-    check_targets(single, overwrite=written.force)
+    text = next(iter(written.saved), None)
+    check_outputs(single, text=text, overwrite=written.force, as_json=written.as_json)
     with progress_bar(shown=not written.quiet) as progress, log_said(shown=not written.quiet):
         from infill.formats.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
@@ -149,8 +154,8 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
         if progress is not None:
             progress("write", 0.9)
         parts = _parts(result, written)
-        check_targets(parts, overwrite=written.force)
-        files = [str(path) for path in deliver(parts)]
+        check_outputs(parts, text=text, overwrite=written.force, as_json=written.as_json)
+        files = deliver_all(parts | dict(written.saved))
     if not written.quiet:
         say(_summary(result, files, str(given.source)))
     if written.as_json:
@@ -168,7 +173,7 @@ def _nearly(progress: Callable[[str, float], None] | None) -> Callable[[str, flo
     return lambda stage, share: progress(stage, 0.9 * share)
 
 
-def _parts(result: Result[LabelStages], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
+def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
     """Return what writes each file."""
     from infill.errors import OutputError
     from infill.formats.mesh_files import parts_writer, writer
@@ -192,9 +197,9 @@ def _parts(result: Result[LabelStages], written: Written) -> dict[Path, Callable
     return parts
 
 
-def _summary(result: Result[LabelStages], files: Sequence[str], name: str) -> str:
+def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], name: str) -> str:
     """Return the short table for stderr: a row for each label, and what is wrong."""
-    report: dict[str, Any] = result.report
+    report = result.report
     rows = {}
     for each in report["labels"][:MOST_ROWS]:
         own = each["report"]
@@ -203,8 +208,8 @@ def _summary(result: Result[LabelStages], files: Sequence[str], name: str) -> st
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"
-    for each in report["failed"]:
-        rows[f"FAILED {each['number']} {each['name']}"] = each["error"]
+    for lost in report["failed"]:
+        rows[f"FAILED {lost['number']} {lost['name']}"] = lost["error"]
     if report["absent"]:
         rows["without a cell"] = ", ".join(report["absent"])
     if report["problems"]:

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
 
 import typer
 
 from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
 from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+
+if TYPE_CHECKING:
+    from infill.report_keys import MakeReport
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
 BLOCK, FILES, PATTERN, RUN = "Block", "Files", "Pattern", "Run"
@@ -28,7 +31,8 @@ def make(
         typer.Option(
             "-o",
             "--output",
-            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb. May be given again.",
+            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; - for an STL on stdout, -.3mf for others. May be "
+            "given again.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -44,7 +48,7 @@ def make(
     ] = None,
     save_config: Annotated[
         Path | None,
-        typer.Option(help="TOML file to write all options to, as resolved.", rich_help_panel=FILES),
+        typer.Option(help="TOML file to write all options to, as resolved; - for stdout.", rich_help_panel=FILES),
     ] = None,
     cell: Annotated[
         float | None,
@@ -135,9 +139,9 @@ def make(
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
+    from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import writer
-    from infill.formats.whole_files import check_targets, deliver
     from infill.making.settings import resolve
 
     flags = {
@@ -158,7 +162,7 @@ def make(
         "waves": waves,
         "hearts": hearts,
     }
-    outputs = output or []
+    outputs = [with_suffix(path) for path in output or []]
     if not (outputs or preview or save_config or dry_run or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
     settings = resolve(flags, config, assigned or [])
@@ -166,10 +170,10 @@ def make(
     for path in outputs:
         writer(path, ascii=ascii_stl)
     if preview is not None:
-        from infill.pictures.preview import check_preview, write_preview
+        from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
     if dry_run:
         _show_plan(settings.plan(), limit, as_json=as_json)
         return
@@ -185,11 +189,10 @@ def make(
         if result is not None:
             parts |= {path: partial(writer(path, ascii=ascii_stl), result.surface) for path in outputs}
             if preview is not None:
-                parts[preview] = partial(write_preview, result)
+                parts[preview] = result.write_picture
         if save_config is not None:
             parts[save_config] = lambda file: file.write(settings.to_toml().encode())
-        written = deliver(parts)
-    files = [str(path) for path in written]
+        files = deliver_all(parts)
     if not quiet:
         say(
             f"wrote {', '.join(files)}"
@@ -217,7 +220,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
     typer.echo(table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
 
 
-def _summary(report: dict[str, Any], files: list[str], asked: tuple[float, float], *, verbose: bool) -> str:
+def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]

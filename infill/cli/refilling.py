@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,6 +13,7 @@ import typer
 
 from infill.cli.completing import placement_assignments
 from infill.cli.console import print_json, progress_bar, reports_errors, say, table
+from infill.cli.piping import STDOUT, check_outputs, is_piped, send_file
 from infill.errors import InfillError
 from patterns.errors import PatternError
 
@@ -31,7 +33,8 @@ def refill(
         ),
     ],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="G-code to write instead.", rich_help_panel=FILES)
+        Path | None,
+        typer.Option("-o", "--output", help="G-code to write instead; - for stdout.", rich_help_panel=FILES),
     ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
@@ -114,29 +117,37 @@ def refill(
     }
     if preview is not None and dry_run:
         raise typer.BadParameter("a dry run draws nothing; leave --preview out")
-    with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
-        from infill.filling.refilling import refill as refilled
-        from infill.filling.settings import resolve
+    piped = output is not None and is_piped(output)
+    with contextlib.ExitStack() as stack:
+        if piped:
+            check_outputs([output], overwrite=force, as_json=as_json, dry_run=dry_run)
+            output = Path(stack.enter_context(tempfile.TemporaryDirectory())) / (gcode.name or "print")
+        with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
+            from infill.filling.refilling import refill as refilled
+            from infill.filling.settings import resolve
 
-        asked = resolve(flags, config, assigned or [])
-        number = 0
-        before: dict[str, LayerSpeeds] = {}
+            asked = resolve(flags, config, assigned or [])
+            number = 0
+            before: dict[str, LayerSpeeds] = {}
+            if preview is not None:
+                number, before = _before(gcode, preview, asked.get("layers"), overwrite=force)
+            result = refilled(
+                gcode,
+                output=output,
+                **asked,
+                dry_run=dry_run,
+                overwrite=force,
+                progress=progress,
+            )
         if preview is not None:
-            number, before = _before(gcode, preview, asked.get("layers"), overwrite=force)
-        result = refilled(
-            gcode,
-            output=output,
-            **asked,
-            dry_run=dry_run,
-            overwrite=force,
-            progress=progress,
-        )
-    if preview is not None:
-        _write_preview(number, before, result.path or gcode, preview)
+            _write_preview(number, before, result.path or gcode, preview)
+        if piped and result.path is not None:
+            send_file(result.path)
+    path = "" if result.path is None else STDOUT if piped else str(result.path)
     if not quiet:
-        say(_summary(result.report, str(gcode), str(result.path) if result.path else ""))
+        say(_summary(result.report, str(gcode), path))
     if as_json:
-        print_json({**result.report, "files": [str(result.path)] if result.path else []})
+        print_json({**result.report, "files": [path] if path else []})
 
 
 def _before(

@@ -11,21 +11,21 @@ import typer
 
 from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
-from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.foreseeing import foresee
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
 from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
-    from infill.result import Result
-    from infill.smoothing.by_component import ComponentStages
-    from infill.smoothing.request import Method
-    from infill.smoothing.stages import SmoothStages
+    from infill.report_keys import SmoothReport
+    from infill.smoothing.request import Options
 
 GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
 
 
 @reports_errors
 def smooth(
+    context: typer.Context,
     source: Annotated[
         Path,
         typer.Argument(
@@ -39,7 +39,8 @@ def smooth(
         typer.Option(
             "-o",
             "--output",
-            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; or the field: .npz .nrrd. May be given again.",
+            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; or the field: .npz .nrrd; - for an STL on "
+            "stdout, -.3mf for others. May be given again.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -49,6 +50,13 @@ def smooth(
             help="Picture of before and after to write, what was lost in red, what was added in blue: FILE.png.",
             rich_help_panel=FILES,
         ),
+    ] = None,
+    config: Annotated[
+        Path | None, typer.Option(help="TOML file of options; flags override it.", rich_help_panel=FILES)
+    ] = None,
+    save_config: Annotated[
+        Path | None,
+        typer.Option(help="TOML file to write all options to, as resolved; - for stdout.", rich_help_panel=FILES),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
@@ -108,10 +116,19 @@ def smooth(
         list[int] | None, typer.Option(help="Solid is what has this label. May be given again.", rich_help_panel=SOLID)
     ] = None,
     otsu: Annotated[
-        bool, typer.Option("--otsu", help="Find the threshold by Otsu's method.", rich_help_panel=SOLID)
+        bool,
+        typer.Option(
+            "--otsu/--no-otsu", show_default=False, help="Find the threshold by Otsu's method.", rich_help_panel=SOLID
+        ),
     ] = False,
     grey: Annotated[
-        bool, typer.Option("--grey", help="Keep the grey levels around the threshold.", rich_help_panel=SOLID)
+        bool,
+        typer.Option(
+            "--grey/--no-grey",
+            show_default=False,
+            help="Keep the grey levels around the threshold.",
+            rich_help_panel=SOLID,
+        ),
     ] = False,
     by_component: ByComponent = False,
     despeckle: Annotated[
@@ -130,7 +147,10 @@ def smooth(
         ),
     ] = "auto",
     refine: Annotated[
-        bool, typer.Option("--refine", help="The same as --smooth refine.", rich_help_panel=SURFACE)
+        bool,
+        typer.Option(
+            "--refine/--no-refine", show_default=False, help="The same as --smooth refine.", rich_help_panel=SURFACE
+        ),
     ] = False,
     smooth_radius: Annotated[
         float | None,
@@ -174,12 +194,20 @@ def smooth(
     ] = None,
     allow_broken: Annotated[
         bool,
-        typer.Option("--allow-broken", help="Write the mesh even if something is lost.", rich_help_panel=RUN),
+        typer.Option(
+            "--allow-broken/--no-allow-broken",
+            show_default=False,
+            help="Write the mesh even if something is lost.",
+            rich_help_panel=RUN,
+        ),
     ] = False,
     strict: Annotated[
         bool,
         typer.Option(
-            "--strict", help="Try no remedies, and refuse whatever breaks, fuses or vanishes.", rich_help_panel=RUN
+            "--strict/--no-strict",
+            show_default=False,
+            help="Try no remedies, and refuse whatever breaks, fuses or vanishes.",
+            rich_help_panel=RUN,
         ),
     ] = False,
     threads: Annotated[
@@ -189,6 +217,12 @@ def smooth(
         str | None,
         typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
     ] = None,
+    dry_run: Annotated[
+        bool,
+        typer.Option(
+            "--dry-run", help="Only show grid, method, memory and time, and what would be tried.", rich_help_panel=RUN
+        ),
+    ] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print the report as one JSON object to stdout.", rich_help_panel=RUN)
     ] = False,
@@ -196,143 +230,156 @@ def smooth(
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Smooth a scan, a mesh or points: no staircase, no shrinkage, a closed mesh."""
-    from infill.cli.words import parse_bytes, parse_level, parse_numbers
+    from infill.cli.piping import check_outputs, deliver_all, with_suffix
+    from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import WRITERS, writer
     from infill.formats.volume_files import FIELD_WRITERS, field_writer
-    from infill.formats.whole_files import check_targets, deliver
+    from infill.smoothing.settings import resolve
 
-    outputs = output or []
+    outputs = [with_suffix(path) for path in output or []]
     if refine and method not in ("auto", "refine"):
         raise typer.BadParameter(f"--refine is --smooth refine, and --smooth {method} is given; leave one of them out")
-    if fidelity is not None:
-        if refine or method in ("refine", "grey"):
-            raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
-        method = "plain"  # the only way that has a fidelity
-    if not (outputs or preview or as_json):
-        raise typer.BadParameter("nothing to write; give -o FILE, or --json to see the report")
-    spaced = None if spacing is None else parse_numbers("spacing", spacing, (1, 3))
-    box = None if roi is None else parse_numbers("roi", roi, (6,))
-    from infill.phasefield.allen_cahn import Smoothing
-    from infill.smoothing.request import AUTO, Options
-
-    options: Options = {
-        "smoothing": Smoothing(
-            steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
-        ),
-        "method": "refine" if refine else cast("Method", method),
-        "radius": smooth_radius,
-        "crumbs": crumbs,
-        "strict": strict,
-        "level": parse_level(level),
+    if fidelity is not None and (refine or method in ("refine", "grey")):
+        raise typer.BadParameter("--fidelity is not used with --refine; leave one of them out")
+    if not (outputs or preview or as_json or save_config or dry_run):
+        raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
+    flags = {
+        "as": kind,
+        "units": units,
+        "array": array,
+        "series": series,
+        "frame": frame,
+        "spacing": spacing,
+        "roi": roi,
+        "resolution": resolution,
+        "voxel": voxel,
+        "shell": shell,
+        "threshold": threshold,
+        "range": between,
+        "label": label,
+        "otsu": otsu,
+        "grey": grey,
+        "by_component": by_component,
+        "each_label": each_label,
+        "labels": labels,
+        "keep_going": keep_going,
         "despeckle": despeckle,
-        "allow_broken": allow_broken,
-        "tolerance": AUTO if tolerance is None else tolerance or None,
+        "steps": steps,
+        "smooth": method,
+        "refine": refine,
+        "smooth_radius": smooth_radius,
+        "crumbs": crumbs,
+        "fidelity": fidelity,
+        "interface": interface,
+        "level": level,
+        "tolerance": tolerance,
         "max_triangles": max_triangles,
+        "allow_broken": allow_broken,
+        "strict": strict,
+    }
+    settings = resolve({name: value for name, value in flags.items() if is_typed(context, name)}, config)
+    settings.check()
+    options: Options = {
+        **settings.options,
         "threads": threads,
         "max_memory": None if max_memory is None else parse_bytes(max_memory),
     }
-    if wants_each(outputs, each_label=each_label, labels=labels, keep_going=keep_going):
+    saved: dict[Path, Callable[[BinaryIO], object]] = {}
+    if save_config is not None:
+        text = settings.to_toml().encode()
+        saved[save_config] = lambda file: file.write(text)
+    if not (outputs or preview or as_json or dry_run):
+        check_outputs((), text=save_config, overwrite=force, as_json=as_json)
+        written = deliver_all(saved)
+        if not quiet:
+            say(f"wrote {', '.join(written)}")
+        return
+    if wants_each(outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going):
         refuse(
             preview=preview is not None,
-            units=units is not None,
-            resolution=resolution is not None,
-            voxel=voxel is not None,
-            shell=shell is not None,
-            threshold=threshold is not None,
-            range=between is not None,
-            otsu=otsu,
-            grey=grey or method == "grey",
-            by_component=by_component,
+            units=settings.units is not None,
+            resolution=settings.resolution is not None,
+            voxel=settings.voxel is not None,
+            shell=settings.shell is not None,
+            threshold=settings.threshold is not None,
+            range=settings.between is not None,
+            otsu=settings.otsu,
+            grey=settings.grey or settings.method == "grey",
+            by_component=settings.by_component,
+            dry_run=dry_run,
         )
         smooth_each(
             GivenLabels(
                 source=source,
-                kind=kind,
-                array=array,
-                series=series,
-                frame=frame,
-                spacing=spaced,
-                roi=box,
-                labels=labels,
+                kind=settings.kind,
+                array=settings.array,
+                series=settings.series,
+                frame=settings.frame,
+                spacing=settings.spacing,
+                roi=settings.roi,
+                labels=settings.labels,
             ),
             Written(
-                outputs=outputs, ascii_stl=ascii_stl, force=force, as_json=as_json, quiet=quiet, keep_going=keep_going
+                outputs=outputs,
+                ascii_stl=ascii_stl,
+                force=force,
+                as_json=as_json,
+                quiet=quiet,
+                keep_going=settings.keep_going,
+                saved=saved,
             ),
-            label=tuple(label) if label else None,
+            label=settings.label,
             options=options,
         )
         return
     for path in outputs:
         if path.suffix.lower() not in FIELD_WRITERS:
             writer(path, ascii=ascii_stl, more=tuple(FIELD_WRITERS))
-    if by_component:
+    if settings.by_component:
         check_fields(outputs)
     if preview is not None:
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_targets(filter(None, (*outputs, preview)), overwrite=force)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
+    if dry_run:
+        files = filter(None, (*outputs, preview, save_config))
+        foresee(source, settings, options, files, as_json=as_json, quiet=quiet)
+        return
     with progress_bar(shown=not quiet) as progress:
         from infill.smoothing.sources import read_source, smooth_source
 
         if progress is not None:
             progress("read", 0.0)
         with log_said(shown=not quiet):
-            given = read_source(
-                source,
-                kind=kind,
-                units=units,
-                array=array,
-                series=series,
-                frame=frame,
-                spacing=spaced,
-                roi=box,
-            )
-        from infill.smoothing.placing import field_volume
-
-        with log_said(shown=not quiet):
-            result = smooth_source(
-                given,
-                resolution=resolution,
-                voxel=voxel,
-                shell=shell,
-                threshold=threshold,
-                between=None if between is None else parse_numbers("range", between, (2,)),
-                label=tuple(label) if label else None,
-                otsu=otsu,
-                grey=grey,
-                by_component=by_component,
-                **cast(Options, {**options, "progress": progress}),
-            )
+            given = read_source(source, **settings.reading)
+            result: Any = smooth_source(given, **settings.choice, **cast("Options", {**options, "progress": progress}))
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
         for path in outputs:
-            if by_component:
-                parts[path] = component_writer(path, cast("Result[ComponentStages]", result), ascii_stl=ascii_stl)
+            if settings.by_component:
+                parts[path] = component_writer(path, result, ascii_stl=ascii_stl)
             elif path.suffix.lower() in WRITERS:
                 parts[path] = partial(writer(path, ascii=ascii_stl), result.surface)
             else:
-                parts[path] = partial(field_writer(path), field_volume(cast("Result[SmoothStages]", result)))
+                parts[path] = partial(field_writer(path), result.stages.field())
         if preview is not None:
-            from infill.pictures.preview import write_preview
-
-            parts[preview] = partial(write_preview, result)
-        written = [str(path) for path in deliver(parts)]
+            parts[preview] = result.write_picture
+        written = deliver_all(parts | saved)
     if not quiet:
-        if by_component:
-            say(component_summary(cast("Result[ComponentStages]", result), written, str(source)))
+        if settings.by_component:
+            say(component_summary(result, written, str(source)))
         else:
-            say(_summary(cast("Result[SmoothStages]", result), written, str(source), verbose=verbose))
+            say(_summary(result.report, written, str(source), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": written})
 
 
-def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbose: bool) -> str:
+def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool) -> str:
     """Return the short table for stderr."""
     from infill.sections import Sections
 
-    report: dict[str, Any] = result.report
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     now, was = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])

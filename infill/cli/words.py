@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import math
 import re
-from typing import Literal
 
 from infill.errors import ParameterError
 
@@ -21,33 +19,3 @@ def parse_bytes(text: str) -> int:
     if not found or float(found[1]) <= 0:
         raise ParameterError(f"the memory limit is {text!r}; give a number above 0 with K, M, G or T, such as 2G")
     return int(float(found[1]) * BYTES[found[2].upper()])
-
-
-def parse_numbers(name: str, text: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """Return the numbers in a text such as "0.9,0.9,1.5", or raise ParameterError if their count is not in `counts`.
-
-    >>> parse_numbers("range", "200, 900", (2,))
-    (200.0, 900.0)
-    """
-    try:
-        numbers = tuple(float(part) for part in text.split(","))
-    except ValueError:
-        numbers = ()
-    if len(numbers) not in counts or not all(math.isfinite(number) for number in numbers):
-        wanted = " or ".join(map(str, counts))
-        raise ParameterError(f"{name} is {text!r}; give {wanted} number(s), with commas between")
-    return numbers
-
-
-def parse_level(text: str) -> Literal["volume"] | float:
-    """Return the level of a surface, by name or number, or raise ParameterError.
-
-    >>> parse_level("0")
-    0.0
-    """
-    if text == "volume":
-        return "volume"
-    try:
-        return float(text)
-    except ValueError:
-        raise ParameterError(f"level is {text!r}; give volume, or a number between -1 and 1") from None

@@ -20,6 +20,7 @@ from typing import Any
 
 from infill.errors import ParameterError
 from infill.filling.request import AUTO, KEEP, SAME
+from infill.formats.options import parse_number, parse_word
 
 ENDLESS = 10**9  # layers
 
@@ -63,20 +64,6 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
 def _arguments(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return options as arguments of `refill`."""
     return {"part" if name == "object" else name: READERS[name](name, value) for name, value in options.items()}
-
-
-def parse_word(name: str, value: object) -> str:
-    """Return a word, or raise ParameterError."""
-    if not isinstance(value, str) or not value.strip():
-        raise ParameterError(f"{name} is {value!r}; it must be a word")
-    return value
-
-
-def parse_number(name: str, value: object) -> float:
-    """Return a number, or raise ParameterError."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ParameterError(f"{name.replace('_', ' ')} is {value!r}; it must be a number")
-    return value
 
 
 def parse_radius(name: str, value: object) -> str | float:

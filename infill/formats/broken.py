@@ -49,10 +49,20 @@ def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -
     """Return the path of a file that exists and has one of the suffixes, or raise FormatError."""
     source = Path(path)
     if source.suffix.lower() not in suffixes:
-        raise FormatError(f"cannot tell {what} from {source.name!r}; use one of {', '.join(suffixes)}")
+        name = source.name or str(source)
+        raise FormatError(f"cannot tell {what} from {name!r}; use one of {', '.join(suffixes)}")
+    if source.is_dir():
+        raise FormatError(f"{source} is a folder; give a file")
     if not source.is_file():
         raise FormatError(f"there is no file {source}; check the name")
-    return source
+    return not_empty(source)
+
+
+def not_empty(path: Path) -> Path:
+    """Return the path of a file with something in it, or raise FormatError: what was cut off by a full disk, say."""
+    if path.is_file() and path.stat().st_size == 0:
+        raise FormatError(f"{path} is empty (0 bytes); export or save it again")
+    return path
 
 
 @contextlib.contextmanager

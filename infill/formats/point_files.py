@@ -19,6 +19,7 @@ from infill.errors import FormatError
 from infill.formats.broken import readable, told_broken
 
 AXES = 3
+MOST_COLUMNS = 16  # of a point: a place, a normal, a colour and more; an array with more is a picture
 PLY_TYPES = {
     "char": "i1",
     "uchar": "u1",
@@ -192,6 +193,11 @@ def _named(names: list[str], known: tuple[set[str], ...]) -> tuple[int, ...]:
 def _read_npy(path: Path) -> NDArray[np.floating]:
     with _told(path):
         points = npy_format.open_memmap(path, mode="r")
+    if points.ndim == 2 and points.shape[1] > MOST_COLUMNS:
+        raise FormatError(
+            f"{path} holds an array of shape {points.shape}; with two axes it is read as points, N x 3, and a "
+            "volume has three: stack the slices"
+        )
     if points.dtype.kind not in "iuf":
         raise FormatError(f"{path} holds values of type {points.dtype}; save points as numbers")
     return points

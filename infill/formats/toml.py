@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from infill.errors import FormatError
+from infill.errors import FormatError, ParameterError
 
 
 def read_toml(path: Path, *, example: str) -> dict[str, Any]:
@@ -50,5 +51,9 @@ def _toml(value: object) -> str:
     if isinstance(value, (tuple, list)):
         return f"[{', '.join(map(_toml, value))}]"
     if isinstance(value, str):
-        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        if any("\ud800" <= each <= "\udfff" for each in value):  # a name whose bytes are no text
+            raise ParameterError(f"{value!a} is not text, and a TOML file holds only text; give another name")
+        return json.dumps(value, ensure_ascii=False).replace(
+            "\x7f", "\\u007f"
+        )  # TOML escapes as JSON does, and DEL too
     return repr(value)

@@ -19,7 +19,7 @@ from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
 from infill.formats.arrays import read_npy, read_npz, write_npz
-from infill.formats.broken import one_line
+from infill.formats.broken import not_empty, one_line
 from infill.formats.freesurfer import read_mgh
 from infill.formats.medical import read_dicom, read_medical, write_nrrd
 from infill.formats.slices import SLICES, natural, read_slices, read_tiff
@@ -77,6 +77,7 @@ def read_volume(
             return _read_folder(source, series)
         if not source.is_file():
             raise FormatError(f"there is no file {source}; check the name")
+        not_empty(source)
         if not suffix:
             known = ", ".join(READERS)
             raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {known} or a folder of slices")

@@ -113,8 +113,16 @@ def scratch(folder: Path | None) -> Iterator[BinaryIO]:
         yield file
 
 
-def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
+def deliver(
+    parts: Mapping[Path, Callable[[BinaryIO], object]], *, then: Callable[[], object] | None = None
+) -> list[Path]:
     """Write the files of one run, each by its function, and return their paths.
+
+    Parameters
+    ----------
+    parts : mapping of Path to callable
+    then : callable, optional
+        Called once all are written, before they take their places; if it raises, none of them does.
 
     Raises
     ------
@@ -122,13 +130,13 @@ def deliver(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[Path]:
         If one of the files cannot be written; then none of them is.
     """
     paths = list(parts)
-    if not paths:
-        return paths
     partials = [_partial(path) for path in paths]
     try:
         for path, partial in zip(paths, partials, strict=True):  # one after the other: there may be hundreds
             with told(path), open(partial, "wb" if partial == path else "xb") as file:
                 parts[path](file)
+        if then is not None:
+            then()
         _take_places([(partial, path) for partial, path in zip(partials, paths, strict=True) if partial != path])
     finally:
         for path, partial in zip(paths, partials, strict=True):

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import shapely
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString
 
+    from infill.report_keys import MakeReport
+
 THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
 MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
@@ -54,7 +56,7 @@ def make(
     max_memory: int | None = None,
     progress: Progress | None = None,
     **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
-) -> Result[MakeStages]:
+) -> Result[MakeStages, MakeReport]:
     """Return a block of infill: a closed mesh and a report.
 
     Parameters
@@ -164,7 +166,7 @@ def make(
         seconds=clock.seconds,
     )
     stages = MakeStages(points=points, lines=block.lines, grid=block.grid, stamp=data, smoothed=smoothed)
-    return Result(surfaces={"block": surface}, report=report, stages=stages)
+    return Result(surfaces={"block": surface}, report=cast("MakeReport", report), stages=stages)
 
 
 def _points(block: Block) -> NDArray[np.float64]:

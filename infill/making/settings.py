@@ -29,6 +29,7 @@ from patterns.given import from_degrees
 if TYPE_CHECKING:
     from infill.making.request import Block
     from infill.making.stages import MakeStages
+    from infill.report_keys import MakeReport
     from infill.result import Progress, Result
 
 
@@ -92,7 +93,7 @@ class MakeSettings:
 
     def make(
         self, *, allow_broken: bool = False, max_memory: int | None = None, progress: Progress | None = None
-    ) -> Result[MakeStages]:
+    ) -> Result[MakeStages, MakeReport]:
         """Run `infill.make` with these settings."""
         from infill.making.block import make
 

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+    from PIL import Image
     from shapely import MultiLineString
 
     from infill.grid import Grid
+    from infill.surface import Surface
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,3 +37,16 @@ class MakeStages:
     grid: Grid
     stamp: NDArray[np.float32]
     smoothed: NDArray[np.floating]
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return points, stamp, field and mesh side by side."""
+        from infill.pictures.four_stages import four_stages
+
+        return four_stages(
+            points=self.points,
+            grid=self.grid,
+            stamp=self.stamp,
+            smoothed=self.smoothed,
+            surface=surface,
+            report=report,
+        )

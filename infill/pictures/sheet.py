@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from PIL import Image, ImageDraw, ImageFont
 
-from infill.pictures.render import Colour
+from infill.pictures.render import Colour, render
+from infill.surface import Surface
 
 PANEL = 420  # pixels
 MARGIN, CAPTION, LINE = 14, 34, 24
@@ -44,3 +45,8 @@ def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) ->
         draw.text((x, top), words, fill=INK, font=font)
         x += draw.textlength(words, font=font) + 2 * MARGIN
     return whole
+
+
+def mesh_panel(surface: Surface) -> Image.Image:
+    """Return a mesh as one panel."""
+    return Image.fromarray(render(surface, width=PANEL, height=PANEL, background=BACKGROUND))

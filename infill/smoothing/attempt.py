@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -38,6 +38,7 @@ from infill.surfaces.measuring import with_measures
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
+    from infill.report_keys import SmoothReport
     from infill.smoothing.request import Given, Request
     from infill.surface import Surface
     from infill.volume import Volume
@@ -165,7 +166,7 @@ def _near(flips: Flips, given: Given, request: Request) -> bool:
     return near_each_other(flips, spacing=tuple(given.data.cell_size.tolist()), threads=request.threads)
 
 
-def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
+def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Return the result of an attempt, simplified, and what is to be said of what is delivered: the fifth stage."""
     given, request, clock, data = best.given, best.request, best.clock, best.given.data
     judged, surfaced, found, told = best.judged, best.surfaced, best.found, best.told
@@ -210,7 +211,7 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
     else:
         report["distance"] = measured()
     stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
-    return Result(surfaces={"solid": surface}, report=report, stages=stages), told
+    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), told
 
 
 def _raw(given: Given, field: SparseField, request: Request) -> Surface:

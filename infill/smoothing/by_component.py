@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, cast, get_args
 
 import numpy as np
 
@@ -20,6 +20,11 @@ from infill.surface import Surface
 from infill.surfaces.parting import parted
 from infill.version import __version__
 from infill.voxels.from_mesh import RESOLUTION
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+    from infill.report_keys import ComponentsReport, SmoothReport
 
 FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size was asked for
 SMALL = 100  # voxels along a component: one thread does it before others have begun
@@ -47,10 +52,18 @@ class ComponentStages:
     components: Mapping[str, Surface]
     failed: Mapping[str, str] = field(default_factory=dict)
 
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return the mesh and its components, smoothed one by one."""
+        from infill.pictures.before_and_after import before_and_after
+
+        before = f"given: {len(self.given.faces):,} triangles"
+        after = f"smoothed: {len(report['components'])} components, {report['triangles']:,} triangles"
+        return before_and_after(self.given, surface, cell=self.voxel, report=report, captions=(before, after))
+
 
 def by_components(
     surface: Surface, request: Request, *, resolution: int | None = None, voxel: float | None = None
-) -> Result[ComponentStages]:
+) -> Result[ComponentStages, ComponentsReport]:
     """Return a smooth surface around every component of a mesh.
 
     Parameters
@@ -93,7 +106,7 @@ def by_components(
         )
     named = {f"component_{number}": part for number, part in enumerate(parts.surfaces, start=1)}
     surfaces: dict[str, Surface] = {}
-    reports: dict[str, dict[str, Any]] = {}
+    reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
     shares = np.cumsum([0, *(len(part.faces) for part in parts.surfaces)]) / sum(len(p.faces) for p in parts.surfaces)
     with clock.stage("smooth", 0.0):
@@ -139,17 +152,17 @@ def _voxel(surface: Surface, resolution: int | None, voxel: float | None) -> flo
 def _report(
     request: Request,
     surfaces: Mapping[str, Surface],
-    reports: Mapping[str, dict[str, Any]],
+    reports: Mapping[str, SmoothReport],
     failed: Mapping[str, str],
     sheets: int,
     clock: Clock,
-) -> dict[str, Any]:
+) -> ComponentsReport:
     """Return the report: what there is to say of all components, and the report of each."""
     every = list(reports.values())
     corners = np.array([surface.bounds for surface in surfaces.values()])
     volume, data = sum(each["volume"] for each in every), sum(each["solid"]["data"] for each in every)
     words = [each["verdict"]["word"] for each in every] + ["lost"] * bool(failed)
-    return {
+    report = {
         "form": FORM,
         "version": __version__,
         "product": "components",
@@ -166,3 +179,4 @@ def _report(
         "sheets": sheets,
         "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
     }
+    return cast("ComponentsReport", report)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from infill.smoothing.placing import summary
 from infill.surfaces.distance import distances
 
 if TYPE_CHECKING:
+    from infill.report_keys import PointDistances, SmoothReport, VerdictKeys
     from infill.result import Result
     from infill.smoothing.request import Request
     from infill.smoothing.stages import SmoothStages
@@ -22,8 +23,8 @@ NEIGHBOURS = 6  # of a point on a surface: if all of them are as far away as it 
 
 
 def compared_with_points(
-    result: Result[SmoothStages], cloud: NDArray[np.float64], voxel: float, request: Request
-) -> Result[SmoothStages]:
+    result: Result[SmoothStages, SmoothReport], cloud: NDArray[np.float64], voxel: float, request: Request
+) -> Result[SmoothStages, SmoothReport]:
     """Return the result with a report on how far the points lie from its surface, and a verdict that knows it.
 
     Parameters
@@ -42,14 +43,14 @@ def compared_with_points(
     """
     away = distances(cloud, result.surface, threads=request.threads)
     far = np.flatnonzero(away > LOST * voxel)
-    facts: dict[str, Any] = {
+    facts: PointDistances = {
         **summary(away),
         "p95": float(np.quantile(away, 0.95)),
         "at": cloud[int(away.argmax())].tolist(),
         "far": len(far),
         "lost": 0,
     }
-    verdict = dict(result.report["verdict"])
+    verdict: VerdictKeys = {**result.report["verdict"]}
     if len(far):
         from scipy.spatial import cKDTree
 
@@ -66,8 +67,12 @@ def compared_with_points(
                 "narrow volume around them, or --allow-broken to have it anyway"
             )
         word = "lost" if lost.any() or verdict["word"] == "lost" else "changed a little"
-        verdict |= {"word": word, "changes": [*verdict["changes"], said]}
-    report = {**result.report, "verdict": verdict, "distance": {**result.report["distance"], "points": facts}}
+        verdict = {**verdict, "word": word, "changes": [*verdict["changes"], said]}
+    report: SmoothReport = {
+        **result.report,
+        "verdict": verdict,
+        "distance": {**result.report["distance"], "points": facts},
+    }
     if facts["lost"]:
         report["problems"] = [*report["problems"], said]
     return replace(result, report=report)

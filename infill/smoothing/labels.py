@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Unpack
+from typing import TYPE_CHECKING, Any, Unpack, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +26,9 @@ from infill.voxels.cropping import part
 from infill.voxels.labels import Extent, extents
 
 if TYPE_CHECKING:
+    from PIL import Image
+
+    from infill.report_keys import LabelsReport, SmoothReport
     from infill.smoothing.stages import SmoothStages
     from infill.surface import Surface
 
@@ -51,6 +54,13 @@ class LabelStages:
     segments: Mapping[str, Segment]
     failed: Mapping[str, str] = field(default_factory=dict)
 
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return all labels as one picture."""
+        from infill.pictures.sheet import mesh_panel, sheet
+
+        caption = f"{len(report['labels'])} labels, {report['triangles']:,} triangles"
+        return sheet({caption: mesh_panel(surface)}, "")
+
 
 @dataclass(frozen=True, kw_only=True)
 class _Piece:
@@ -75,7 +85,7 @@ def smooth_labels(
     table: Iterable[Segment] = (),
     keep_going: bool = False,
     **options: Unpack[Options],
-) -> Result[LabelStages]:
+) -> Result[LabelStages, LabelsReport]:
     """Return a smooth surface around every label of a segmentation.
 
     Parameters
@@ -125,7 +135,7 @@ def smooth_labels(
         pieces = _pieces(segmentation, label, tuple(table))
         absent = _absent(segmentation, pieces) if label is None else []
     surfaces: dict[str, Surface] = {}
-    reports: dict[str, dict[str, Any]] = {}
+    reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
     with clock.stage("smooth", 0.0):
         shares = np.cumsum([0, *(piece.cells for piece in pieces)]) / sum(piece.cells for piece in pieces)
@@ -209,7 +219,7 @@ def _absent(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[str]:
     return [each.name for each in segmentation.segments if (each.layer, each.value) not in there]
 
 
-def _smoothed(volume: Volume, piece: _Piece, request: Request, options: Options) -> Result[SmoothStages]:
+def _smoothed(volume: Volume, piece: _Piece, request: Request, options: Options) -> Result[SmoothStages, SmoothReport]:
     """Return one label, smoothed in its part of the volume, which begins and ends where bricks of the whole do."""
     margin = math.ceil(REACH * request.smoothing.interface) + MORE
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
@@ -230,12 +240,12 @@ def _called(piece: _Piece) -> str:
 def _report(
     request: Request,
     done: Sequence[_Piece],
-    reports: Mapping[str, dict[str, Any]],
+    reports: Mapping[str, SmoothReport],
     broken: Sequence[_Piece],
     failed: Mapping[str, str],
     absent: Sequence[str],
     clock: Clock,
-) -> dict[str, Any]:
+) -> LabelsReport:
     """Return the report: what there is to say of all labels, and the report of each."""
 
     def described(piece: _Piece) -> dict[str, Any]:
@@ -243,7 +253,7 @@ def _report(
         return {"name": piece.name, "number": segment.value, "layer": segment.layer}
 
     every = [reports[piece.name] for piece in done]
-    return {
+    report = {
         "form": FORM,
         "version": __version__,
         "product": "labels",
@@ -263,3 +273,4 @@ def _report(
         "absent": list(absent),
         "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
     }
+    return cast("LabelsReport", report)

@@ -8,14 +8,16 @@ from functools import partial
 
 from infill.errors import ParameterError
 from infill.inspection.changes import Counts
+from infill.machine import require_memory
 from infill.phasefield.refining import cut_off, on_profile
 from infill.phasefield.schedule import FEWEST
 from infill.smoothing.hints import tell_of_filters
 from infill.smoothing.remedies import Way
 from infill.smoothing.request import AUTO, Given, Method, Request
 from infill.surface import Surface
-from infill.voxels.from_mesh import RESOLUTION, Voxelised, voxelise_reported
+from infill.voxels.from_mesh import RESOLUTION, Voxelised, grid_around, voxelise_reported
 
+BYTES_PER_CELL = 22  # a measured peak: which cells are inside, their distances, and the field that is made of those
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
 FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side: what is tried where something would be lost
 
@@ -48,6 +50,10 @@ def ways_of_mesh(
         raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
 
     def with_voxels(resolution: int | None, voxel: float | None, *, hint: bool = False) -> tuple[Given, Request]:
+        if len(surface.faces):
+            grid = grid_around(surface, voxel=voxel, resolution=resolution, margin=MARGIN)
+            advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or a lower resolution"
+            require_memory(BYTES_PER_CELL * grid.cells, request.max_memory, advice)
         found = voxelise_reported(
             surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
         )

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.machine import require_memory
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.collapsing import collapsed
@@ -20,9 +19,8 @@ from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
 if TYPE_CHECKING:
-    from infill.result import Result
+    from infill.report_keys import Spread
     from infill.smoothing.request import Request
-    from infill.smoothing.stages import SmoothStages
 
 COMPARED = 5_000  # vertices whose distance is measured
 SIMPLER = 0.05  # of the volume: how much simplification may change
@@ -65,24 +63,6 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
     }
 
 
-def staircase(stages: SmoothStages) -> Surface:
-    """Return the surface of the data that a result was smoothed from, in the same place as the result."""
-    return raw_surface(stages.levelled.against, stages.data, None)
-
-
-def field_volume(result: Result[SmoothStages]) -> Volume:
-    """Return the whole field of a result, minus its level, so that the surface lies at 0: float32, [x, y, z].
-
-    For a surface at the level that keeps the volume, it is the distance from the surface, +-1 some cells away from it.
-    """
-    data, found = result.stages.data, result.stages.levelled
-    require_memory(4 * data.values.size, None, "write a mesh instead of the field, or use larger voxels")
-    values = found.against.to_dense()
-    values -= np.float32(found.height)
-    whole: Volume = replace(data, values=values.clip(-1, 1, out=values))
-    return whole
-
-
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
     """Return the surface of the data in the bricks, placed in space."""
     grey = replace(field, values=field.data.astype(np.float32))
@@ -94,7 +74,7 @@ def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
     return vertices[:: max(1, len(vertices) // COMPARED)]
 
 
-def summary(distance: NDArray[np.float64]) -> dict[str, float]:
+def summary(distance: NDArray[np.float64]) -> Spread:
     """Return the mean, root mean square and maximum of the distances."""
     return {
         "mean": float(distance.mean()),

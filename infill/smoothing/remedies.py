@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
 from infill.phasefield.schedule import FEWEST
@@ -16,6 +16,7 @@ from infill.sections import Sections
 from infill.smoothing.attempt import Attempt, attempted, delivered
 
 if TYPE_CHECKING:
+    from infill.report_keys import SmoothReport, VerdictKeys
     from infill.result import Result
     from infill.smoothing.request import Given, Request
     from infill.smoothing.stages import SmoothStages
@@ -44,7 +45,7 @@ class Way:
     cost: float = 1.0
 
 
-def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
+def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, SmoothReport]:
     """Return the result of the first way that loses nothing, or else of the best.
 
     Parameters
@@ -91,8 +92,9 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
     refused = told.losses if not request.strict else (*told.losses, *told.problems)
     if refused and not request.allow_broken:
         raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(best)}")
-    verdict = {**result.report["verdict"], "tried": tried, "taken": taken}
-    return replace(result, report=Sections(result.report).replaced(verdict=verdict))
+    verdict: VerdictKeys = {**result.report["verdict"], "tried": tried, "taken": taken}
+    report = Sections(result.report).replaced(verdict=verdict)
+    return replace(result, report=cast("SmoothReport", report))
 
 
 def _after(others: list[str]) -> str:

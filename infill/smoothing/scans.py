@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,13 +18,66 @@ from infill.smoothing.placing import raw_surface
 from infill.smoothing.remedies import Way, fewer_steps
 from infill.smoothing.request import AUTO, Given, Request
 from infill.volume import Volume
+from infill.voxels.coarsening import coarser
 from infill.voxels.noise import NOISY, noise_share
 from infill.voxels.segmentation import grey as grey_levels
 from infill.voxels.segmentation import solid_cells
+from infill.voxels.segmentation import threshold as segment
 from infill.voxels.slices import interpolated, layers_between
+
+Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
 
 LAYERS = 16  # that are looked at for grey values
 SPECK = 27  # cells: specks up to this size are taken out of noisy data
+
+
+def ways_of_volume(
+    scan: Volume,
+    request: Request,
+    *,
+    threshold: Threshold = None,
+    label: int | Sequence[int] | None = None,
+    grey: bool = False,
+    voxel: float | None = None,
+) -> Iterator[Way]:
+    """Return the ways to smooth what is solid in a volume, the right one first.
+
+    Parameters
+    ----------
+    scan : Volume
+    request : Request
+    threshold, label, grey, voxel
+        See `infill.smooth_volume`.
+    """
+    low, high = range_of(threshold)
+    solid, used = segment(scan, low=low, high=high, label=label, otsu=isinstance(threshold, str))
+    phase = used["method"] == "phase"
+    if voxel is not None:
+        if phase or used["method"] in ("range", "otsu"):
+            scan = coarser(scan, voxel)
+            solid, _ = segment(scan, low=used["low"], high=used.get("high"))
+        else:  # a mask: what share of a larger voxel is solid tells where in it the surface lies
+            scan = coarser(replace(solid, values=np.asarray(solid.values) > 0), voxel)
+            scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
+            solid = replace(scan, values=np.asarray(scan.values) > 0)
+        if not np.asarray(solid.values).any():
+            raise ParameterError(f"voxel is {voxel:g} mm, and nothing of the solid fills half of one; give less")
+    facts = {"source": "volume", "segmentation": used, "coarse": voxel is not None}
+    return ways_of_scan(scan, solid, used, facts, request, grey=grey, phase=phase)
+
+
+def range_of(threshold: Threshold) -> tuple[float | None, float | None]:
+    """Return from which value on, and up to which, cells are solid; both None where Otsu's method is to find it.
+
+    >>> range_of(226), range_of((None, 900.0)), range_of("otsu")
+    ((226.0, None), (None, 900.0), (None, None))
+    """
+    if isinstance(threshold, str):
+        if threshold != "otsu":
+            raise ParameterError(f"there is no threshold {threshold!r}; give a number, two for a range, or otsu")
+        return None, None
+    low, high = threshold if isinstance(threshold, tuple) else (threshold, None)
+    return None if low is None else float(low), high
 
 
 def ways_of_scan(

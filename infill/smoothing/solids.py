@@ -9,7 +9,6 @@ see `infill.smoothing.remedies`. What is done for each is the same: see `infill.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Unpack, overload
 
 import numpy as np
@@ -24,18 +23,18 @@ from infill.smoothing.clouds import compared_with_points
 from infill.smoothing.meshes import MARGIN, ways_of_mesh
 from infill.smoothing.remedies import best_of
 from infill.smoothing.request import Options, Request
-from infill.smoothing.scans import ways_of_scan
+from infill.smoothing.scans import range_of, ways_of_scan, ways_of_volume
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.volume import Volume
-from infill.voxels.coarsening import coarser
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.masked import void_where_masked
-from infill.voxels.segmentation import threshold as segment
 
 if TYPE_CHECKING:
     import trimesh
+
+    from infill.report_keys import ComponentsReport, SmoothReport
 
 
 def smooth_volume(
@@ -48,7 +47,7 @@ def smooth_volume(
     grey: bool = False,
     voxel: float | None = None,
     **options: Unpack[Options],
-) -> Result[SmoothStages]:
+) -> Result[SmoothStages, SmoothReport]:
     """Return a smooth surface around what is solid in a volume.
 
     Parameters
@@ -121,28 +120,12 @@ def smooth_volume(
     >>> bool(abs(result.mesh.volume / ball.sum() - 1) < 1e-4)
     True
     """
-    low, high = threshold if isinstance(threshold, tuple) else (threshold, None)
-    otsu = isinstance(low, str)
-    if otsu and low != "otsu":
-        raise ParameterError(f"there is no threshold {low!r}; give a number, two for a range, or otsu")
-    number = None if otsu or low is None else float(low)
-    chosen = threshold is not None or label is not None
-    scan = volume if isinstance(volume, Volume) else _volume(volume, spacing, origin, number, chosen=chosen)
-    solid, used = segment(scan, low=number, high=high, label=label, otsu=otsu)
     request = Request(**options)
-    phase = used["method"] == "phase"
-    if voxel is not None:
-        if phase or used["method"] in ("range", "otsu"):
-            scan = coarser(scan, voxel)
-            solid, _ = segment(scan, low=used["low"], high=used.get("high"))
-        else:  # a mask: what share of a larger voxel is solid tells where in it the surface lies
-            scan = coarser(replace(solid, values=np.asarray(solid.values) > 0), voxel)
-            scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
-            solid = replace(scan, values=np.asarray(scan.values) > 0)
-        if not np.asarray(solid.values).any():
-            raise ParameterError(f"voxel is {voxel:g} mm, and nothing of the solid fills half of one; give less")
-    facts = {"source": "volume", "segmentation": used, "coarse": voxel is not None}
-    return best_of(ways_of_scan(scan, solid, used, facts, request, grey=grey, phase=phase), request)
+    low, _ = range_of(threshold)
+    chosen = threshold is not None or label is not None
+    scan = volume if isinstance(volume, Volume) else _volume(volume, spacing, origin, low, chosen=chosen)
+    ways = ways_of_volume(scan, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
+    return best_of(ways, request)
 
 
 def _volume(
@@ -165,7 +148,7 @@ def smooth_mesh(
     voxel: float | None = None,
     by_component: Literal[False] = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages]: ...
+) -> Result[SmoothStages, SmoothReport]: ...
 @overload
 def smooth_mesh(
     mesh: trimesh.Trimesh | Surface,
@@ -174,7 +157,7 @@ def smooth_mesh(
     voxel: float | None = None,
     by_component: Literal[True],
     **options: Unpack[Options],
-) -> Result[ComponentStages]: ...
+) -> Result[ComponentStages, ComponentsReport]: ...
 def smooth_mesh(
     mesh: trimesh.Trimesh | Surface,
     *,
@@ -182,7 +165,7 @@ def smooth_mesh(
     voxel: float | None = None,
     by_component: bool = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages] | Result[ComponentStages]:
+) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Return the smooth surface of a mesh, by way of voxels.
 
     Parameters
@@ -218,7 +201,7 @@ def smooth_points(
     shell: float | None = None,
     normals: ArrayLike | None = None,
     **options: Unpack[Options],
-) -> Result[SmoothStages]:
+) -> Result[SmoothStages, SmoothReport]:
     """Return the smooth surface of a cloud of points.
 
     Parameters

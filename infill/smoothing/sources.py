@@ -24,6 +24,7 @@ from infill.volume import Volume
 from infill.voxels.cropping import cropped
 
 if TYPE_CHECKING:
+    from infill.report_keys import ComponentsReport, SmoothReport
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
     from infill.smoothing.request import Options
@@ -165,46 +166,68 @@ def smooth_source(
     grey: bool = False,
     by_component: bool = False,
     **options: Unpack[Options],
-) -> Result[SmoothStages] | Result[ComponentStages]:
+) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
     """Smooth what `read_source` returned; raise ParameterError for options that do not fit its kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
-    kind = "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
-    given = {
-        "resolution": resolution is not None,
-        "voxel": voxel is not None,
-        "shell": shell is not None,
-        "threshold": threshold is not None,
-        "range": between is not None,
-        "label": label is not None,
-        "otsu": otsu,
-        "grey": grey,
-        "by_component": by_component,
-    }
-    wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
-    if wrong:
-        fits = [each for each in KINDS if wrong[0] in FITTING[each]]
-        name = wrong[0].replace("_", "-")
-        raise ParameterError(f"{name} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
+    check_fitting(
+        source,
+        resolution=resolution is not None,
+        voxel=voxel is not None,
+        shell=shell is not None,
+        threshold=threshold is not None,
+        range=between is not None,
+        label=label is not None,
+        otsu=otsu,
+        grey=grey,
+        by_component=by_component,
+    )
     if isinstance(source, Volume):
-        ways = [name for name in ("threshold", "range", "otsu") if given[name]]
-        if len(ways) > 1:
-            raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
-        chosen: Any = "otsu" if otsu else between if between is not None else threshold
+        chosen = threshold_of(threshold, between, otsu=otsu)
         return smooth_volume(source, threshold=chosen, label=label, grey=grey, voxel=voxel, **options)
     if isinstance(source, Surface):
         if by_component:
             return smooth_mesh(source, resolution=resolution, voxel=voxel, by_component=True, **options)
         return smooth_mesh(source, resolution=resolution, voxel=voxel, **options)
     points, normals = source[:, :AXES], source[:, AXES:] if source.shape[1] > AXES and shell is None else None
-    if voxel is None:
-        longest = float(np.ptp(points, axis=0).max())
-        if longest == 0:
-            raise GeometryError(f"all {len(points)} points are one point; give points all around the part")
-        voxel = longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
-    elif resolution is not None:
-        raise ParameterError("both voxel and resolution are given; give one of them")
-    return smooth_points(points, voxel=voxel, shell=shell, normals=normals, **options)
+    return smooth_points(
+        points, voxel=voxel_of_points(points, resolution, voxel), shell=shell, normals=normals, **options
+    )
+
+
+def kind_of(source: Source) -> Kind:
+    """Return what `read_source` returned."""
+    return "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
+
+
+def check_fitting(source: Source, **given: bool) -> None:
+    """Raise ParameterError if an option that is given does not fit what is smoothed, or excludes another."""
+    kind = kind_of(source)
+    wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
+    if wrong:
+        fits = [each for each in KINDS if wrong[0] in FITTING[each]]
+        name = wrong[0].replace("_", "-")
+        raise ParameterError(f"{name} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
+    ways = [name for name in ("threshold", "range", "otsu") if given[name]]
+    if len(ways) > 1:
+        raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
+
+
+def threshold_of(threshold: float | None, between: tuple[float, ...] | None, *, otsu: bool) -> Any:  # noqa: ANN401
+    """Return the threshold as `infill.smooth_volume` takes it."""
+    return "otsu" if otsu else between if between is not None else threshold
+
+
+def voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: float | None) -> float:
+    """Return the size of the voxels for points (N, 3), mm."""
+    if voxel is not None:
+        if resolution is not None:
+            raise ParameterError("both voxel and resolution are given; give one of them")
+        return voxel
+    longest = float(np.ptp(points, axis=0).max())
+    if longest == 0:
+        raise GeometryError(f"all {len(points)} points are one point; give points all around the part")
+    return longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
 
 
 def _kind_of(path: Path) -> Kind:

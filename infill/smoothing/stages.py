@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from PIL import Image
+
     from infill.surface import Surface
     from infill.surfaces.levels import Levelled
     from infill.volume import Volume
@@ -28,3 +31,39 @@ class SmoothStages:
     data: Volume
     levelled: Levelled
     given: Surface | None = None
+
+    def staircase(self) -> Surface:
+        """Return the surface of the data, mm, in the same place as the result."""
+        from infill.smoothing.placing import raw_surface
+
+        return raw_surface(self.levelled.against, self.data, None)
+
+    def field(self) -> Volume:
+        """Return the whole field, minus its level, so that the surface lies at 0: float32, [x, y, z].
+
+        For a surface at the level that keeps the volume, it is the distance from the surface, +-1 some cells away.
+
+        Raises
+        ------
+        MemoryLimitError
+            If it does not fit into memory.
+        """
+        import numpy as np
+
+        from infill.machine import require_memory
+
+        require_memory(4 * self.data.values.size, None, "write a mesh instead of the field, or use larger voxels")
+        values = self.levelled.against.to_dense()
+        values -= np.float32(self.levelled.height)
+        return replace(self.data, values=values.clip(-1, 1, out=values))
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return what was given, a mesh or the surface of the voxels, and the smoothed surface."""
+        from infill.pictures.before_and_after import before_and_after
+
+        shape = " x ".join(map(str, report["grid"]["shape"]))
+        given = self.staircase() if self.given is None else self.given
+        before = f"data: {shape} voxels" if self.given is None else f"given: {len(given.faces):,} triangles"
+        after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
+        cell = float(self.data.cell_size.max())
+        return before_and_after(given, surface, cell=cell, report=report, captions=(before, after))

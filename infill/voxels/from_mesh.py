@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
+from infill.grid import Grid
 from infill.machine import require_memory
 from infill.surface import Surface
 from infill.surfaces.capping import capped, components
@@ -78,6 +79,54 @@ class Voxelised:
     def distances(self, reach: float, *, threads: int | None = None) -> NDArray[np.float32]:
         """Return how far the centres of the cells lie from the mesh: see `infill.voxels.partial.distances_in_cells`."""
         return distances_in_cells(self.closed, self.volume, reach, several=self.several, threads=threads)
+
+
+def grid_around(
+    surface: Surface, *, voxel: float | None = None, resolution: int | None = None, margin: int = 2
+) -> Grid:
+    """Return the grid on which a mesh is looked at: see `voxelise`."""
+    if voxel is not None and resolution is not None:
+        raise ParameterError("both voxel and resolution are given; give one of them")
+    lower, upper = surface.bounds
+    extents = upper - lower
+    if not extents.max() > 0:
+        raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
+    if voxel is None:
+        size = float(extents.max()) / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
+    else:
+        size = length("voxel", voxel)
+        if size > extents.max() / FEWEST:
+            raise ParameterError(
+                f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
+                f"give at most {extents.max() / FEWEST:g} mm"
+            )
+    shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
+    origin = (lower + upper) / 2 - np.array(shape) * size / 2
+    return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
+
+
+def enclosed_cells(surface: Surface, grid: Grid) -> float:
+    """Return how many cells a mesh and the caps on its holes enclose, about: what overlaps counts twice.
+
+    Raises
+    ------
+    GeometryError
+        If it encloses nothing.
+    """
+    vertices, faces, _ = capped((surface.vertices - np.array(grid.origin)) / grid.cell_size - 0.5, surface.faces)
+    return abs(float(_components(vertices, faces, len(surface.faces))[1].sum()))
+
+
+def _components(
+    vertices: NDArray[np.float64], faces: NDArray[np.integer], given: int
+) -> tuple[NDArray[np.integer], NDArray[np.float64]]:
+    """Return the component of each face, and what each encloses, signed; `given` is how many faces are no caps."""
+    component, volumes = components(vertices, faces)
+    if not volumes.any():
+        raise GeometryError(
+            f"the mesh of {given} triangles encloses nothing (loose triangles or a flat sheet); give a closed mesh"
+        )
+    return component, volumes
 
 
 def voxelise(
@@ -157,23 +206,11 @@ def voxelise_reported(
     if not np.isfinite(surface.vertices[np.unique(surface.faces)]).all():
         raise GeometryError("the mesh holds coordinates that are not finite; export it again")
     mesh = closed_or_merged(surface.vertices, surface.faces)
-    lower, upper = mesh.bounds
-    extents = upper - lower
-    if not extents.max() > 0:
-        raise GeometryError("all corners of the mesh are one point, so nothing is inside; give a closed mesh")
-    if voxel is None:
-        size = float(extents.max()) / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
-    else:
-        size = length("voxel", voxel)
-        if size > extents.max() / FEWEST:
-            raise ParameterError(
-                f"voxel is {size:g} mm and the part {' x '.join(f'{side:g}' for side in extents)} mm; "
-                f"give at most {extents.max() / FEWEST:g} mm"
-            )
-    shape = tuple(max(1, math.ceil(side / size - ROUNDING)) + 2 * margin for side in extents.tolist())
+    grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=margin)
+    size, shape, extents = float(grid.cell_size[0]), grid.shape, np.ptp(mesh.bounds, axis=0)
     advice = f"the grid has {' x '.join(map(str, shape))} cells; give larger voxels or a lower resolution"
     require_memory(math.prod(shape), max_memory, advice)  # before anything is allocated
-    origin = (lower + upper) / 2 - np.array(shape) * size / 2
+    origin = np.array(grid.origin)
 
     vertices, faces, holes = capped((mesh.vertices - origin) / size - 0.5, mesh.faces)
     doubled = np.cross(vertices[faces[:, 1]] - vertices[faces[:, 0]], vertices[faces[:, 2]] - vertices[faces[:, 0]])
@@ -181,12 +218,7 @@ def voxelise_reported(
     needed = math.prod(shape) + CROSSING_BYTES * expected + FACE_BYTES * len(faces) + 8 * SLAB
     require_memory(int(needed), max_memory, advice)
     areas = np.linalg.norm(doubled, axis=1)
-    component, volumes = components(vertices, faces)
-    if not volumes.any():
-        raise GeometryError(
-            f"the mesh of {len(mesh.faces)} triangles encloses nothing (loose triangles or a flat sheet); "
-            "give a closed mesh"
-        )
+    component, volumes = _components(vertices, faces, len(mesh.faces))
     found = crossings(vertices, faces, shape)
     turned = inside_out(found, component, volumes)
     if turned.any():

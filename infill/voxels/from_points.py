@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError
+from infill.grid import Grid
 from infill.kernels.threads import thread_count
 from infill.machine import require_memory
 from infill.ragged import spread
@@ -100,6 +101,14 @@ def voxelise_points(
     if shell is not None:
         return _shell(positions, size, length("shell", shell), margin, max_memory)
     return _solid(positions, size, margin, max_memory, thread_count(threads))
+
+
+def grid_around_points(points: ArrayLike, *, voxel: float, shell: float | None = None, margin: int = 2) -> Grid:
+    """Return the grid on which points are looked at: see `voxelise_points`."""
+    positions, size = _checked(points), length("voxel", voxel)
+    reach = 0 if shell is None else math.ceil(length("shell", shell) / 2 / size)
+    shape, origin, _ = _grid(positions, size, margin + reach)
+    return Grid(shape=shape, spacing=size, origin=tuple(origin.tolist()))
 
 
 def balls(centres: Floats, radius: float, shape: tuple[int, ...]) -> Cells:

@@ -91,7 +91,7 @@ def threshold(
             f"{amount} would be solid by {_said(used)}; the values go from {least:g} to {most:g}{_labels(values)}; "
             "choose within them"
         )
-    used |= {"values": [least, most], "solid": count / solid.size}
+    used |= {"values": [+least, +most], "solid": count / solid.size}  # of booleans, 0 and 1
     return replace(volume, values=solid), used
 
 

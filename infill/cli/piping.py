@@ -1,0 +1,109 @@
+"""``-o -``: a file on stdout, so that another program can read it; whole or not at all, as every file.
+
+Its format is what follows the dash, as in ``-o -.3mf``, since everywhere else too the suffix decides.
+"""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import BinaryIO
+
+import typer
+
+from infill.errors import OutputError
+from infill.formats.whole_files import check_targets, deliver
+
+STDOUT = "-"
+
+
+def with_suffix(path: Path, suffix: str = ".stl") -> Path:
+    """Return the path of an output, the one of stdout with a suffix.
+
+    >>> with_suffix(Path("-")).name, with_suffix(Path("-.3mf")).name, with_suffix(Path("a.obj")).name
+    ('-.stl', '-.3mf', 'a.obj')
+    """
+    return Path(f"{STDOUT}{suffix}") if str(path) == STDOUT else path
+
+
+def is_piped(path: Path) -> bool:
+    """Return whether a path stands for stdout.
+
+    >>> is_piped(Path("-")), is_piped(Path("-.stl")), is_piped(Path("-a.stl")), is_piped(Path("b/-.stl"))
+    (True, True, False, False)
+    """
+    return len(path.parts) == 1 and path.stem == STDOUT
+
+
+def check_outputs(
+    paths: Iterable[Path | None], *, overwrite: bool, as_json: bool, text: Path | None = None, dry_run: bool = False
+) -> None:
+    """Raise an error if an output cannot be written, or if more than one thing would go to stdout; before the work.
+
+    Parameters
+    ----------
+    paths : iterable of Path
+        Of files that are no text; None for those that were not asked for.
+    overwrite, as_json : bool
+    text : Path, optional
+        Of a file that is text, which a terminal can show.
+    dry_run : bool
+        Whether nothing is written, to stdout neither.
+
+    Raises
+    ------
+    BadParameter
+        If stdout is named twice, or the report goes there.
+    OutputError
+        If stdout is a terminal, or as `infill.formats.whole_files.check_targets`.
+    """
+    binary = [path for path in paths if path is not None]
+    every = [*binary, *([] if text is None else [text])]
+    piped = [path for path in every if is_piped(path)]
+    if len(piped) > 1:
+        raise typer.BadParameter("two outputs are '-' and would both go to stdout; give one of them a name")
+    if dry_run:
+        piped = []
+    if piped and as_json:
+        raise typer.BadParameter("'-' and --json would both go to stdout; give a file name, or leave --json out")
+    if any(path in binary for path in piped) and sys.stdout.isatty():
+        raise OutputError("'-' is stdout, and that is a terminal; send it on (> FILE, | PROGRAM), or name a file")
+    check_targets((path for path in every if not is_piped(path)), overwrite=overwrite)
+
+
+def deliver_all(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[str]:
+    """Write the files of one run, each by its function, what goes to stdout too, and return their names.
+
+    What goes to stdout is complete before its first byte is sent, and sent before the files take their places: if the
+    reader is gone, none of them does.
+    """
+    files = {path: write for path, write in parts.items() if not is_piped(path)}
+    whole = io.BytesIO()
+    for path, write in parts.items():
+        if path not in files:
+            write(whole)
+    deliver(files, then=partial(_send, whole))
+    return [STDOUT if is_piped(path) else str(path) for path in parts]
+
+
+def send_file(path: Path) -> None:
+    """Send a file that is complete to stdout."""
+    with path.open("rb") as file:
+        while part := file.read(2**20):
+            _write(part)
+    sys.stdout.buffer.flush()
+
+
+def _send(whole: io.BytesIO) -> None:
+    _write(whole.getbuffer())
+    sys.stdout.buffer.flush()
+
+
+def _write(data: bytes | memoryview) -> None:
+    """Write all of some bytes: a stream without a buffer, as PYTHONUNBUFFERED gives one, may take only some of them."""
+    left = memoryview(data)
+    while left:
+        left = left[sys.stdout.buffer.write(left) :]

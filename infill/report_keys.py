@@ -1,0 +1,452 @@
+"""The keys and types of reports, for editors and type checkers: at run time a report is a plain dict.
+
+docs/report.md says what each key means; a test holds that page, these types and real reports together. Keys that only
+some reports of a product have are `NotRequired`.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NotRequired, TypedDict
+
+Vector = list[float]  # x, y(, z), mm
+
+
+class GridKeys(TypedDict):
+    """Where it was computed."""
+
+    shape: list[int]
+    spacing: Vector
+    origin: Vector
+    space: str
+
+
+class Spread(TypedDict):
+    """A summary of distances, mm."""
+
+    mean: float
+    rms: float
+    max: float
+
+
+class Distances(Spread):
+    """The same, and where the largest one is."""
+
+    p95: float
+    at: Vector
+
+
+class PointDistances(Distances):
+    """The same of points."""
+
+    far: int
+    lost: int
+
+
+class Simplified(TypedDict):
+    """What simplifying cost."""
+
+    triangles_before: int
+    volume_change: float
+    shells: int
+    distance: Spread
+
+
+class MeshKeys(TypedDict):
+    """The surface that is handed over."""
+
+    vertices: int
+    triangles: int
+    closed: bool
+    area: float
+    extents: Vector
+    bounds: list[Vector]
+    euler_number: int
+
+
+class SolidMesh(MeshKeys):
+    """The same of a solid."""
+
+    simplified: NotRequired[Simplified]
+
+
+class Level(TypedDict):
+    """Where on phi the surface lies."""
+
+    method: str
+    common: float
+    lowest: float
+    highest: float
+    components: int
+
+
+class Solid(TypedDict):
+    """Volumes, mm³."""
+
+    volume: float
+    data: float
+    change: float
+    level: Level
+
+
+class BlockSolid(Solid):
+    """The same of a block."""
+
+    density: float
+
+
+class CountKeys(TypedDict):
+    """How a solid hangs together."""
+
+    components: int
+    cavities: int
+    tunnels: int
+    euler_number: int
+
+
+class Topology(TypedDict):
+    """Before smoothing, and after it."""
+
+    data: CountKeys
+    result: CountKeys
+
+
+class ChangeKeys(TypedDict):
+    """What smoothing did to components and walls."""
+
+    vanished: int
+    broken: int
+    fused: int
+    appeared: int
+    voids_closed: int
+    voids_cut: int
+    voids_joined: int
+    walls_pierced: int
+
+
+class BlockChanges(ChangeKeys):
+    """The same of a block."""
+
+    pinholes: int
+    pinhole_share: float
+
+
+class SolidChanges(ChangeKeys):
+    """The same of a solid."""
+
+    walls_lost: int
+    faint: int
+    vanished_thin: int
+
+
+class Width(TypedDict):
+    """Width of the walls of a block across their lines, mm."""
+
+    requested: float
+    mean: float | None
+    p5: float | None
+    p95: float | None
+    samples: int
+
+
+class BlockWalls(TypedDict):
+    """How thick the walls of a block are."""
+
+    width: Width
+
+
+class Thinnest(TypedDict):
+    """The thinnest hundredth, mm."""
+
+    data: float | None
+    result: float | None
+
+
+class LostWall(TypedDict):
+    """A piece of wall that is gone."""
+
+    voxels: int
+    at: Vector
+
+
+class SolidWalls(TypedDict):
+    """How thick the walls of a solid are."""
+
+    thinnest: Thinnest
+    lost: list[LostWall]
+
+
+class SmoothingKeys(TypedDict):
+    """How it was smoothed."""
+
+    steps: int
+    fidelity: float
+    interface: float
+    alpha: float
+
+
+class BlockRequest(SmoothingKeys):
+    """What was asked for of a block."""
+
+    pattern: str
+    parameters: dict[str, Any]
+    size: Vector
+    height: float
+    line_width: float
+    stamp: str
+    cells_per_line: int
+
+
+class SolidRequest(SmoothingKeys):
+    """What was asked for of a solid."""
+
+    method: str
+    crumbs: float | None
+    refine: bool
+    level: float | str
+    despeckle: float
+    tolerance: float | None
+    max_triangles: int | None
+
+
+class SegmentationKeys(TypedDict):
+    """How it was decided what is solid."""
+
+    method: str
+    low: NotRequired[float | None]
+    high: NotRequired[float | None]
+    label: NotRequired[list[int]]
+    values: list[int | float]
+    solid: float
+
+
+class RepairKeys(TypedDict):
+    """What had to be assumed of a mesh."""
+
+    components: int
+    turned: int
+    holes: int
+    hole_share: float
+    volume: float
+
+
+class Input(TypedDict):
+    """What was given."""
+
+    source: str
+    despeckled: int
+    noise: NotRequired[float]
+    slices: NotRequired[int]
+    coarse: NotRequired[bool]
+    several: NotRequired[bool]
+    grey: NotRequired[bool]
+    segmentation: NotRequired[SegmentationKeys]
+    repairs: NotRequired[RepairKeys]
+    points: NotRequired[int]
+    shell: NotRequired[float | None]
+    normals: NotRequired[bool]
+
+
+class Place(TypedDict):
+    """A place that was lost or added."""
+
+    at: Vector
+    area: float
+    distance: float
+
+
+class CrumbKeys(TypedDict):
+    """Pieces that smoothing broke off and that were taken out."""
+
+    removed: int
+    volume: float
+    limit: float
+
+
+class VerdictKeys(TypedDict):
+    """What became of what was given."""
+
+    word: str
+    changes: list[str]
+    lost: list[Place]
+    added: list[Place]
+    crumbs: CrumbKeys
+    tried: list[str]
+    taken: str
+
+
+# As a call, since `from` is a word of Python's.
+Distance = TypedDict(
+    "Distance",
+    {
+        "from": str,
+        "result": Distances,
+        "input": Distances,
+        "thin": float,
+        "sheet": float,
+        "hidden": float,
+        "data": NotRequired[Spread],
+        "points": NotRequired[PointDistances],
+    },
+)
+
+
+class Seconds(TypedDict):
+    """How long it took."""
+
+    smooth: float
+    surface: float
+    check: float
+    total: float
+
+
+class BlockSeconds(Seconds):
+    """The same of a block."""
+
+    points: float
+    stamp: float
+
+
+class SolidSeconds(Seconds):
+    """The same of a solid."""
+
+    measure: float
+
+
+class Report(TypedDict):
+    """What the reports of a block and of a solid have in common."""
+
+    form: int
+    version: str
+    product: str
+    triangles: int
+    closed: bool
+    area: float
+    extents: Vector
+    bounds: list[Vector]
+    volume: float
+    volume_change: float
+    components: int
+    problems: list[str]
+    files: NotRequired[list[str]]
+    grid: GridKeys
+    topology: Topology
+
+
+class MakeReport(Report):
+    """The report of `infill.make`."""
+
+    density: float
+    wall_width: Width
+    request: BlockRequest
+    mesh: MeshKeys
+    solid: BlockSolid
+    changes: BlockChanges
+    walls: BlockWalls
+    seconds: BlockSeconds
+
+
+class SmoothReport(Report):
+    """The report of `infill.smooth_volume`, `infill.smooth_mesh` and `infill.smooth_points`."""
+
+    request: SolidRequest
+    input: Input
+    mesh: SolidMesh
+    solid: Solid
+    changes: SolidChanges
+    walls: SolidWalls
+    verdict: VerdictKeys
+    distance: Distance
+    seconds: SolidSeconds
+
+
+class LabelKeys(TypedDict):
+    """A label and its report."""
+
+    name: str
+    number: int
+    layer: int
+    colour: str | None
+    report: SmoothReport
+
+
+class FailedLabel(TypedDict):
+    """A label that could not be smoothed."""
+
+    name: str
+    number: int
+    layer: int
+    error: str
+
+
+class LabelSeconds(TypedDict):
+    """How long it took."""
+
+    labels: float
+    smooth: float
+    total: float
+
+
+class LabelsReport(TypedDict):
+    """The report of `infill.smooth_labels`."""
+
+    form: int
+    version: str
+    product: str
+    files: NotRequired[list[str]]
+    triangles: int
+    closed: bool
+    problems: list[str]
+    request: SolidRequest
+    labels: list[LabelKeys]
+    failed: list[FailedLabel]
+    absent: list[str]
+    seconds: LabelSeconds
+
+
+class ComponentKeys(TypedDict):
+    """A component and its report."""
+
+    name: str
+    report: SmoothReport
+
+
+class FailedComponent(TypedDict):
+    """A component that could not be smoothed."""
+
+    name: str
+    error: str
+
+
+class Worst(TypedDict):
+    """What became of all components."""
+
+    word: str
+
+
+class ComponentSeconds(TypedDict):
+    """How long it took."""
+
+    components: float
+    smooth: float
+    total: float
+
+
+class ComponentsReport(TypedDict):
+    """The report of `infill.smooth_mesh` with `by_component`."""
+
+    form: int
+    version: str
+    product: str
+    files: NotRequired[list[str]]
+    triangles: int
+    closed: bool
+    extents: Vector
+    volume: float
+    volume_change: float
+    problems: list[str]
+    verdict: Worst
+    request: SolidRequest
+    components: list[ComponentKeys]
+    failed: list[FailedComponent]
+    sheets: int
+    seconds: ComponentSeconds
