@@ -21,10 +21,13 @@ BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 def list_patterns(
     pattern: Annotated[
         str | None,
-        typer.Argument(help="Show this one, with its parameters and a picture.", autocompletion=pattern_names),
+        typer.Argument(
+            metavar="PATTERN", help="Show this one, with its parameters and a picture.", autocompletion=pattern_names
+        ),
     ] = None,
     preview: Annotated[
-        Path | None, typer.Option(help="Picture to write of the pattern in its default block: FILE.png.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Picture to write of the pattern in its default block: a .png."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,

@@ -13,7 +13,7 @@ from infill.cli.completing import pattern_assignments, pattern_names, stamp_name
 from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
-BLOCK, FILES, PATTERN, RUN = "Block", "Files", "Pattern", "Run"
+BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
 
 @reports_errors
@@ -21,46 +21,57 @@ def make(
     *,
     pattern: Annotated[
         str | None,
-        typer.Argument(help="Name of the pattern: 'infill list' shows all.", autocompletion=pattern_names),
+        typer.Argument(
+            metavar="PATTERN", help="Name of the pattern: 'infill list' shows all.", autocompletion=pattern_names
+        ),
     ] = None,
     output: Annotated[
         list[Path] | None,
         typer.Option(
             "-o",
             "--output",
+            metavar="FILE",
             help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb. May be given again.",
             rich_help_panel=FILES,
         ),
     ] = None,
     preview: Annotated[
         Path | None,
-        typer.Option(help="Picture of the four stages to write: FILE.png.", rich_help_panel=FILES),
+        typer.Option(metavar="FILE", help="Picture to write, from lines to mesh: a .png.", rich_help_panel=FILES),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     config: Annotated[
         Path | None,
-        typer.Option(help="TOML file of options; flags override it.", rich_help_panel=FILES),
+        typer.Option(metavar="FILE", help="TOML file of options; flags override it.", rich_help_panel=FILES),
     ] = None,
     save_config: Annotated[
         Path | None,
-        typer.Option(help="TOML file to write all options to, as resolved.", rich_help_panel=FILES),
+        typer.Option(metavar="FILE", help="TOML file to write all options to, for --config.", rich_help_panel=FILES),
     ] = None,
     cell: Annotated[
         float | None,
-        typer.Option(help="Distance between neighbouring lines, mm.", rich_help_panel=PATTERN),
+        typer.Option(
+            metavar="MM",
+            help="Distance between neighbouring lines. (default: the pattern's own, mostly 6)",
+            rich_help_panel=PATTERN,
+        ),
     ] = None,
     angle: Annotated[
         float | None,
-        typer.Option(help="Turns the pattern counter-clockwise, degrees.", rich_help_panel=PATTERN),
+        typer.Option(metavar="DEG", help="Turns the pattern counter-clockwise. (default: 0)", rich_help_panel=PATTERN),
     ] = None,
     phase: Annotated[
         tuple[float, float] | None,
-        typer.Option(metavar="X Y", help="Shifts the pattern in x and y, mm.", rich_help_panel=PATTERN),
+        typer.Option(metavar="MM MM", help="Shifts the pattern in x and y. (default: 0 0)", rich_help_panel=PATTERN),
     ] = None,
     frame: Annotated[
         bool | None,
-        typer.Option("--frame/--no-frame", help="A wall around the block.", rich_help_panel=PATTERN),
+        typer.Option(
+            "--frame/--no-frame",
+            help="A wall around the block. (default: the pattern's own)",
+            rich_help_panel=PATTERN,
+        ),
     ] = None,
     assigned: Annotated[
         list[str] | None,
@@ -77,20 +88,23 @@ def make(
     hearts: Annotated[int | None, typer.Option(hidden=True)] = None,
     size: Annotated[
         str | None,
-        typer.Option(help="Block in x and y, mm: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="MMxMM", help="Block in x and y: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK
+        ),
     ] = None,
     height: Annotated[
         float | None,
-        typer.Option(help="Height of the block, mm. (default: 6)", rich_help_panel=BLOCK),
+        typer.Option(metavar="MM", help="Height of the block. (default: 6)", rich_help_panel=BLOCK),
     ] = None,
     line_width: Annotated[
         float | None,
-        typer.Option(help="Width of the walls, mm. (default: 0.45)", rich_help_panel=BLOCK),
+        typer.Option(metavar="MM", help="Width of the walls. (default: 0.45)", rich_help_panel=BLOCK),
     ] = None,
     stamp: Annotated[
         str | None,
         typer.Option(
-            help="block: the paper's stamps, walls up to 41 % wider on diagonals; "
+            metavar="block|exact",
+            help="How lines become walls. block: quick, up to 41 % wider on diagonals; "
             "exact: the same width in every direction. (default: block)",
             autocompletion=stamp_names,
             rich_help_panel=BLOCK,
@@ -98,32 +112,48 @@ def make(
     ] = None,
     cells: Annotated[
         int | None,
-        typer.Option(help="Grid cells across a line. (default: 3 for block, 5 for exact)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="N",
+            help="Grid cells across a line: more are finer and take longer. (default: 3 for block, 5 for exact)",
+            rich_help_panel=BLOCK,
+        ),
     ] = None,
     steps: Annotated[
         int | None,
-        typer.Option(help="Smoothing steps. (default: 10)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="N",
+            help="Smoothing steps: more are rounder, and wear thin walls. (default: 10)",
+            rich_help_panel=BLOCK,
+        ),
     ] = None,
     fidelity: Annotated[
         float | None,
         typer.Option(
-            help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK
+            metavar="NUMBER",
+            help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)",
+            rich_help_panel=ADVANCED,
         ),
     ] = None,
     interface: Annotated[
         float | None,
-        typer.Option(help="Cells from the surface to phi = 0.9. (default: 2)", rich_help_panel=BLOCK),
+        typer.Option(metavar="CELLS", help="From the surface to phi = 0.9. (default: 2)", rich_help_panel=ADVANCED),
     ] = None,
     alpha: Annotated[
         float | None,
-        typer.Option(help="Time step over the cell size squared, up to 0.25. (default: 1/7)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="NUMBER",
+            help="Time step over the cell size squared, up to 0.25. (default: 1/7)",
+            rich_help_panel=ADVANCED,
+        ),
     ] = None,
     allow_broken: Annotated[
         bool, typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN)
     ] = False,
     max_memory: Annotated[
         str | None,
-        typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
+        typer.Option(
+            metavar="SIZE", help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN
+        ),
     ] = None,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only show grid, memory, triangles and file size.", rich_help_panel=RUN)
@@ -134,7 +164,7 @@ def make(
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
-    """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
+    """Make a block of infill from a pattern: smooth walls, a closed mesh for a slicer."""
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import writer
     from infill.formats.whole_files import check_targets, deliver
@@ -230,11 +260,10 @@ def _summary(report: dict[str, Any], files: list[str], asked: tuple[float, float
     )
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
-        f"{report['components']} component(s), Euler number {report['mesh']['euler_number']}",
+        f"{report['components']} component(s)",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
-        "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
-        f"volume {report['volume_change']:+.2%} (excluding rims)",
+        "smoothing": f"{request['steps']} steps, volume {report['volume_change']:+.2%} (excluding rims)",
     }
     if any(abs(one - other) > SHOWN for one, other in zip(request["size"], asked, strict=True)):
         rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in asked)} mm asked for"
@@ -244,6 +273,8 @@ def _summary(report: dict[str, Any], files: list[str], asked: tuple[float, float
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
+        rows["fidelity"] = f"{request['fidelity']:g}"
+        rows["Euler number"] = f"{report['mesh']['euler_number']}"
         rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {grid['spacing'][0]:.4g} mm"
         for name, counts in (("stamp", topology["data"]), ("result", topology["result"])):
             rows[name] = f"{counts['components']} component(s), {counts['tunnels']} holes"

@@ -31,7 +31,14 @@ def refill(
         ),
     ],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="G-code to write instead.", rich_help_panel=FILES)
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="G-code to write. (default: in place)",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
@@ -39,6 +46,7 @@ def refill(
     pattern: Annotated[
         str | None,
         typer.Option(
+            metavar="keep|NAME|FILE",
             help="keep: the slicer's own paths, with round corners. Or one of ours: honeycomb, zigzag, "
             "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, "
             "schwarz-d, concentric, honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt. "
@@ -60,6 +68,7 @@ def refill(
     density: Annotated[
         str | None,
         typer.Option(
+            metavar="same|PERCENT",
             help="same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
             "for a pattern of ours. (default: same for ours, the slicer's filament per mm for keep)",
             rich_help_panel=PATHS,
@@ -68,24 +77,39 @@ def refill(
     smooth_radius: Annotated[
         str | None,
         typer.Option(
-            help="Largest radius of a corner, mm; 0 leaves corners; auto: as large as support and contact allow. "
+            metavar="auto|MM",
+            help="Largest radius of a corner; 0 leaves corners; auto: as large as support and contact allow. "
             "(default: auto)",
             rich_help_panel=PATHS,
         ),
     ] = None,
     max_deviation: Annotated[
-        float | None, typer.Option(help="How far a path may move, mm.", rich_help_panel=PATHS)
+        float | None,
+        typer.Option(
+            metavar="MM", help="How far a path may move. (default: as far as contact allows)", rich_help_panel=PATHS
+        ),
     ] = None,
     layers: Annotated[
-        str | None, typer.Option(help="Layers to refill, counted from 1: 5-20, or 5-.", rich_help_panel=WHERE)
+        str | None,
+        typer.Option(
+            metavar="FROM-TO",
+            help="Layers to refill, counted from 1: 5-20, or 5-. (default: all)",
+            rich_help_panel=WHERE,
+        ),
     ] = None,
     part: Annotated[
         str | None,
-        typer.Option("--object", help="Refill only objects with this in their name.", rich_help_panel=WHERE),
+        typer.Option(
+            "--object",
+            metavar="NAME",
+            help="Refill only objects with this in their name. (default: all)",
+            rich_help_panel=WHERE,
+        ),
     ] = None,
     config: Annotated[
         Path | None,
         typer.Option(
+            metavar="FILE",
             help="TOML file of these options, and of the pattern's parameters; the command line overrides it.",
             rich_help_panel=FILES,
         ),
@@ -93,7 +117,8 @@ def refill(
     preview: Annotated[
         Path | None,
         typer.Option(
-            help="Picture to write of the middle layer, before and after, coloured by speed: FILE.png.",
+            metavar="FILE",
+            help="Picture to write of the middle layer, before and after, coloured by speed: a .png.",
             rich_help_panel=FILES,
         ),
     ] = None,
