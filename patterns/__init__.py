@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from patterns.catalogue import PATTERNS
     from patterns.declared import Parameter, check_parameters, parameter, parameters
-    from patterns.errors import PatternError
+    from patterns.errors import PatternError, PatternUsageError
     from patterns.given import in_degrees
     from patterns.heart import ConcentricHeart
     from patterns.honeycomb import Honeycomb
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "catalogue": ("PATTERNS",),
     "declared": ("Parameter", "check_parameters", "parameter", "parameters"),
-    "errors": ("PatternError",),
+    "errors": ("PatternError", "PatternUsageError"),
     "given": ("in_degrees",),
     "heart": ("ConcentricHeart",),
     "honeycomb": ("Honeycomb",),
@@ -47,6 +47,7 @@ __all__ = [
     "Parameter",
     "Pattern",
     "PatternError",
+    "PatternUsageError",
     "PatternWarning",
     "Registry",
     "Zigzag",

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Any, Literal, Protocol, get_args
 
-from patterns.errors import PatternError
+from patterns.errors import PatternError, PatternUsageError
 
 Unit = Literal["mm", "rad", ""]
 UNITS = get_args(Unit)
@@ -188,9 +188,8 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
     else:
         plain = _number(value, parameter)
     if plain is None:
-        raise PatternError(
-            f"{field.name} of {pattern} is {shown(value, parameter)}; it must be {wanted(default, parameter)}"
-        )
+        kind = PatternUsageError if isinstance(value, str) else PatternError
+        raise kind(f"{field.name} of {pattern} is {shown(value, parameter)}; it must be {wanted(default, parameter)}")
     return plain
 
 

@@ -10,7 +10,7 @@ from numbers import Real
 from typing import Any
 
 from patterns.declared import Described, Named, Parameter, checked, numbers_of, parameters, shown
-from patterns.errors import PatternError
+from patterns.errors import PatternError, PatternUsageError
 
 BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 NONE = "none"
@@ -40,7 +40,7 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
     word, sign, value = text.partition("=")
     name = word.strip().replace("-", "_")
     if not sign or not name:
-        raise PatternError("give a name and a value with = between, such as cell=5")
+        raise PatternUsageError("give a name and a value with = between, such as cell=5")
     found = parameters(kind)
     if name not in found:
         raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, found)}")

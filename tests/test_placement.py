@@ -13,7 +13,7 @@ import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
 from lines import DISC, least_spacing, length_of
-from test_command_line import one_line_error, run
+from test_command_line import refused, run
 from test_parameters import offered
 
 from infill import FormatError, ParameterError, refill
@@ -217,8 +217,8 @@ MISTAKES = {
     "density = true": "density is True; it must be a number",
     'density = "dense"': "density is 'dense'; give same, or a share such as 20%",
     "density = 20": "density is 20; give same, or a share such as 20%",
-    "smooth-radius = [1]": "smooth radius is [1]; give auto, or a number in mm",
-    'max-deviation = "1"': "max deviation is '1'; it must be a number",
+    "smooth-radius = [1]": "smooth_radius is [1]; give auto, or a number in mm",
+    'max-deviation = "1"': "max_deviation is '1'; it must be a number",
     "layers = [1, 2, 3]": "layers is [1, 2, 3]; give a range such as 5-20, or 5-",
     "layers = [1.5, 2]": "layers is [1.5, 2]; give a range such as 5-20, or 5-",
     "layers = true": "layers is True; give a range such as 5-20, or 5-",
@@ -347,27 +347,27 @@ def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
     ],
 )
 def test_a_mistake_is_one_line_and_the_print_stays(words: list[str], says: str, gcode: Path) -> None:
-    one_line_error(run("refill", gcode, *words), re.escape(says))
+    refused(run("refill", gcode, *words), re.escape(says))
     assert gcode.read_bytes() == PRINT
 
 
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["--layers", "0"], "layers are 0 to 0; count from 1, the lower one first"),
-        (["--layers", "0-3"], "layers are 0 to 3; count from 1"),
-        (["--layers=-3"], "layers is '-3'; give a range such as 5-20, or 5-"),
-        (["--layers", ""], "layers is ''; give a range"),
-        (["--layers", "1.5"], "layers is '1.5'; give a range"),
-        (["--layers", "2-3-4"], "layers is '2-3-4'; give a range"),
-        (["--layers", "1,3"], "layers is '1,3'; give a range"),
+        (["--layers", "0"], "--layers is 0 to 0; count from 1, the lower one first"),
+        (["--layers", "0-3"], "--layers is 0 to 3; count from 1"),
+        (["--layers=-3"], "--layers is '-3'; give a range such as 5-20, or 5-"),
+        (["--layers", ""], "--layers is ''; give a range"),
+        (["--layers", "1.5"], "--layers is '1.5'; give a range"),
+        (["--layers", "2-3-4"], "--layers is '2-3-4'; give a range"),
+        (["--layers", "1,3"], "--layers is '1,3'; give a range"),
         (["--layers", "9" * 5000], "; give a range"),
-        (["--object", ""], "object is ''; it must be a word"),
+        (["--object", ""], "--object is ''; it must be a word"),
         (["--object", " \t"], "it must be a word"),
     ],
 )
 def test_hostile_layers_and_objects_are_one_line(words: list[str], says: str, gcode: Path) -> None:
-    one_line_error(run("refill", gcode, *words), re.escape(says))
+    refused(run("refill", gcode, *words), re.escape(says))
     assert gcode.read_bytes() == PRINT
 
 

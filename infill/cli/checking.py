@@ -7,10 +7,9 @@ from typing import Annotated
 
 import typer
 
-from infill.cli.console import print_json, reports_errors, table
+from infill.cli.console import print_json, table
 
 
-@reports_errors
 def check(
     mesh: Annotated[Path, typer.Argument(help="Mesh to look at: .stl .3mf .obj .ply .off .glb.")],
     strict: Annotated[bool, typer.Option("--strict", help="Exit 1 for warnings too.")] = False,

@@ -1,12 +1,29 @@
-"""How a command reads its options and shows its help: flags without a type, mathematics last."""
+"""What every command does alike: it shows its options, and says what is wrong in the words that were typed.
+
+The library's messages begin with the name of the argument that they are about, as Python spells it: "line_width is
+-1 mm; ...". Here, and nowhere else, the option that was typed takes its place: "--line-width is -1 mm; ...".
+
+Exit status 2 is for a command line that cannot be understood, and 1 for one that is, and cannot be done.
+"""
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
+import typer
 from typer.core import TyperCommand, TyperGroup
 
+from infill.cli.console import say
+from infill.errors import InfillError, UsageError
+from patterns.errors import PatternError, PatternUsageError
+
+FAILED, USAGE = 1, 2
+Misused: type[Exception] = typer.BadParameter.__mro__[1]  # of every usage error; typer does not export it
 ADVANCED = "Advanced"  # the panel of what needs the mathematics
+# What an argument of the library is called by a command, where a command has other names for it or more than one.
+CALLED = {"threshold": ("threshold", "between"), "radius": ("smooth_radius",), "object": ("part",)}
+ABOUT = re.compile(r"(?P<names>\w+(?:(?:, | and )\w+)*)(?= (?:is|are|of|goes|x|y|has|holds|exclude|belong)\b)")
 
 
 class Command(TyperCommand):
@@ -16,6 +33,32 @@ class Command(TyperCommand):
         """Return the options and arguments in the order of the help."""
         return _shown(super().get_params(ctx))
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # noqa: ANN401
+        """Read the arguments; whatever is wrong with them is told with the usage of the command."""
+        try:
+            return super().parse_args(ctx, args)
+        except Misused as error:
+            error.ctx = error.ctx or ctx  # type: ignore[attr-defined]
+            raise
+
+    def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
+        """Run the command; an error of ours is one line and exit status 1, or 2 with the usage."""
+        try:
+            return super().invoke(ctx)
+        except (InfillError, PatternError) as error:
+            code = FAILED
+            message = spelled(str(error), ctx)
+            # What a config file says is no usage of the command line.
+            typed = message != str(error) or message.startswith("--")
+            if typed and isinstance(error, (UsageError, PatternUsageError)):
+                say(ctx.get_usage())
+                code = USAGE
+            say(f"error: {message}")
+        except MemoryError:
+            code = FAILED
+            say("error: out of memory; use larger cells or voxels, or a smaller part")
+        raise typer.Exit(code)
+
 
 class Group(TyperGroup):
     """The app itself, which shows its flags as its commands do."""
@@ -23,6 +66,23 @@ class Group(TyperGroup):
     def get_params(self, ctx: Any) -> list[Any]:  # noqa: ANN401
         """Return the options of the app."""
         return _shown(super().get_params(ctx))
+
+
+def spelled(message: str, context: typer.Context) -> str:
+    """Return a message with the options that were typed in place of the arguments that it begins with."""
+    found = ABOUT.match(message)
+    if found is None:
+        return message
+    return re.sub(r"\w+", lambda word: _option(word[0], context), found[0]) + message[found.end() :]
+
+
+def _option(word: str, context: typer.Context) -> str:
+    """Return the option that was typed for an argument of the library, or the word itself."""
+    for each in context.command.params:
+        source = context.get_parameter_source(str(each.name))
+        if each.name in CALLED.get(word, (word,)) and source is not None and source.name == "COMMANDLINE":
+            return max(each.opts, key=len)
+    return word
 
 
 def _shown(params: list[Any]) -> list[Any]:

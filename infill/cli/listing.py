@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from infill.cli.completing import pattern_names
-from infill.cli.console import can_show, print_json, reports_errors, say, table
+from infill.cli.console import can_show, print_json, say, table
 
 if TYPE_CHECKING:
     from patterns import Pattern
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
 
-@reports_errors
 def list_patterns(
     pattern: Annotated[
         str | None,

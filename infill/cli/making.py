@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, BinaryIO
+from typing import Annotated, Any, BinaryIO, Literal
 
 import typer
 
 from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
-from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, print_json, progress_bar, say, table
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
 BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
 
-@reports_errors
 def make(
     *,
     pattern: Annotated[
@@ -101,7 +100,7 @@ def make(
         typer.Option(metavar="MM", help="Width of the walls. (default: 0.45)", rich_help_panel=BLOCK),
     ] = None,
     stamp: Annotated[
-        str | None,
+        Literal["block", "exact"] | None,
         typer.Option(
             metavar="block|exact",
             help="How lines become walls. block: quick, up to 41 % wider on diagonals; "

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from infill.cli.commands import spelled
 from infill.cli.completing import placement_assignments
-from infill.cli.console import print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import print_json, progress_bar, say, table
 from infill.errors import InfillError
 from patterns.errors import PatternError
 
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 
 
-@reports_errors
 def refill(
+    context: typer.Context,
     gcode: Annotated[
         Path,
         typer.Argument(
@@ -139,7 +140,7 @@ def refill(
     }
     if preview is not None and dry_run:
         raise typer.BadParameter("a dry run draws nothing; leave --preview out")
-    with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
+    with _logged(gcode, context, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
         from infill.filling.refilling import refill as refilled
         from infill.filling.settings import resolve
 
@@ -192,12 +193,13 @@ def _write_preview(number: int, before: dict[str, LayerSpeeds], path: Path, prev
 
 
 @contextlib.contextmanager
-def _logged(gcode: Path, *, in_place: bool) -> Iterator[None]:
+def _logged(gcode: Path, context: typer.Context, *, in_place: bool) -> Iterator[None]:
     """Put an error into a log too, and name the log in it: some slicers show nothing of what a script prints."""
     logs = _logs(gcode) if in_place else []
     try:
         yield
     except (InfillError, PatternError) as error:
+        error.args = (spelled(str(error), context),)
         for log in logs if gcode.is_file() else []:
             with contextlib.suppress(OSError):
                 log.write_text(f"error: {error}\n", encoding="utf-8")

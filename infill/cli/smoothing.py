@@ -5,26 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal, cast
 
 import typer
 
 from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
-from infill.cli.console import as_bytes, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, log_said, print_json, progress_bar, say, table
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
 from infill.cli.labelled import Given as GivenLabels
 
 if TYPE_CHECKING:
     from infill.result import Result
     from infill.smoothing.by_component import ComponentStages
-    from infill.smoothing.request import Method
     from infill.smoothing.stages import SmoothStages
 
 GRID, SOLID, SURFACE, FILES, RUN, ADVANCED = "Grid", "What is solid", "Surface", "Files", "Run", "Advanced"
 
 
-@reports_errors
 def smooth(
     source: Annotated[
         Path,
@@ -55,7 +53,7 @@ def smooth(
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     kind: Annotated[
-        str | None,
+        Literal["mesh", "points", "volume"] | None,
         typer.Option(
             "--as",
             metavar="mesh|points|volume",
@@ -64,7 +62,7 @@ def smooth(
         ),
     ] = None,
     units: Annotated[
-        str | None,
+        Literal["um", "mm", "cm", "m", "in"] | None,
         typer.Option(
             metavar="um|mm|cm|m|in",
             help="Unit of a mesh or of points. (default: as in the file, or mm)",
@@ -153,7 +151,7 @@ def smooth(
         ),
     ] = 20,
     method: Annotated[
-        str,
+        Literal["auto", "plain", "refine", "grey"],
         typer.Option(
             "--smooth",
             metavar="auto|plain|refine|grey",
@@ -270,7 +268,7 @@ def smooth(
         "smoothing": Smoothing(
             steps=steps, interface=interface, **({} if fidelity is None else {"fidelity": fidelity})
         ),
-        "method": "refine" if refine else cast("Method", method),
+        "method": "refine" if refine else method,
         "radius": smooth_radius,
         "crumbs": crumbs,
         "strict": strict,
@@ -348,7 +346,7 @@ def smooth(
                 voxel=voxel,
                 shell=shell,
                 threshold=threshold,
-                between=None if between is None else parse_numbers("range", between, (2,)),
+                between=None if between is None else parse_numbers("between", between, (2,)),
                 label=tuple(label) if label else None,
                 otsu=otsu,
                 grey=grey,

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from infill.cli.console import print_json, reports_errors, say, table
+from infill.cli.console import print_json, say, table
 
 if TYPE_CHECKING:
     from infill.inspection.printing_time import FeatureMotion, Motion
@@ -31,7 +31,6 @@ COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
 }
 
 
-@reports_errors
 def motion(
     file: Annotated[
         Path, typer.Argument(metavar="A.gcode", help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf.")
@@ -40,7 +39,7 @@ def motion(
         Path | None, typer.Argument(metavar="[B.gcode]", help="A second one, to compare with the first.")
     ] = None,
     model: Annotated[
-        str | None,
+        Literal["jerk", "vector-jerk", "junction", "klipper"] | None,
         typer.Option(
             metavar="jerk|vector-jerk|junction|klipper",
             help="What bounds the speed at corners: jerk as PrusaSlicer estimates, vector-jerk as CuraEngine does, "

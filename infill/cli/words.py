@@ -6,7 +6,7 @@ import math
 import re
 from typing import Literal
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 
 BYTES = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 
@@ -17,9 +17,12 @@ def parse_bytes(text: str) -> int:
     >>> parse_bytes("2G")
     2147483648
     """
-    found = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
-    if not found or float(found[1]) <= 0:
-        raise ParameterError(f"the memory limit is {text!r}; give a number above 0 with K, M, G or T, such as 2G")
+    advice = "give a number above 0 with K, M, G or T, such as 2G"
+    found = re.fullmatch(r"\s*(-?\d+(?:\.\d+)?|nan)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
+    if not found:
+        raise UsageError(f"max_memory is {text!r}; {advice}")
+    if not float(found[1]) > 0:
+        raise ParameterError(f"max_memory is {text!r}; {advice}")
     return int(float(found[1]) * BYTES[found[2].upper()])
 
 
@@ -33,9 +36,11 @@ def parse_numbers(name: str, text: str, counts: tuple[int, ...]) -> tuple[float,
         numbers = tuple(float(part) for part in text.split(","))
     except ValueError:
         numbers = ()
-    if len(numbers) not in counts or not all(math.isfinite(number) for number in numbers):
+    if len(numbers) not in counts:
         wanted = " or ".join(map(str, counts))
-        raise ParameterError(f"{name} is {text!r}; give {wanted} number(s), with commas between")
+        raise UsageError(f"{name} is {text!r}; give {wanted} number(s), with commas between")
+    if not all(map(math.isfinite, numbers)):
+        raise ParameterError(f"{name} is {text!r}; give finite numbers")
     return numbers
 
 
@@ -50,4 +55,4 @@ def parse_level(text: str) -> Literal["volume"] | float:
     try:
         return float(text)
     except ValueError:
-        raise ParameterError(f"level is {text!r}; give volume, or a number between -1 and 1") from None
+        raise UsageError(f"level is {text!r}; give volume, or a number between -1 and 1") from None

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import shapely
 
 from infill.checks import length, whole
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
@@ -177,13 +177,14 @@ def plan(
     if len(sides) != 2:
         raise ParameterError(f"size has {len(sides)} numbers; give x and y in mm, or one number for a square")
     width, depth, height = length("size x", sides[0]), length("size y", sides[1]), length("height", height)
-    line_width = length("line width", line_width)
+    line_width = length("line_width", line_width)
     if stamp not in get_args(StampMethod):
-        raise ParameterError(f"there is no stamp {stamp!r}; choose block or exact")
-    across = whole("the number of cells per line", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
+        raise UsageError(f"stamp is {stamp!r}; choose block or exact")
+    across = whole("cells", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
     if stamp == "block" and across % 2 == 0:
         raise ParameterError(
-            f"a block of {across} × {across} cells has no middle cell; use an odd number of cells, or the exact stamp"
+            f"cells is {across}, and a block of {across} × {across} cells has no middle cell; use an odd number, "
+            "or the exact stamp"
         )
     cell = line_width / across
     counts = tuple(max(1, round(side / cell)) for side in (width, depth))

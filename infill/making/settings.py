@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.formats.assignments import SET, gathered, table_of
 from infill.formats.toml import read_toml, toml_rows
 from patterns import PATTERNS, Pattern, in_degrees
@@ -155,13 +155,12 @@ def parse_size(size: object) -> tuple[float, float]:
     except (TypeError, ValueError):
         lengths = []
     if len(lengths) not in (1, 2):
-        raise ParameterError(f"size is {size!r}; give millimetres as 60x40, or 60 for a square")
+        raise UsageError(f"size is {size!r}; give millimetres as 60x40, or 60 for a square")
     return lengths[0], lengths[-1]
 
 
 def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
     """Return the value of one of make's options if it has the same type as `default`, or raise ParameterError."""
-    word = name.replace("_", "-")
     if name == "size":
         return parse_size(value)
     if isinstance(default, str) or name == "pattern":
@@ -169,7 +168,7 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     else:
         wanted, fits = "a number", _is_number(value)
     if not fits:
-        raise ParameterError(f"{word} is {value!r}; it must be {wanted}")
+        raise UsageError(f"{name} is {value!r}; it must be {wanted}")
     return value
 
 
