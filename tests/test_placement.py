@@ -36,7 +36,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PRINT = written(Dialect(layers=5))
 WIDTH = 0.45
 GAP = TOUCH * WIDTH
-ANGLE = math.radians(17)
+ANGLE = 17.0
 AROUND = shapely.Point(0, 0).buffer(9, quad_segs=64)
 TILE = '<svg xmlns="http://www.w3.org/2000/svg" width="8mm" height="6mm" viewBox="0 0 8 6"><path d="{}"/></svg>'
 
@@ -120,7 +120,7 @@ def test_a_turned_pattern_takes_the_length_asked_for(name: str) -> None:
 @pytest.mark.parametrize("name", ["rectilinear", "schwarz-p"])
 def test_a_turn_by_a_right_angle(name: str) -> None:
     """Straight lines come to lie as those of the next layer, and tubes as they lay."""
-    quarter = family_of(name, {"angle": math.pi / 2})
+    quarter = family_of(name, {"angle": 90})
     after = 4 if name == "rectilinear" else 3
     assert apart(lines(FAMILIES[name], layer=after), lines(quarter)) < 1e-6
 
@@ -135,7 +135,7 @@ def test_a_turn_by_half_and_a_shift(name: str) -> None:
         shift = (wave.period / 2, wave.height)
     # Where a gyroid has its corners is interpolated, forwards along one wave and backwards along the other.
     limit = 5e-6 if name == "gyroid" else 1e-6
-    assert apart(lines(family), lines(family_of(name, {"angle": math.pi, "phase": shift}))) < limit
+    assert apart(lines(family), lines(family_of(name, {"angle": 180, "phase": shift}))) < limit
 
 
 def test_the_comparison_can_fail() -> None:
@@ -150,7 +150,7 @@ def test_without_a_turn_a_family_is_itself() -> None:
 
 def test_hearts_stand_on_a_point() -> None:
     """The tip of every heart lies to the lower left of the middle; turned by 45°, below it."""
-    family = family_of("concentric-heart", {"angle": math.pi / 4, "middle": (50.0, 60.0)})
+    family = family_of("concentric-heart", {"angle": 45, "middle": (50.0, 60.0)})
     paths = family.strands((40, 50, 60, 70), cell=4.0, line_width=WIDTH, z=0.2, layer=0, radius=0.0)
     for path in paths:
         assert path[path[:, 1].argmin(), 0] == pytest.approx(50, abs=1e-9)

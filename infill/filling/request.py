@@ -41,7 +41,7 @@ class Request:
     part : str, optional
         Refill only objects whose name contains this.
     parameters : mapping
-        Of the pattern, by name; angles in radians.
+        Of the pattern, by name; angles in degrees.
 
     Raises
     ------

@@ -16,8 +16,7 @@ from infill.grid import Grid
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.surfaces.stacking import layer_count
-from patterns import PATTERNS, Pattern, PatternError, in_degrees, lacking
-from patterns.given import from_degrees
+from patterns import PATTERNS, Pattern, PatternError, lacking, parameter_values
 from patterns.protocol import lines_of
 
 if TYPE_CHECKING:
@@ -114,7 +113,7 @@ class Block:
         smoothing = self.smoothing
         return {
             "pattern": self.pattern.name,
-            "parameters": in_degrees(self.pattern),
+            "parameters": parameter_values(self.pattern),
             "size": list(self.grid.extents),
             "height": self.height,
             "line_width": self.line_width,
@@ -215,7 +214,7 @@ def plan(
 
 
 def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
-    """Return the pattern that a name and its parameters describe, angles in degrees, or the pattern itself."""
+    """Return the pattern that a name and its parameters describe, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):
             raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
@@ -230,4 +229,4 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     for name in parameters:
         if name not in known:
             raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(known)}")
-    return kind(**from_degrees(kind, parameters))
+    return kind(**parameters)
