@@ -115,8 +115,14 @@ def test_the_readme_names_every_command() -> None:
 
 @pytest.mark.parametrize("package", ["infill", "infill.cli"])
 def test_python_runs_the_package(package: str) -> None:
-    done = subprocess.run([sys.executable, "-m", package, "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout == f"infill {infill.__version__} (phasefill)\n"
+    for words, code, says in (
+        (["--version"], 0, f"infill {infill.__version__} (phasefill)\n"),
+        (["list", "honycomb"], 1, "error: there is no pattern 'honycomb'; did you mean 'honeycomb'?"),
+        (["list", "--nonsense"], 2, "No such option: --nonsense"),
+    ):
+        done = subprocess.run([sys.executable, "-m", package, *words], capture_output=True, text=True, check=False)
+        assert done.returncode == code
+        assert says in (done.stderr if code else done.stdout)
 
 
 # --- list ------------------------------------------------------------------------------------------------
@@ -352,6 +358,22 @@ def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
     assert one.read_bytes() == other.read_bytes()
     assert run("make", "--config", config, "--save-config", config, "--force").exit_code == 0
     assert "angle = 12.5" in config.read_text()
+
+
+def test_a_config_goes_to_stdout_alone(tmp_path: Path) -> None:
+    config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
+    words = ["make", "honeycomb", *SMALL, "--cell", "4", "--angle", "12.5"]
+    for more in ([], ["-q"], ["-o", mesh]):
+        result = run(*words, *more, "--save-config", "-")
+        assert result.exit_code == 0, result.output
+        config.write_text(result.stdout)
+        assert resolve({}, config).to_toml() == result.stdout
+        assert (result.stderr == "") == (not mesh.exists())
+    assert sorted(tmp_path.iterdir()) == [mesh, config]
+    assert "angle = 12.5" in result.stdout
+    for other in ("--json", "--dry-run"):
+        usage_error(run(*words, other, "--save-config", "-"), "stdout for itself")
+    one_line_error(run("make", "honeycomb", "--height", "-1", "--save-config", "-"), "--height is -1 mm")
 
 
 @pytest.mark.parametrize("name", BUILT_IN)

@@ -933,3 +933,19 @@ def test_how_far_edges_may_draw_back_goes_with_the_diffusion() -> None:
     assert lost[0] == lost[1]
     assert [piece["voxels"] for piece in lost[0]] == [60]
     assert Smoothing(steps=20).blur == pytest.approx(Smoothing(steps=80, alpha=1 / 28).blur)
+
+
+@pytest.mark.parametrize("tolerance", [0.05, 0.5])
+def test_changes_of_the_volume_say_what_they_compare(tolerance: float) -> None:
+    """One is that of the mesh that is written over the data, in all places; the other is that of simplifying alone."""
+    ball = trimesh.creation.icosphere(3, 10.0)
+    options: dict[str, Any] = {"resolution": 30, "allow_broken": True, "level": 0.0}
+    full = smooth_mesh(ball, tolerance=None, **options)
+    lean = smooth_mesh(ball, tolerance=tolerance, **options)
+    report, solid = lean.report, lean.report["solid"]
+    assert report["volume"] == solid["volume"] == pytest.approx(lean.mesh.volume, rel=1e-6)
+    assert report["volume_change"] == solid["change"] == solid["volume"] / solid["data"] - 1
+    cost = report["mesh"]["simplified"]["volume_change"]
+    assert cost == pytest.approx(report["volume"] / full.report["volume"] - 1, abs=1e-12)
+    assert 1 + report["volume_change"] == pytest.approx((1 + full.report["volume_change"]) * (1 + cost), abs=1e-12)
+    assert abs(full.report["volume_change"]) > 1e-4  # at the level 0 both are told apart

@@ -13,6 +13,7 @@ from infill.cli.completing import pattern_assignments, pattern_names, stamp_name
 from infill.cli.console import as_bytes, print_json, progress_bar, say, table
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
+STDOUT = Path("-")
 BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
 
@@ -46,7 +47,9 @@ def make(
     ] = None,
     save_config: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="TOML file to write all options to, for --config.", rich_help_panel=FILES),
+        typer.Option(
+            metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
+        ),
     ] = None,
     cell: Annotated[
         float | None,
@@ -167,6 +170,7 @@ def make(
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import writer
     from infill.formats.whole_files import check_targets, deliver
+    from infill.making.duration import warning_of
     from infill.making.settings import resolve
 
     flags = {
@@ -190,6 +194,8 @@ def make(
     outputs = output or []
     if not (outputs or preview or save_config or dry_run or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
+    if save_config == STDOUT and (as_json or dry_run):
+        raise typer.BadParameter("--save-config - has stdout for itself; leave --json and --dry-run out")
     settings = resolve(flags, config, assigned or [])
     limit = None if max_memory is None else parse_bytes(max_memory)
     for path in outputs:
@@ -198,16 +204,19 @@ def make(
         from infill.pictures.preview import check_preview, write_preview
 
         check_preview(preview)
-    check_targets(filter(None, (*outputs, preview, save_config)), overwrite=force)
+    saved = None if save_config == STDOUT else save_config
+    check_targets(filter(None, (*outputs, preview, saved)), overwrite=force)
+    block = settings.plan()
     if dry_run:
-        _show_plan(settings.plan(), limit, as_json=as_json)
+        _show_plan(block, limit, as_json=as_json)
+    if not quiet and (slow := warning_of(block)):
+        say(f"warning: {slow}")
+    if dry_run:
         return
     result = None
     with progress_bar(shown=not quiet) as progress:
         if outputs or preview or as_json:
             result = settings.make(allow_broken=allow_broken, max_memory=limit, progress=progress)
-        else:
-            settings.plan()  # what is saved must be valid
         if progress is not None:
             progress("write", 0.8)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -215,16 +224,16 @@ def make(
             parts |= {path: partial(writer(path, ascii=ascii_stl), result.surface) for path in outputs}
             if preview is not None:
                 parts[preview] = partial(write_preview, result)
-        if save_config is not None:
-            parts[save_config] = lambda file: file.write(settings.to_toml().encode())
+        if saved is not None:
+            parts[saved] = lambda file: file.write(settings.to_toml().encode())
         written = deliver(parts)
     files = [str(path) for path in written]
-    if not quiet:
-        say(
-            f"wrote {', '.join(files)}"
-            if result is None
-            else _summary(result.report, files, settings.size, verbose=verbose)
-        )
+    if save_config == STDOUT:
+        typer.echo(settings.to_toml(), nl=False)
+    if not quiet and result is not None:
+        say(_summary(result.report, files, settings.size, verbose=verbose))
+    elif not quiet and files:
+        say(f"wrote {', '.join(files)}")
     if as_json and result is not None:
         print_json({**result.report, "files": files})
 

@@ -399,7 +399,7 @@ def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbo
     if cost := report["mesh"].get("simplified"):
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
-            f"volume {cost['volume_change']:+.4%}, {cost['shells']} shell(s)"
+            f"volume {cost['volume_change']:+.4%} by that, {cost['shells']} shell(s)"
         )
     verdict = report["verdict"]
     rows["verdict"] = "; ".join(
