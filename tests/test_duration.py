@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_command_line import SMALL, run
+from test_command_line import SMALL, one_line_error, run
 
 import infill.making.duration
 from infill.making.duration import ROUGHLY, TRIED, smoothing_seconds, warning_of
@@ -79,3 +79,12 @@ def test_make_tells_it_before_it_begins(tmp_path: Path, monkeypatch: pytest.Monk
     assert told[0].startswith("warning: 1,000,000,000 steps")
     assert told[1].startswith("error: out of memory")
     assert len(run(*words, "-q").stderr.splitlines()) == 1
+
+
+def test_memory_is_told_first(tmp_path: Path) -> None:
+    """What cannot be made at all needs no warning of its time."""
+    one_line_error(run("make", "honeycomb", "--size", "100000", "-o", tmp_path / "a.stl"), "GiB of memory")
+
+
+def test_few_steps_are_not_told_to_be_fewer(tried: list[Any]) -> None:
+    assert warning_of(block("20000", 10)).endswith(" here; take fewer cells")

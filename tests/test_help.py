@@ -109,3 +109,9 @@ def test_summaries_keep_mathematics_for_verbose(tmp_path: Path) -> None:
     assert not MATHEMATICS.search(done.stderr)
     told = plain(run(*words, "-v").stderr)
     assert all(word in told for word in ("Euler number 2 -> 2", "fidelity 0.01", "level "))
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_arguments_show_their_name_alone(command: str) -> None:
+    for row in panels(command).get("Arguments", []):
+        assert not re.search(r"<\w+>", row)

@@ -86,8 +86,10 @@ def _option(word: str, context: typer.Context) -> str:
 
 
 def _shown(params: list[Any]) -> list[Any]:
-    """Return parameters with those of the panel "Advanced" last; flags take no value, so they show no type of one."""
+    """Return parameters with those of the panel "Advanced" last; flags and arguments show no type: names say enough."""
     for each in params:
+        if each.param_type_name == "argument":
+            each.display_type_rich = lambda ctx: None  # noqa: ARG005 - the signature of typer's
         if getattr(each, "is_flag", False) and each.metavar is None:
             each.metavar = ""
     return sorted(params, key=lambda each: getattr(each, "rich_help_panel", None) == ADVANCED)

@@ -209,6 +209,8 @@ def make(
     block = settings.plan()
     if dry_run:
         _show_plan(block, limit, as_json=as_json)
+    else:
+        block.require_grid_memory(limit)  # of what cannot be made, it does not matter how long it takes
     if not quiet and (slow := warning_of(block)):
         say(f"warning: {slow}")
     if dry_run:

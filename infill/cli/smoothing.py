@@ -388,7 +388,7 @@ def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbo
     how = ", refined" if request["refine"] else ""
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
-        "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+.4%} of the data",
+        "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+z.4%} of the data",
         "smoothing": f"{request['steps']} steps{how}, "
         f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
@@ -399,7 +399,7 @@ def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbo
     if cost := report["mesh"].get("simplified"):
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
-            f"volume {cost['volume_change']:+.4%} by that, {cost['shells']} shell(s)"
+            f"volume {cost['volume_change']:+z.4%} by that, {cost['shells']} shell(s)"
         )
     verdict = report["verdict"]
     rows["verdict"] = "; ".join(

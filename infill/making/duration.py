@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 NOTICED = 60.0  # s, from which it is told
 ROUGHLY = 2e-8  # s per cell and step that no machine of today needs: what would be short by it is not measured
+USUAL = 10  # steps
 TRIED, SIDE = 20, 1000  # steps, and cells along a side at most, that are measured
 UNITS = {"seconds": 1.0, "minutes": 60.0, "hours": 3600.0, "days": 86400.0, "years": 365.25 * 86400}
 
@@ -42,11 +43,9 @@ def warning_of(block: Block) -> str:
     seconds = smoothing_seconds(block)
     if seconds < NOTICED:
         return ""
-    cells = " x ".join(map(str, block.grid.shape))
-    return (
-        f"{block.smoothing.steps:,} steps on {cells} cells take {as_time(seconds)} here; "
-        "take fewer steps (10 are usual), or fewer cells"
-    )
+    cells, steps = " x ".join(map(str, block.grid.shape)), block.smoothing.steps
+    advice = f"take fewer steps ({USUAL} are usual), or fewer cells" if steps > USUAL else "take fewer cells"
+    return f"{steps:,} steps on {cells} cells take {as_time(seconds)} here; {advice}"
 
 
 def as_time(seconds: float) -> str:
