@@ -367,7 +367,7 @@ def test_only_some_labels(folder: Path) -> None:
 
 def test_nothing_is_written_if_one_fails_unless_it_is_told_to_go_on(folder: Path) -> None:
     words = ("smooth", "speck.npy", "--despeckle", "100", "-o", "{label}.stl")
-    one_line_error(run(*words), "label 9: despeckle is 100")
+    one_line_error(run(*words), "label 9: --despeckle is 100")
     assert names(folder) == set()
     done = run(*words, "--keep-going", "--json")
     assert done.exit_code == 1

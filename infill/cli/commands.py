@@ -19,11 +19,15 @@ from infill.errors import InfillError, UsageError
 from patterns.errors import PatternError, PatternUsageError
 
 FAILED, USAGE = 1, 2
-Misused: type[Exception] = typer.BadParameter.__mro__[1]  # of every usage error; typer does not export it
+Misused: type[Exception] = typer.BadParameter.__mro__[1]  # the root of usage errors, which typer does not export
 ADVANCED = "Advanced"  # the panel of what needs the mathematics
 # What an argument of the library is called by a command, where a command has other names for it or more than one.
 CALLED = {"threshold": ("threshold", "between"), "radius": ("smooth_radius",), "object": ("part",)}
-ABOUT = re.compile(r"(?P<names>\w+(?:(?:, | and )\w+)*)(?= (?:is|are|of|goes|x|y|has|holds|exclude|belong)\b)")
+ABOUT = re.compile(
+    r"(?P<where>label [^:]*: )?"  # one of several labels
+    r"(?P<names>\w+(?:(?:, | and )\w+)*)"
+    r"(?= (?:is|are|of|goes|x|y|has|holds|exclude|belong)\b)"
+)
 
 
 class Command(TyperCommand):
@@ -34,38 +38,54 @@ class Command(TyperCommand):
         return _shown(super().get_params(ctx))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # noqa: ANN401
-        """Read the arguments; whatever is wrong with them is told with the usage of the command."""
+        """Read the arguments, or end with the usage and exit status 2; without any, the help is shown."""
+        if not args:
+            return super().parse_args(ctx, args)
         try:
             return super().parse_args(ctx, args)
         except Misused as error:
-            error.ctx = error.ctx or ctx  # type: ignore[attr-defined]
-            raise
+            raise _misused(ctx, _plain(error)) from error
 
     def invoke(self, ctx: Any) -> Any:  # noqa: ANN401
         """Run the command; an error of ours is one line and exit status 1, or 2 with the usage."""
         try:
             return super().invoke(ctx)
+        except Misused as error:
+            raise _misused(ctx, _plain(error)) from error
         except (InfillError, PatternError) as error:
-            code = FAILED
             message = spelled(str(error), ctx)
             # What a config file says is no usage of the command line.
             typed = message != str(error) or message.startswith("--")
             if typed and isinstance(error, (UsageError, PatternUsageError)):
-                say(ctx.get_usage())
-                code = USAGE
+                raise _misused(ctx, message) from error
             say(f"error: {message}")
         except MemoryError:
-            code = FAILED
             say("error: out of memory; use larger cells or voxels, or a smaller part")
-        raise typer.Exit(code)
+        raise typer.Exit(FAILED)
 
 
 class Group(TyperGroup):
-    """The app itself, which shows its flags as its commands do."""
+    """The app itself, which shows its flags and says what is wrong as its commands do."""
 
     def get_params(self, ctx: Any) -> list[Any]:  # noqa: ANN401
         """Return the options of the app."""
         return _shown(super().get_params(ctx))
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # noqa: ANN401
+        """Read what stands before the command, or end with the usage and exit status 2."""
+        if not args:
+            return super().parse_args(ctx, args)
+        try:
+            return super().parse_args(ctx, args)
+        except Misused as error:
+            raise _misused(ctx, _plain(error)) from error
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:  # noqa: ANN401
+        """Return the command, or end with the usage and exit status 2 if there is none of the name."""
+        try:
+            return super().resolve_command(ctx, args)
+        except Misused as error:
+            raise _misused(ctx, _plain(error)) from error
 
 
 def spelled(message: str, context: typer.Context) -> str:
@@ -73,7 +93,8 @@ def spelled(message: str, context: typer.Context) -> str:
     found = ABOUT.match(message)
     if found is None:
         return message
-    return re.sub(r"\w+", lambda word: _option(word[0], context), found[0]) + message[found.end() :]
+    names = re.sub(r"\w+", lambda word: _option(word[0], context), found["names"])
+    return f"{found['where'] or ''}{names}{message[found.end() :]}"
 
 
 def _option(word: str, context: typer.Context) -> str:
@@ -83,6 +104,20 @@ def _option(word: str, context: typer.Context) -> str:
         if each.name in CALLED.get(word, (word,)) and source is not None and source.name == "COMMANDLINE":
             return max(each.opts, key=len)
     return word
+
+
+def _plain(error: Any) -> str:  # noqa: ANN401 - a usage error of typer's
+    """Return what typer says, without the words that say nothing."""
+    message: str = error.format_message()
+    return message.removeprefix("Invalid value: ").replace("Value error, ", "")
+
+
+def _misused(context: typer.Context, message: str) -> typer.Exit:
+    """Say what is wrong with a command line, below its usage, and return how to end."""
+    say(context.get_usage())
+    say(f"Try '{context.command_path} --help' for help.")
+    say(f"error: {message}")
+    return typer.Exit(USAGE)
 
 
 def _shown(params: list[Any]) -> list[Any]:
