@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -26,9 +27,10 @@ DEFAULT = re.compile(r"\(default: [^()]+\)$")
 WIDE = {"COLUMNS": "400"}
 
 
+@cache
 def panels(command: str) -> dict[str, list[str]]:
     """Return the rows of the help of a command, by panel, as they stand on a wide screen."""
-    text = CliRunner().invoke(build(), [command, "--help"], env=WIDE).stdout
+    text = CliRunner().invoke(build(command), [command, "--help"], env=WIDE).stdout
     found: dict[str, list[str]] = {"": []}
     rows = found[""]
     for line in re.sub(r"\x1b\[[0-9;]*m", "", text).splitlines():
@@ -47,9 +49,10 @@ def options(command: str) -> list[list[str]]:
     return [re.split(r"\s{2,}", row) for row in rows]
 
 
+@cache
 def flags_of(command: str) -> set[str]:
     """Return the options of a command that take no value, as the parser knows them."""
-    found = typer.main.get_command(build()).commands[command]  # type: ignore[attr-defined]
+    found = typer.main.get_command(build(command)).commands[command]  # type: ignore[attr-defined]
     params = found.get_params(typer.Context(found))
     return {name for each in params if getattr(each, "is_flag", False) for name in each.opts}
 

@@ -6,6 +6,7 @@ Exit status 2 is for a command line that cannot be understood, 1 for one that ca
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ import pytest
 import trimesh
 import typer
 from handmade_prints import Dialect, written
-from test_command_line import COMMANDS, one_line_error, run, usage_error
+from test_command_line import COMMANDS, one_line_error, usage_error
+from typer.testing import CliRunner
 
 from infill import ParameterError, make, motion, smooth_mesh, smooth_volume
 from infill.cli.app import build
@@ -106,6 +108,17 @@ UNREAD = {
 NAMES = {"FILE", "NAME", "UID", "keep|NAME|FILE"}  # metavars of what may be any word
 
 
+def run(*words: str) -> Any:
+    """Run a command, as the console script does: without the parsers of the others."""
+    return CliRunner().invoke(build(words[0]), words)
+
+
+@cache
+def parsed(command: str) -> Any:
+    """Return the parser of a command."""
+    return typer.main.get_command(build(command)).commands[command]  # type: ignore[attr-defined]
+
+
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with a scan, a mesh, points and a print."""
@@ -133,11 +146,7 @@ def words(case: str, option: str, value: str) -> list[str]:
 
 def options_of(command: str) -> Iterator[Any]:
     """Yield every option of a command, hidden ones too, as the parser knows them."""
-    yield from (
-        each
-        for each in typer.main.get_command(build()).commands[command].params  # type: ignore[attr-defined]
-        if each.param_type_name == "option"
-    )
+    yield from (each for each in parsed(command).params if each.param_type_name == "option")
 
 
 def name_of(option: Any) -> str:

@@ -86,9 +86,7 @@ def refill(
     ] = None,
     max_deviation: Annotated[
         float | None,
-        typer.Option(
-            metavar="MM", help="How far a path may move. (default: as far as contact allows)", rich_help_panel=PATHS
-        ),
+        typer.Option(metavar="MM", help="How far a path may move. (default: no limit)", rich_help_panel=PATHS),
     ] = None,
     layers: Annotated[
         str | None,
