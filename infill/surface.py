@@ -115,6 +115,17 @@ class Surface:
         """Lower and upper corner, (2, 3), mm."""
         return np.array([self.vertices.min(axis=0), self.vertices.max(axis=0)], dtype=np.float64)
 
+    @property
+    def knows_closed(self) -> bool:
+        """Whether it has been found out by now whether the surface is closed."""
+        return "closed" in self.__dict__
+
+    def knowing(self, *, closed: bool, volume: float, area: float) -> Surface:
+        """Return the same surface with quantities that were measured elsewhere: see `infill.surfaces.measuring`."""
+        other = Surface(vertices=self.vertices, faces=self.faces, space=self.space)
+        other.__dict__.update(closed=closed, _volume_and_area=(volume, area))
+        return other
+
     def moved(self, vertices: NDArray[np.floating], *, space: str = "", mirrored: bool = False) -> Surface:
         """Return the same faces with other vertices (V, 3), faces reversed if those are mirrored.
 
@@ -122,7 +133,7 @@ class Surface:
         """
         faces = self.faces[:, ::-1] if mirrored else self.faces
         other = Surface(vertices=vertices, faces=faces, space=space)
-        if "closed" in self.__dict__:
+        if self.knows_closed:
             other.__dict__["closed"] = self.closed
         return other
 

@@ -30,7 +30,7 @@ ROWS: tuple[tuple[str, ...], ...] = (
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
 ANSWERS = {"result", "report"}
-HALL = {"version", "errors", "checks", "machine", "ragged", "grid", "volume", "surface"}
+HALL = {"version", "errors", "checks", "machine", "ragged", "sections", "grid", "volume", "surface"}
 MOST_FLOORS = 12
 
 # Packages of others that only some may import: a room, or one module.

@@ -379,11 +379,12 @@ def smooth(
 
 def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbose: bool) -> str:
     """Return the short table for stderr."""
+    from infill.sections import Sections
+
     report: dict[str, Any] = result.report
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
     now, was = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
-    moved = report["distance"]
     own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
     how = ", refined" if request["refine"] else ""
     rows = {
@@ -393,9 +394,13 @@ def _summary(result: Result[SmoothStages], files: list[str], name: str, *, verbo
         f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
-        "distance": f"{moved['result']['p95']:.3g} mm (95 %), {moved['result']['max']:.3g} mm at most, "
-        f"from the {moved['from']}; back {moved['input']['p95']:.3g} mm, {moved['input']['max']:.3g} mm",
     }
+    if verbose or not (isinstance(report, Sections) and report.pending("distance")):
+        moved = report["distance"]
+        rows["distance"] = (
+            f"{moved['result']['p95']:.3g} mm (95 %), {moved['result']['max']:.3g} mm at most, "
+            f"from the {moved['from']}; back {moved['input']['p95']:.3g} mm, {moved['input']['max']:.3g} mm"
+        )
     if cost := report["mesh"].get("simplified"):
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from infill.inspection.changes import Changes, Counts
 from infill.inspection.fates import Fate, Overlaps, fate, summed
+from infill.inspection.flips import Flips, all_stay, connected_alike
 from infill.kernels.threads import thread_count, together
 from infill.phasefield.sparse import SparseField
 from infill.surfaces.components import (
@@ -169,6 +170,36 @@ def verdict(
         if states.gone.cells[number] >= WALL
     )
     return Verdict(data=states.data, result=result, changes=changes, lost=lost)
+
+
+def verdict_by_flips(
+    found: Levelled, before: Components, flips: Flips, *, levels: NDArray[np.float64], threads: int | None = None
+) -> Verdict | None:
+    """Return what `verdict` returns, if the cells that changed sign alone tell that nothing is connected differently.
+
+    Parameters
+    ----------
+    found, before, levels, threads
+        See `verdict`.
+    flips : Flips
+        The cells that changed sign between the data and the surface.
+    """
+    if not connected_alike(flips, before, threads=threads):
+        return None
+    result, euler = _of_surface(found), flips.euler_number
+    cavities = result.cavities
+    if len(flips.doubt) or cavities or (before.count, euler) != (result.components, result.euler_number):
+        voids = components(found.against, flips.data, void=True)
+        if not all_stay(voids, ~(flips.data ^ flips.result)):
+            return None
+        cavities = voids.count - 1
+    data = Counts.of(components=before.count, cavities=cavities, tunnels=before.count + cavities - euler // 2)
+    faint = 0
+    if (levels < FAINT).any():
+        thick = with_thickness(found.against, before).thick
+        faint = int((thick & (before.cells >= WALL) & (levels < FAINT)).sum())
+    changes = Changes(vanished_thin=0, walls_lost=0, faint=faint, walls_pierced=max(0, result.tunnels - data.tunnels))
+    return Verdict(data=data, result=result, changes=changes, lost=())
 
 
 def _states(found: Levelled, before: Components, reach: int, threads: int | None) -> _States:

@@ -46,7 +46,8 @@ def thinnest_walls(
     leave within reach is longer than all those that do: it shows only that there is no wall.
     """
     size = np.array(spacing)
-    some = np.random.default_rng(0).permutation(len(surface.faces))[:SAMPLES]
+    count = len(surface.faces)
+    some = np.random.default_rng(0).choice(count, min(count, SAMPLES), replace=False)
     corners = surface.vertices[surface.faces[some]].astype(np.float64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)

@@ -36,7 +36,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter
 
 from infill.grid import spacing_of
 from infill.kernels import refining as kernels
@@ -393,6 +392,8 @@ def gate(
 
 def averages(r: NDArray[np.float64], weight: NDArray[np.float64], size: int) -> tuple[NDArray[np.float64], ...]:
     """Return <w>, <w r> and <w r²>, averages over a Gaussian of `size` cells: see `gate`."""
+    from scipy.ndimage import gaussian_filter
+
     return tuple(
         gaussian_filter(values, size, mode="nearest", truncate=3) for values in (weight, weight * r, weight * r**2)
     )

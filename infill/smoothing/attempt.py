@@ -11,19 +11,22 @@ delivered   the surface in its place, simplified, and the report
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from infill.errors import GeometryError
-from infill.inspection.bricks import Verdict, verdict
+from infill.inspection.bricks import Verdict, verdict, verdict_by_flips
 from infill.inspection.fidelity import Fidelity, fidelity
+from infill.inspection.flips import Flips, near_each_other
 from infill.inspection.thickness import thinnest_walls
 from infill.kernels.compiling import told_of_compiling
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.report import report_of
 from infill.result import Clock, Result
+from infill.sections import Sections
 from infill.smoothing.cleaning import cleaned, require_room
 from infill.smoothing.comparing import Differences, differences, kinds_of_places
 from infill.smoothing.crumbs import Crumbs, without_crumbs
@@ -31,6 +34,7 @@ from infill.smoothing.levelling import Surfaced, levelled
 from infill.smoothing.placing import lightened, placed, raw_surface
 from infill.smoothing.stages import SmoothStages
 from infill.surfaces.distance import distances
+from infill.surfaces.measuring import with_measures
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
@@ -56,10 +60,11 @@ class Attempt:
     crumbs, specks : Crumbs, int
         What was taken out afterwards and beforehand.
     judged : Verdict
-    found : Fidelity
+    found : Fidelity or None
+        How far it lies from what was given; None if it is sure to be near everywhere, and nobody measured it.
     told : Differences
-    full, raw : Surface, mm
-        The surface in its place, and that of the voxels that were given.
+    full : Surface, mm
+        The surface in its place.
     clock : Clock
     """
 
@@ -70,10 +75,9 @@ class Attempt:
     crumbs: Crumbs
     specks: int
     judged: Verdict
-    found: Fidelity
+    found: Fidelity | None
     told: Differences
     full: Surface
-    raw: Surface
     clock: Clock
 
     @property
@@ -94,7 +98,8 @@ class Attempt:
     @property
     def rank(self) -> tuple[bool, int, float]:
         """The lower, the better."""
-        area = float(sum(patch.area for patch in (*self.found.lost, *self.found.added)))
+        patches = (*self.found.lost, *self.found.added) if self.found else ()
+        area = float(sum(patch.area for patch in patches))
         return self.told.word == "lost", len(self.told.problems), area
 
 
@@ -117,20 +122,13 @@ def attempted(given: Given, request: Request) -> Attempt:
         field = _smoothed(given, request, clock)
     with clock.stage("surface", 0.4):
         surfaced, crumbs = without_crumbs(levelled(field, given, request), given, request)
-        if not surfaced.found.surface.closed:
+        full = with_measures(placed(surfaced.found.surface, data), threads=request.threads)
+        if not full.closed:
             raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
     with clock.stage("check", 0.5):
-        judged = verdict(
-            surfaced.found,
-            surfaced.before,
-            spacing=tuple(data.cell_size.tolist()),
-            blur=request.smoothing.blur,
-            levels=surfaced.levels,
-            threads=request.threads,
-        )
-        full = placed(surfaced.found.surface, data)
-        raw = given.raw or raw_surface(field, data, request.threads)
-        found = _compared(full, raw, given, field, request)
+        flips = Flips.of(surfaced.found.against, surfaced.before.bits, surfaced.found.height, threads=request.threads)
+        judged = _judged(surfaced, flips, data, request)
+        found = None if _near(flips, given, request) else _compared(full, given, field, request)
     return Attempt(
         given=given,
         request=request,
@@ -142,9 +140,29 @@ def attempted(given: Given, request: Request) -> Attempt:
         found=found,
         told=differences(judged, found, given, off=off_by(surfaced, given, request)),
         full=full,
-        raw=raw,
         clock=clock,
     )
+
+
+def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) -> Verdict:
+    """Return how the solid is connected before and after: by the cells that changed sign, or else by all of them."""
+    return verdict_by_flips(
+        surfaced.found, surfaced.before, flips, levels=surfaced.levels, threads=request.threads
+    ) or verdict(
+        surfaced.found,
+        surfaced.before,
+        spacing=tuple(data.cell_size.tolist()),
+        blur=request.smoothing.blur,
+        levels=surfaced.levels,
+        threads=request.threads,
+    )
+
+
+def _near(flips: Flips, given: Given, request: Request) -> bool:
+    """Return whether the surface is sure to be near what was given, if that is the data."""
+    if given.mesh is not None or given.raw is not None:
+        return False
+    return near_each_other(flips, spacing=tuple(given.data.cell_size.tolist()), threads=request.threads)
 
 
 def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
@@ -154,7 +172,7 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
     with clock.stage("measure", 0.75):
         surface, simplified = lightened(best.full, request)
         if surface is not best.full:
-            found = _compared(surface, best.raw, given, best.field, request)
+            found = _compared(surface, given, best.field, request)
             told = differences(judged, found, given, off=off_by(surfaced, given, request))
         walls = _walls(judged, surfaced, data)
     report = report_of(
@@ -176,24 +194,34 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages], Differences]:
         seconds=clock.seconds,
         simplified=simplified,
         input={**given.facts, "despeckled": best.specks},
-        distance=_distance(found, given, best.raw, request),
+        distance={},
         verdict={
             "word": told.word,
             "changes": [*told.losses, *told.problems, *told.remarks, *_remarks(best.crumbs, best.specks)],
-            "lost": [patch.facts() for patch in found.lost[:NAMED]],
-            "added": [patch.facts() for patch in found.added[:NAMED]],
+            "lost": [patch.facts() for patch in found.lost[:NAMED]] if found else [],
+            "added": [patch.facts() for patch in found.added[:NAMED]] if found else [],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": [],
         },
     )
+    measured = partial(_distance, found, surface, given, best.field, request)
+    if found is None:
+        report = Sections(report, {"distance": measured})
+    else:
+        report["distance"] = measured()
     stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
     return Result(surfaces={"solid": surface}, report=report, stages=stages), told
 
 
-def _compared(surface: Surface, raw: Surface, given: Given, field: SparseField, request: Request) -> Fidelity:
+def _raw(given: Given, field: SparseField, request: Request) -> Surface:
+    """Return the surface of the voxels that were given, mm."""
+    return given.raw or raw_surface(field, given.data, request.threads)
+
+
+def _compared(surface: Surface, given: Given, field: SparseField, request: Request) -> Fidelity:
     """Return how far a surface lies from what was given, both ways."""
     return fidelity(
-        raw if given.mesh is None else given.mesh,
+        _raw(given, field, request) if given.mesh is None else given.mesh,
         surface,
         cell=given.cell or float(given.data.cell_size.max()),
         closed=given.reference,
@@ -248,8 +276,11 @@ def _walls(judged: Verdict, surfaced: Surfaced, data: Volume) -> dict[str, Any]:
     return {"thinnest": {"data": before, "result": after}, "lost": lost}
 
 
-def _distance(found: Fidelity, given: Given, raw: Surface, request: Request) -> dict[str, Any]:
+def _distance(
+    found: Fidelity | None, surface: Surface, given: Given, field: SparseField, request: Request
+) -> dict[str, Any]:
     """Return how far the result lies from what was given, both ways, and the voxels from a mesh, for the report."""
+    found = found or _compared(surface, given, field, request)
     facts: dict[str, Any] = {
         "from": "voxels" if given.mesh is None else "mesh",
         "result": found.there.facts(),
@@ -259,6 +290,7 @@ def _distance(found: Fidelity, given: Given, raw: Surface, request: Request) -> 
         "hidden": found.hidden,
     }
     if given.reference is not None:
+        raw = _raw(given, field, request)
         away = distances(
             raw.vertices[:: max(1, len(raw.vertices) // COMPARED)], given.reference, threads=request.threads
         )

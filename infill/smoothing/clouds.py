@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from infill.errors import GeometryError
 from infill.inspection.fidelity import LOST
@@ -52,6 +51,8 @@ def compared_with_points(
     }
     verdict = dict(result.report["verdict"])
     if len(far):
+        from scipy.spatial import cKDTree
+
         _, near = cKDTree(cloud).query(cloud[far], k=min(NEIGHBOURS + 1, len(cloud)))
         lost = (away[near] > LOST * voxel).all(axis=1)
         facts["lost"] = int(lost.sum())

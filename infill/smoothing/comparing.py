@@ -81,15 +81,15 @@ def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = N
     return thick
 
 
-def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 0.0) -> Differences:
+def differences(judged: Verdict, found: Fidelity | None, given: Given, *, off: float = 0.0) -> Differences:
     """Return the verdict.
 
     Parameters
     ----------
     judged : Verdict
         What smoothing did to the voxels.
-    found : Fidelity
-        How far the result lies from what was given.
+    found : Fidelity or None
+        How far the result lies from what was given; None if it is sure to be near everywhere.
     given : Given
     off : float
         By which part of itself the volume is off.
@@ -100,14 +100,14 @@ def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 
     remarks = []
     if gone := judged.changes.vanished_thin:
         remarks.append(f"{gone} specks or flakes one voxel thick are gone")
-    if found.thin:
+    if found and found.thin:
         what = (
             "walls or gaps one voxel thick are gone"
             if given.enclosed is None
             else "slits narrower than a voxel are closed"
         )
         remarks.append(f"{what}, {found.thin:.3g} mm² of their faces")
-    if found.sheet:
+    if found and found.sheet:
         remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")
     if given.enclosed is not None and given.topology is None:
         parts, now = int((given.enclosed.volumes > 0).sum()), judged.result.components
@@ -121,10 +121,11 @@ def differences(judged: Verdict, found: Fidelity, given: Given, *, off: float = 
     repairs = given.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > CAPS:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
-    lost = found.word == "lost"
-    losses = found.phrases if lost else ()
+    phrases = found.phrases if found else ()
+    lost = found is not None and found.word == "lost"
+    losses = phrases if lost else ()
     if not lost:
-        remarks = [*found.phrases, *remarks]
+        remarks = [*phrases, *remarks]
     word: Word = "lost" if lost else "changed a little" if problems or remarks else "kept"
     return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
 

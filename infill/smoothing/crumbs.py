@@ -82,4 +82,4 @@ def _without_shells(found: Levelled, gone: NDArray[np.bool_]) -> Levelled:
         faces=number[kept].astype(faces.dtype),
         space=found.surface.space,
     )
-    return replace(found, surface=surface, rate=found.rate[vertices])
+    return replace(found, surface=surface, rate=found.rate[vertices], total=None)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from infill.errors import GeometryError, MemoryLimitError, ParameterError
 from infill.phasefield.schedule import FEWEST
+from infill.sections import Sections
 from infill.smoothing.attempt import Attempt, attempted, delivered
 
 if TYPE_CHECKING:
@@ -91,7 +92,7 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages]:
     if refused and not request.allow_broken:
         raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(best)}")
     verdict = {**result.report["verdict"], "tried": tried, "taken": taken}
-    return replace(result, report={**result.report, "verdict": verdict})
+    return replace(result, report=Sections(result.report).replaced(verdict=verdict))
 
 
 def _after(others: list[str]) -> str:

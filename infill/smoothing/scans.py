@@ -63,7 +63,7 @@ def ways_of_scan(
     level = used.get("low") if used.get("high") is None else None
     if (grey or request.method == "grey") and level is None:
         raise ParameterError("grey levels are kept around one threshold; give one, or otsu")
-    noise = noise_share(np.asarray(solid.values))
+    noise = noise_share(np.asarray(solid.values), threads=request.threads)
     facts = {**facts, "noise": noise}
     method, despeckle, paper = request.method, request.despeckle, False
     if method == AUTO:

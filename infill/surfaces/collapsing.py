@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
@@ -212,6 +211,8 @@ def collapsed(
     those around the place come back. First of all, small triangles go as far as their planes allow, by a tenth of the
     tolerance, without a look at distances.
     """
+    from scipy.spatial import cKDTree
+
     table = Table.of(surface)
     if table is None:
         return None

@@ -239,9 +239,22 @@ def shared_cells(one: Components, other: Components) -> NDArray[np.int64]:
     return np.concatenate([found, alone])
 
 
-def shells(surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None) -> Shells:
-    """Return the connected parts of a closed surface."""
+def shells(
+    surface: Surface,
+    rate: NDArray[np.float32],
+    *,
+    total: tuple[float, float] | None = None,
+    threads: int | None = None,
+) -> Shells:
+    """Return the connected parts of a closed surface; `total` is the volume and the slope of all, if they are known."""
     names, count = shell_names(surface)
+    if total is not None and count == 1 and names.min() == 0:
+        return Shells(
+            names=names,
+            volume=np.array(total[:1]),
+            slope=np.array(total[1:]),
+            euler=np.array([len(names) - len(surface.faces) // 2]),
+        )
     shell = names[surface.faces[:, 0]]
     own, change = face_sums(surface, rate, threads=threads)
     volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))

@@ -60,6 +60,8 @@ class Levelled:
         The level of everything that has no level of its own.
     levels : (b,) float64
         The level of each component of the data.
+    total : (float, float), optional
+        Volume of the surface, mm³, and its slope over the level, if they are known.
     threads : int, optional
         To look at its shells with; see `infill.kernels.threads.thread_count`.
     """
@@ -70,12 +72,13 @@ class Levelled:
     height: float
     common: float
     levels: NDArray[np.float64]
+    total: tuple[float, float] | None = None
     threads: int | None = None
 
     @cached_property
     def shells(self) -> Shells:
         """The connected parts of the surface."""
-        return shells(self.surface, self.rate, threads=self.threads)
+        return shells(self.surface, self.rate, total=self.total, threads=self.threads)
 
 
 def straightened(
@@ -167,7 +170,7 @@ def at_volume(
     """
     threads = thread_count(threads)
     total = float(targets.sum())
-    level, height, found, least = 0.0, 0.0, None, math.inf
+    level, height, found, least, known = 0.0, 0.0, None, math.inf, (0.0, 0.0)
     guess = guess or measured(field, spacing=spacing, level=level, threads=threads)
     if guess is not None and guess[1] < 0:
         level = _next_level(level, *guess, total)
@@ -181,7 +184,7 @@ def at_volume(
             continue
         volume, slope = volume_of(tried, threads)
         if abs(volume - total) < least:
-            found, height, least = tried, level, abs(volume - total)
+            found, height, least, known = tried, level, abs(volume - total), (volume, slope)
         if abs(volume - total) <= TOLERANCE * total or slope >= 0:
             break
         level = _next_level(level, volume, slope, total)
@@ -197,6 +200,7 @@ def at_volume(
             rate=found.rate,
             common=height,
             levels=np.array([height]),
+            total=known,
             threads=threads,
         )
     return _each_component(field, data, spacing=spacing, targets=targets, common=height, threads=threads)

@@ -260,22 +260,39 @@ def raw_counts() -> NDArray[np.int8]:
 
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
     """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
+    return _euler_number(_counts(field, bits, _crossed(field.slots, field.shape), raw_counts(), threads))
+
+
+def doubt_and_euler_number(
+    field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None
+) -> tuple[NDArray[np.int32], int | None]:
+    """Return the bricks (n, 3) with cubes whose triangles the signs in `bits` do not decide, and the Euler number.
+
+    That is known if there are no such bricks.
+    """
     places = _crossed(field.slots, field.shape)
+    counts = _counts(field, bits, places, cube_table().counts, threads)
+    doubt = places[counts[:, 2] > 0]
+    return doubt, None if len(doubt) else _euler_number(counts)
+
+
+def _counts(
+    field: SparseField,
+    bits: NDArray[np.uint16],
+    places: NDArray[np.int32],
+    table: NDArray[np.int8],
+    threads: int | None,
+) -> NDArray[np.int64]:
+    """Return how many vertices, triangles and undecided cubes each brick has, (n, 3)."""
     masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
     starts = np.empty(masks.shape, dtype=np.int16)
     counts = np.zeros((len(places), 3), dtype=np.int64)
-    in_threads(
-        kernels.count,
-        field.slots,
-        places,
-        bits,
-        field.shape,
-        raw_counts(),
-        masks,
-        starts,
-        counts,
-        threads=thread_count(threads),
-    )
+    arguments = (field.slots, places, bits, field.shape, table, masks, starts, counts)
+    in_threads(kernels.count, *arguments, threads=thread_count(threads))
+    return counts
+
+
+def _euler_number(counts: NDArray[np.int64]) -> int:
     vertices, faces, _ = counts.sum(axis=0)
     return int(vertices - faces // 2)
 

@@ -196,7 +196,7 @@ def between(
         before = begin.copy()
         counts = in_threads(cover, *mesh, *other, *sizes, kept, begin, *filled, threads=threads)
         parts += [tuple(each[n, : counts[n]].copy() for each in filled) for n in range(threads)]
-        if (begin == before).any():  # the places of one face do not fit
+        if ((begin == before) & (before < len(surface.faces))).any():  # the places of one face do not fit
             room *= 2
     points, face, near, off = (np.concatenate(each) for each in zip(*parts, strict=True))
     return Places(points=points, face=face.astype(np.int64), owner=tree.order[near], away=np.sqrt(off))

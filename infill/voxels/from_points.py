@@ -34,7 +34,7 @@ REACH = 0.5  # cells: to bridge the gaps that the balls leave between them, sinc
 # Points with an inside behind them over points with an outside in front of them. In a whole shell this is nearly one,
 # and a wider shell can add nothing; where it leaks, the inside is a few pockets, and under 0.3 most of it is outside.
 BACKED, ENOUGH = 0.3, 0.9
-SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 7, 400  # per cell and per point, measured peaks
+SHELL_BYTES, SOLID_BYTES, POINT_BYTES = 1, 30, 400  # per cell and per point, measured peaks
 
 Floats = NDArray[np.float64]
 Cells = NDArray[np.bool_]

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
+
+from infill.kernels.threads import thread_count, together
 
 NOISY = 0.2  # what flipping one cell in 25 at random makes; scans of bone and skin have 0.02 to 0.12
 SLABS = 12  # stretches of layers that are looked at
@@ -12,12 +16,14 @@ FEWEST = 500  # cells at the surface
 VOTERS = 27  # a cell and its neighbours
 
 
-def noise_share(solid: NDArray[np.bool_]) -> float:
+def noise_share(solid: NDArray[np.bool_], *, threads: int | None = None) -> float:
     """Return how many cells a majority of the 27 around each overrules, over those at the surface that is left then.
 
     Parameters
     ----------
     solid : (nx, ny, nz) bool
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
 
     Notes
     -----
@@ -29,18 +35,30 @@ def noise_share(solid: NDArray[np.bool_]) -> float:
     >>> noise_share(np.indices((40, 40, 40)).sum(axis=0) < 60) < 0.1
     True
     """
-    count = len(solid)
-    starts = np.unique(np.linspace(0, max(0, count - LAYERS), SLABS).astype(int))
-    taken = given = surface = 0
-    for start in starts:
-        slab = solid[start : start + LAYERS]
-        most = _votes(slab) > VOTERS / 2
-        again = _votes(most)
-        inner = slice(2, -2) if len(slab) > 4 else slice(None)
-        taken += int(np.count_nonzero(slab[inner] & ~most[inner]))
-        given += int(np.count_nonzero(~slab[inner] & most[inner]))
-        surface += int(np.count_nonzero((again[inner] > 0) & (again[inner] < VOTERS)))
+    from infill.kernels.noise import count_overruled
+
+    starts = np.unique(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int))
+    counts = np.zeros((len(starts), 3), dtype=np.int64)
+    slabs = (np.ascontiguousarray(solid[start : start + LAYERS]).view(np.uint8) for start in starts)
+    works = (partial(count_overruled, slab, found) for slab, found in zip(slabs, counts, strict=True))
+    together(*works, threads=thread_count(threads))
+    taken, given, surface = counts.sum(axis=0).tolist()
     return 2 * min(taken, given) / surface if surface >= FEWEST else 0.0
+
+
+def overruled(slab: NDArray[np.bool_]) -> tuple[int, int, int]:
+    """Return how many solid and void cells of some layers a majority overrules, and how many are at the surface then.
+
+    That is the specification of `infill.kernels.noise.count_overruled`. The outermost two layers at either end are left
+    out, if there are others.
+    """
+    most = _votes(slab) > VOTERS / 2
+    again = _votes(most)
+    inner = slice(2, -2) if len(slab) > 4 else slice(None)
+    slab, most, again = slab[inner], most[inner], again[inner]
+    counted = (slab & ~most, ~slab & most, (again > 0) & (again < VOTERS))
+    taken, given, surface = (int(np.count_nonzero(each)) for each in counted)
+    return taken, given, surface
 
 
 def _votes(solid: NDArray[np.bool_]) -> NDArray[np.float32]:

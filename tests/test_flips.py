@@ -1,0 +1,162 @@
+"""What is told by the cells that changed sign is what a comparison of the whole tells."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter, label
+
+from infill import InfillError, Smoothing, Surface, Volume, smooth_volume
+from infill.inspection.bricks import verdict, verdict_by_flips
+from infill.inspection.fidelity import fidelity
+from infill.inspection.flips import Flips, near_each_other
+from infill.kernels.flips import simple
+from infill.phasefield.sparse import smooth_bricks
+from infill.smoothing.levelling import levelled
+from infill.smoothing.placing import placed, raw_surface
+from infill.smoothing.request import Given, Request
+from infill.smoothing.sources import read_source
+from infill.surfaces.components import data_bits
+from infill.voxels.from_mesh import voxelise
+from infill.voxels.segmentation import threshold
+
+FIELDS = 200
+TOP = 32  # the last layer that is left of the knob
+COARSE = 40  # voxels along the longest side of real files
+
+
+def random_field(seed: int) -> tuple[Volume, Smoothing, float | str]:
+    """Return a blob with bumps, sheets or specks, in cells of some size, and how to smooth it."""
+    rng = np.random.default_rng(seed)
+    shape = tuple(rng.integers(14, 34, 3).tolist())
+    noise = gaussian_filter(rng.normal(size=shape), rng.uniform(1.5, 6), mode="wrap")
+    noise -= np.quantile(noise, rng.uniform(0.2, 0.8))
+    if rng.random() < 0.4:  # one smooth blob, on which a few cells flip
+        away = np.linalg.norm((np.indices(shape).T - np.array(shape) / 2) / (np.array(shape) / 2), axis=-1).T
+        noise = 0.75 - away + 0.05 * noise / np.abs(noise).max()
+    grey = np.clip(noise / np.abs(noise).max() * rng.uniform(1, 8), -1, 1).astype(np.float32)
+    spacing = (1.0, 1.0, 1.0) if rng.random() < 0.6 else tuple(rng.uniform(0.5, 1, 3).tolist())
+    smoothing = Smoothing(steps=int(rng.integers(1, 25)))
+    return (
+        Volume(values=noise > 0 if rng.random() < 0.7 else grey, spacing=spacing, origin=(0.0, 0.0, 0.0)),
+        smoothing,
+        "volume" if rng.random() < 0.8 else 0.0,
+    )
+
+
+def compared(given: Given, request: Request) -> tuple[bool, bool]:
+    """Check both forms against each other; return whether the cells that flipped decided each."""
+    data, spacing = given.data, tuple(given.data.cell_size.tolist())
+    field = smooth_bricks(data.values, request.smoothing, spacing=spacing)
+    surfaced = levelled(field, given, request)
+    found = surfaced.found
+    flips = Flips.of(found.against, surfaced.before.bits, found.height)
+    whole = verdict(found, surfaced.before, spacing=spacing, blur=request.smoothing.blur, levels=surfaced.levels)
+    part = verdict_by_flips(found, surfaced.before, flips, levels=surfaced.levels)
+    if part is not None:
+        assert (part.data, part.result, part.changes, part.problems) == (
+            whole.data,
+            whole.result,
+            whole.changes,
+            whole.problems,
+        )
+        assert part.lost == whole.lost == ()
+    near = near_each_other(flips, spacing=spacing)
+    if near:
+        measured = fidelity(raw_surface(field, data, None), placed(found.surface, data), cell=max(spacing))
+        assert measured.word == "kept"
+        assert measured.phrases == ()
+        assert max(measured.there.max, measured.back.max) <= 1.25 * max(spacing)
+    return part is not None, near
+
+
+def test_both_forms_agree_on_random_fields() -> None:
+    decided = []
+    for seed in range(FIELDS):
+        volume, smoothing, level = random_field(seed)
+        try:
+            decided.append(
+                compared(Given(data=volume, facts={}), Request(smoothing=smoothing, level=level, method="plain"))
+            )
+        except InfillError:  # nothing is left, or nothing was there
+            continue
+    assert len(decided) > 0.9 * FIELDS
+    # Each way is taken often enough to mean something.
+    assert 20 < sum(alike for alike, _ in decided) < len(decided)
+    assert 20 < sum(near for _, near in decided) < len(decided)
+
+
+def is_simple(cells: NDArray[np.bool_]) -> bool:
+    """Return whether flipping the middle of 3 x 3 x 3 cells keeps parts of solid and of void as they are: by labels."""
+    faces, edges = (np.indices((3, 3, 3)) - 1, np.indices((3, 3, 3)) - 1)
+    six = np.abs(faces).sum(axis=0) <= 1
+    eighteen = np.abs(edges).sum(axis=0) <= 2
+
+    def touching(there: NDArray[np.bool_], how: NDArray[np.bool_]) -> int:
+        rest = there.copy()
+        rest[1, 1, 1] = False
+        names, _ = label(rest, how)
+        beside = names[how & rest]
+        return len(np.unique(beside))
+
+    return touching(cells, six) == 1 and touching(~cells, eighteen) == 1
+
+
+def test_simple_cells_are_told_as_labels_tell_them() -> None:
+    rng = np.random.default_rng(0)
+    told = []
+    for _ in range(3000):
+        cells = rng.random((3, 3, 3)) < rng.uniform(0.1, 0.9)
+        told.append(bool(simple(cells.ravel())))
+        assert told[-1] == is_simple(cells)
+    assert 100 < sum(told) < 2900
+
+
+def test_a_loss_that_is_planted_is_not_passed_over() -> None:
+    """A knob cut off in the field itself: neither form may say that nothing happened."""
+    solid = np.linalg.norm(np.indices((40, 40, 40)) - 19.5, axis=0) < 12
+    solid[16:24, 16:24, 30:36] = True
+    field = smooth_bricks(solid, Smoothing(steps=2))
+    beyond = field.where[:, 2, None] * 16 + np.arange(16) > TOP + 1  # the lattice begins one cell before the grid
+    values = np.where(beyond[:, None, None, :], np.float32(-1), field.values)
+    for cut, near in ((field, True), (replace(field, values=values), False)):
+        flips = Flips.of(cut, data_bits(cut), 0.0)
+        assert near_each_other(flips, spacing=(1.0, 1.0, 1.0)) == near
+        assert (len(flips.places) > 100) != near
+
+
+def test_distances_are_measured_when_they_are_asked_for() -> None:
+    ball = np.linalg.norm(np.indices((30, 30, 30)) - 14.5, axis=0) < 10
+    report: Any = smooth_volume(ball).report
+    assert report.pending("distance")
+    assert report["verdict"]["word"] == "kept"
+    assert report["distance"]["result"]["max"] < 1.25
+    assert not report.pending("distance")
+
+
+def test_both_forms_agree_on_real_files(data: Path) -> None:
+    """Every mesh and every volume, on coarse grids: what there is to check for is how they are connected."""
+    decided = []
+    paths = (path for folder in ("models", "medical", "printable", "volumes") for path in (data / folder).iterdir())
+    for path in sorted(paths):
+        try:
+            source = read_source(path, units="mm")
+            if isinstance(source, Surface):
+                solid = voxelise(source, resolution=COARSE)
+            elif isinstance(source, Volume):
+                step = max(1, max(source.values.shape) // COARSE)
+                solid, _ = threshold(replace(source, values=source.values[::step, ::step, ::step]), otsu=True)
+            else:
+                continue
+        except InfillError:
+            continue
+        for steps in (2, 8):
+            request = Request(smoothing=Smoothing(steps=steps), method="plain")
+            decided.append(compared(Given(data=solid, facts={}), request))
+    assert len(decided) > 40
+    assert any(alike for alike, _ in decided)
+    assert any(near for _, near in decided)
