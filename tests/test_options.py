@@ -120,7 +120,7 @@ def parsed(command: str) -> Any:
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, silent_compiler: None) -> Path:
     """A folder with a scan, a mesh, points and a print."""
     monkeypatch.chdir(tmp_path)
     np.save("grey.npy", np.pad(np.full((8, 8, 8), 100, np.int16), 4))

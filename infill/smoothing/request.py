@@ -100,6 +100,8 @@ class Request:
             object.__setattr__(self, "radius", positive("radius", self.radius, "mm"))
         if isinstance(self.tolerance, str) and self.tolerance != AUTO:
             raise UsageError(f"tolerance is {self.tolerance!r}; give a number of mm, or auto")
+        if self.tolerance is not None and not isinstance(self.tolerance, str):
+            positive("tolerance", self.tolerance, "mm")  # before the work
         if self.crumbs is not None:
             object.__setattr__(self, "crumbs", within("crumbs", self.crumbs, 0, math.inf, "mm³"))
         if not isinstance(self.level, str):
