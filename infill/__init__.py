@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         MemoryLimitError,
         OutputError,
         ParameterError,
+        UsageError,
     )
     from infill.filling.refilling import RefillResult, refill
     from infill.formats.label_tables import Segment, read_labels
@@ -47,7 +48,15 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "phasefield.allen_cahn": ("Smoothing", "rescale"),
-    "errors": ("FormatError", "GeometryError", "InfillError", "MemoryLimitError", "OutputError", "ParameterError"),
+    "errors": (
+        "FormatError",
+        "GeometryError",
+        "InfillError",
+        "MemoryLimitError",
+        "OutputError",
+        "ParameterError",
+        "UsageError",
+    ),
     "filling.refilling": ("RefillResult", "refill"),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
@@ -87,6 +96,7 @@ __all__ = [
     "Segmentation",
     "Smoothing",
     "Surface",
+    "UsageError",
     "Volume",
     "WallWidth",
     "check",

@@ -2,13 +2,15 @@
 
 InfillError
 ├── ParameterError(ValueError)      a number out of range
+│   └── UsageError                  a word for a number, none of the choices, or things that exclude each other
 ├── FormatError(ValueError)         a file suffix or file contents we cannot use
 ├── GeometryError(ValueError)       the mesh would come out wrong: open, broken, a feature lost
 ├── MemoryLimitError(ValueError)    a grid that exceeds the available memory
 └── OutputError(OSError)            a file that exists, or cannot be written
 
-A message is one line: what was given, what the limit is, what to do. `patterns` has its own single error,
-`patterns.PatternError`, since it may not import this package.
+A message is one line: what was given, what the limit is, what to do. One about an argument begins with its name, as
+Python spells it: "line_width is -1 mm; ..."; the command line puts the option that was typed in its place. `patterns`
+has its own errors, `patterns.PatternError`, since it may not import this package.
 """
 
 
@@ -18,6 +20,10 @@ class InfillError(Exception):
 
 class ParameterError(InfillError, ValueError):
     """A parameter is out of range."""
+
+
+class UsageError(ParameterError):
+    """An argument is not of its kind or none of the choices, or two arguments exclude each other."""
 
 
 class FormatError(InfillError, ValueError):

@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from patterns.catalogue import PATTERNS
-    from patterns.declared import Parameter, check_parameters, parameter, parameters
-    from patterns.errors import PatternError
-    from patterns.given import in_degrees
+    from patterns.declared import Parameter, check_parameters, parameter, parameter_values, parameters
+    from patterns.errors import PatternError, PatternUsageError
     from patterns.heart import ConcentricHeart
     from patterns.honeycomb import Honeycomb
     from patterns.protocol import LevelSet, Pattern, gives, lacking
@@ -27,9 +26,8 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "catalogue": ("PATTERNS",),
-    "declared": ("Parameter", "check_parameters", "parameter", "parameters"),
-    "errors": ("PatternError",),
-    "given": ("in_degrees",),
+    "declared": ("Parameter", "check_parameters", "parameter", "parameter_values", "parameters"),
+    "errors": ("PatternError", "PatternUsageError"),
     "heart": ("ConcentricHeart",),
     "honeycomb": ("Honeycomb",),
     "protocol": ("LevelSet", "Pattern", "gives", "lacking"),
@@ -47,6 +45,7 @@ __all__ = [
     "Parameter",
     "Pattern",
     "PatternError",
+    "PatternUsageError",
     "PatternWarning",
     "Registry",
     "Zigzag",
@@ -55,9 +54,9 @@ __all__ = [
     "check_parameters",
     "frame_parameter",
     "gives",
-    "in_degrees",
     "lacking",
     "parameter",
+    "parameter_values",
     "parameters",
     "phase_parameter",
 ]

@@ -13,12 +13,11 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Any, Literal, Protocol, get_args
 
-from patterns.errors import PatternError
+from patterns.errors import PatternError, PatternUsageError
 
-Unit = Literal["mm", "rad", ""]
+Unit = Literal["mm", "deg", ""]
 UNITS = get_args(Unit)
-SHOWN_UNITS = {"mm": " mm", "rad": " degrees", "": ""}
-TURN_SLACK = 1e-10  # rad: converting the end of a range to degrees with ten digits and back is off by rounding
+SHOWN_UNITS = {"mm": " mm", "deg": " degrees", "": ""}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,8 +28,8 @@ class Parameter:
     ----------
     help : str
         One phrase for users.
-    unit : {"mm", "rad", ""}
-        Lengths are in millimetres; angles are in radians here, and in degrees wherever users enter or read them.
+    unit : {"mm", "deg", ""}
+        Lengths are in millimetres, angles in degrees.
     low, high : float
         Both ends belong to the range.
     whole : bool
@@ -55,20 +54,13 @@ class Parameter:
         return SHOWN_UNITS[self.unit].strip()
 
     @property
-    def limits(self) -> tuple[float, float]:
-        """Both ends of the range as users read them, angles in degrees."""
-        if self.unit != "rad":
-            return self.low, self.high
-        return round(math.degrees(self.low), 9), round(math.degrees(self.high), 9)
-
-    @property
     def range(self) -> str:
         """The range in words, with its unit; empty if every number will do.
 
         >>> Parameter(help="", low=1, high=9).range, Parameter(help="", unit="", low=2).range
         ('from 1 to 9 mm', 'of at least 2')
         """
-        low, high = self.limits
+        low, high = self.low, self.high
         unit = SHOWN_UNITS[self.unit]
         if math.isfinite(low) and math.isfinite(high):
             return f"from {low:.10g} to {high:.10g}{unit}"
@@ -98,14 +90,10 @@ def parameter(
         If the unit or the default could not be offered to users.
     """
     numbers = default if isinstance(default, tuple) else (default,)
-    if (
-        unit not in UNITS
-        or (unit == "rad" and (isinstance(default, tuple) or count != 1))
-        or not all(each is None or isinstance(each, (bool, Real)) for each in numbers)
-    ):
+    if unit not in UNITS or not all(each is None or isinstance(each, (bool, Real)) for each in numbers):
         raise PatternError(
             f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
-            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))} (a tuple in rad cannot be)"
+            f"True, False or None, and one of the units {', '.join(map(repr, UNITS))}"
         )
     described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces, count=count)
     return dataclasses.field(default=default, metadata={"parameter": described})
@@ -123,6 +111,24 @@ def parameters(pattern: object) -> dict[str, Described]:
         for field in dataclasses.fields(pattern)
         if "parameter" in field.metadata
     }
+
+
+def parameter_values(pattern: object) -> dict[str, Any]:
+    """Return the parameters of a pattern by name, as JSON and TOML hold them, without those that another replaces.
+
+    >>> from patterns import Zigzag
+    >>> parameter_values(Zigzag(waves=3, angle=30))
+    {'waves': 3.0, 'angle': 30.0, 'phase': [0.0, 0.0], 'frame': True}
+    """
+    found = parameters(pattern)
+    values = {name: getattr(pattern, name) for name in found}
+    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
+    return {name: listed(value) for name, value in values.items() if name not in replaced}
+
+
+def listed(value: object) -> object:
+    """Return a list for a tuple, as JSON and TOML give back."""
+    return list(value) if isinstance(value, tuple) else value
 
 
 class Named(Protocol):
@@ -174,7 +180,7 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
     described : (Field, Parameter)
         From `parameters`.
     value : object
-        Lengths in mm, angles in radians.
+        Lengths in mm, angles in degrees.
     """
     field, parameter = described
     default = field.default
@@ -188,9 +194,8 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
     else:
         plain = _number(value, parameter)
     if plain is None:
-        raise PatternError(
-            f"{field.name} of {pattern} is {shown(value, parameter)}; it must be {wanted(default, parameter)}"
-        )
+        kind = PatternUsageError if isinstance(value, str) else PatternError
+        raise kind(f"{field.name} of {pattern} is {shown(value, parameter)}; it must be {wanted(default, parameter)}")
     return plain
 
 
@@ -209,8 +214,7 @@ def _number(value: object, described: Parameter) -> float | None:
     if isinstance(value, bool) or not isinstance(value, Real):
         return None
     number = float(value)
-    slack = TURN_SLACK if described.unit == "rad" else 0.0
-    if not math.isfinite(number) or not described.low - slack <= number <= described.high + slack:
+    if not math.isfinite(number) or not described.low <= number <= described.high:
         return None
     if described.whole:
         return int(number) if number == round(number) else None
@@ -218,9 +222,8 @@ def _number(value: object, described: Parameter) -> float | None:
 
 
 def shown(value: object, described: Parameter) -> str:
-    """Return a value as users enter it, with its unit: angles in degrees, several numbers separated by commas."""
+    """Return a value as users enter it, with its unit: several numbers separated by commas."""
     several = value if isinstance(value, (tuple, list)) else (value,)
     if not several or not all(isinstance(each, Real) and not isinstance(each, bool) for each in several):
         return repr(value)
-    turned = [math.degrees(each) if described.unit == "rad" else float(each) for each in several]
-    return ",".join(f"{number:.10g}" for number in turned) + SHOWN_UNITS[described.unit]
+    return ",".join(f"{float(each):.10g}" for each in several) + SHOWN_UNITS[described.unit]

@@ -1,16 +1,15 @@
-"""Parameters as users enter and read them: words or plain values, angles in degrees."""
+"""Parameters as users enter and read them: words or plain values."""
 
 from __future__ import annotations
 
 import dataclasses
 import difflib
 import math
-from collections.abc import Iterable, Mapping
-from numbers import Real
+from collections.abc import Iterable
 from typing import Any
 
-from patterns.declared import Described, Named, Parameter, checked, numbers_of, parameters, shown
-from patterns.errors import PatternError
+from patterns.declared import Described, Named, Parameter, checked, listed, numbers_of, parameters, shown
+from patterns.errors import PatternError, PatternUsageError
 
 BOOLEANS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 NONE = "none"
@@ -31,7 +30,7 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
     """Return the name and the value in a text such as ``waves=7.5``, or raise PatternError.
 
     Dashes and underscores are equivalent; several numbers are separated by commas; a flag is true, yes, on, 1,
-    false, no, off or 0. Angles are given and returned in degrees.
+    false, no, off or 0.
 
     >>> from patterns import Zigzag
     >>> assigned(Zigzag, "phase=1,2"), assigned(Zigzag, "waves=none"), assigned(Zigzag, "frame=off")
@@ -40,7 +39,7 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
     word, sign, value = text.partition("=")
     name = word.strip().replace("-", "_")
     if not sign or not name:
-        raise PatternError("give a name and a value with = between, such as cell=5")
+        raise PatternUsageError("give a name and a value with = between, such as cell=5")
     found = parameters(kind)
     if name not in found:
         raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, found)}")
@@ -48,52 +47,19 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
 
 
 def value_of(kind: Named, name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
-    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it.
-
-    Angles are given and returned in degrees.
-    """
-    field, described = parameters(kind)[name]
-    if described.unit == "rad" and _is_number(value):
-        checked(kind.name, (field, described), math.radians(value))  # type: ignore[arg-type]
-        return value
-    return checked(kind.name, (field, described), value)
-
-
-def from_degrees(kind: Named, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return parameters as a pattern takes them: like `value_of`, but with angles in radians."""
-    turn = {name for name, (_, described) in parameters(kind).items() if described.unit == "rad"}
-    return {
-        name: math.radians(value) if name in turn and _is_number(value) else value for name, value in values.items()
-    }
-
-
-def in_degrees(pattern: object) -> dict[str, Any]:
-    """Return the parameters of a pattern that are not overridden, by name, angles in degrees."""
-    found = parameters(pattern)
-    values = {name: getattr(pattern, name) for name in found}
-    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
-    turn = {name for name, (_, described) in found.items() if described.unit == "rad" and values[name] is not None}
-    return {
-        name: round(math.degrees(value), 9) if name in turn else _listed(value)
-        for name, value in values.items()
-        if name not in replaced
-    }
+    """Return `value` as a plain bool, number, tuple or None, or raise PatternError if the parameter cannot have it."""
+    return checked(kind.name, parameters(kind)[name], value)
 
 
 def descriptions(kind: Named) -> dict[str, dict[str, Any]]:
-    """Return the parameters of a pattern by name, as plain values: help, unit, default, and the limits low and high.
-
-    Angles are in degrees.
-    """
+    """Return the parameters of a pattern by name, as plain values: help, unit, default, and the limits low and high."""
     found = {}
     for name, (field, each) in parameters(kind).items():
-        limits = {end: value for end, value in zip(("low", "high"), each.limits, strict=True) if math.isfinite(value)}
-        default: Any = field.default
-        turned = each.unit == "rad" and default is not None
+        limits = {end: value for end, value in (("low", each.low), ("high", each.high)) if math.isfinite(value)}
         found[name] = {
             "help": each.help,
             "unit": each.shown_unit,
-            "default": round(math.degrees(default), 9) if turned else _listed(default),
+            "default": listed(field.default),
             **limits,
         }
     return found
@@ -120,12 +86,3 @@ def _plain(text: str, field: dataclasses.Field[Any], described: Parameter) -> ob
         return float(text)
     except ValueError:
         return text
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)
-
-
-def _listed(value: object) -> object:
-    """Return a list for a tuple, as JSON and TOML give back."""
-    return list(value) if isinstance(value, tuple) else value

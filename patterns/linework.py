@@ -14,12 +14,12 @@ from patterns.errors import PatternError
 
 
 def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
-    """Return `points` (..., 2) turned by `angle` radians, counter-clockwise, about (0, 0).
+    """Return `points` (..., 2) turned by `angle` degrees, counter-clockwise, about (0, 0).
 
-    >>> turn(np.array([1.0, 0.0]), math.pi / 2).round(12).tolist()
+    >>> turn(np.array([1.0, 0.0]), 90).round(12).tolist()
     [0.0, 1.0]
     """
-    cosine, sine = math.cos(angle), math.sin(angle)
+    cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     x, y = points[..., 0], points[..., 1]
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
 
@@ -27,11 +27,11 @@ def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 def local(
     x: NDArray[np.float64], y: NDArray[np.float64], *, angle: float, phase: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the coordinates of points in a pattern that is turned by `angle` radians and then shifted by `phase`, mm.
+    """Return the coordinates of points in a pattern that is turned by `angle` degrees and then shifted by `phase`, mm.
 
     A level set of these coordinates is the pattern turned and shifted.
 
-    >>> x, y = local(np.array(1.0), np.array(2.0), angle=math.pi / 2, phase=(1.0, 0.0))
+    >>> x, y = local(np.array(1.0), np.array(2.0), angle=90, phase=(1.0, 0.0))
     >>> round(float(x), 12), round(float(y), 12)
     (2.0, 0.0)
     """

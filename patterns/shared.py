@@ -12,7 +12,6 @@ They are flags on the command line. A pattern has those that make sense for it.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from patterns.declared import parameter
@@ -26,8 +25,8 @@ def cell_parameter(default: float = 6.0) -> Any:  # noqa: ANN401 - a field of ty
 
 
 def angle_parameter(default: float = 0.0) -> Any:  # noqa: ANN401 - a field of type float
-    """Return the field for the angle by which a pattern is turned, radians."""
-    return parameter(default, "turns the pattern counter-clockwise", unit="rad", low=-math.pi, high=math.pi)
+    """Return the field for the angle by which a pattern is turned, degrees."""
+    return parameter(default, "turns the pattern counter-clockwise", unit="deg", low=-180.0, high=180.0)
 
 
 def phase_parameter(default: tuple[float, float] = (0.0, 0.0)) -> Any:  # noqa: ANN401 - a field of (float, float)

@@ -50,7 +50,7 @@ class Zigzag(Pattern):
         from patterns.linework import clip, framed, middle, turn
 
         waves = []
-        for direction in (math.pi / 4, -math.pi / 4):
+        for direction in (45, -45):
             along, across = self._reach(region, self.angle + direction)
             period = 2 * self._stroke_distance(along)
             samples = math.ceil(2 * along / period * SAMPLES_PER_WAVE) + 1
@@ -62,10 +62,7 @@ class Zigzag(Pattern):
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:
         """Return the distance between neighbouring strokes along the diagonal, mm."""
-        return min(
-            self._stroke_distance(self._reach(region, self.angle + direction)[0])
-            for direction in (math.pi / 4, -math.pi / 4)
-        )
+        return min(self._stroke_distance(self._reach(region, self.angle + direction)[0]) for direction in (45, -45))
 
     def _stroke_distance(self, along: float) -> float:
         return self.cell if self.waves is None else along / self.waves

@@ -26,13 +26,13 @@ from patterns.linework import local
 
 DESIGNS: list[Pattern] = [
     Honeycomb(),
-    Honeycomb(cell=4, angle=math.radians(7), phase=(1.0, -0.5)),
+    Honeycomb(cell=4, angle=7, phase=(1.0, -0.5)),
     Honeycomb(frame=False),
     Zigzag(),
     Zigzag(waves=7.5),
-    Zigzag(cell=5, angle=0.3, frame=False),
+    Zigzag(cell=5, angle=17, frame=False),
     ConcentricHeart(),
-    ConcentricHeart(hearts=3, angle=0.4),
+    ConcentricHeart(hearts=3, angle=23),
     ConcentricHeart(cell=5, frame=True),
     ConcentricHeart(cell=7, phase=(3.0, -2.0)),
 ]
@@ -83,7 +83,7 @@ class SchwarzP(Pattern):
 LEVEL_SETS: list[Pattern] = [
     Ripples(),
     Ripples(frame=False, mirrored=True),
-    Ripples(cell=7, angle=0.4, phase=(1.0, -2.0)),
+    Ripples(cell=7, angle=23, phase=(1.0, -2.0)),
 ]
 BUILT_IN = list(PATTERNS.built_in)
 REGIONS: list[Polygon] = [

@@ -72,7 +72,7 @@ def test_the_sum_keeps_its_case_and_comes_only_where_it_was() -> None:
 def test_what_is_wrong_is_told() -> None:
     with pytest.raises(FormatError, match=r"plate_1\.gcode is damaged: its MD5"):
         list(plate_pieces(archive(stated=digest(b"other")), 1))
-    with pytest.raises(ParameterError, match="plate 3 is not in the archive; it has 1, 2"):
+    with pytest.raises(ParameterError, match="plate is 3, which is not in the archive; it has 1, 2"):
         rewritten_archive(archive(), io.BytesIO(), {3: []})
     with pytest.raises(FormatError, match="cannot be read"):
         plates(io.BytesIO(archive().getvalue()[:-30]))

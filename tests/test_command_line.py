@@ -52,6 +52,22 @@ def one_line_error(result: Any, says: str) -> None:
     assert result.stderr.count("\n") == 1
 
 
+def usage_error(result: Any, says: str) -> None:
+    """A command line that cannot be understood: exit 2, the usage, one line, nothing on stdout."""
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    usage, line = result.stderr.rstrip("\n").rsplit("\n", 1)
+    assert usage.lstrip().startswith("Usage: infill"), result.stderr
+    assert usage.endswith(" --help' for help.")
+    assert line.startswith("error: ")
+    assert re.search(says, line), result.stderr
+
+
+def refused(result: Any, says: str) -> None:
+    """One of both: which one it is, tests/test_options.py holds for every option."""
+    (usage_error if result.exit_code == 2 else one_line_error)(result, says)
+
+
 # --- every command ---------------------------------------------------------------------------------------
 
 
@@ -74,7 +90,10 @@ def test_help_names_every_command() -> None:
     "words", [["nonsense"], ["make", "honeycomb", "--nonsense"], ["check"], ["make", "honeycomb", "--height", "tall"]]
 )
 def test_usage_errors_exit_2(words: list[str]) -> None:
-    assert run(*words).exit_code == 2
+    if words != ["check"]:
+        usage_error(run(*words), words[-1] if words[-1] != "tall" else "--height")
+    else:  # without arguments, it is the help
+        assert run(*words).exit_code == 2
 
 
 def test_the_version_is_the_packages() -> None:
@@ -103,8 +122,14 @@ def test_the_readme_names_every_command() -> None:
 
 @pytest.mark.parametrize("package", ["infill", "infill.cli"])
 def test_python_runs_the_package(package: str) -> None:
-    done = subprocess.run([sys.executable, "-m", package, "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout == f"infill {infill.__version__} (phasefill)\n"
+    for words, code, says in (
+        (["--version"], 0, f"infill {infill.__version__} (phasefill)\n"),
+        (["list", "honycomb"], 1, "error: there is no pattern 'honycomb'; did you mean 'honeycomb'?"),
+        (["list", "--nonsense"], 2, "No such option: --nonsense"),
+    ):
+        done = subprocess.run([sys.executable, "-m", package, *words], capture_output=True, text=True, check=False)
+        assert done.returncode == code
+        assert says in (done.stderr if code else done.stdout)
 
 
 # --- list ------------------------------------------------------------------------------------------------
@@ -376,6 +401,22 @@ def test_a_saved_config_makes_the_same_block(tmp_path: Path) -> None:
     assert "angle = 12.5" in config.read_text()
 
 
+def test_a_config_goes_to_stdout_alone(tmp_path: Path) -> None:
+    config, mesh = tmp_path / "a.toml", tmp_path / "a.stl"
+    words = ["make", "honeycomb", *SMALL, "--cell", "4", "--angle", "12.5"]
+    for more in ([], ["-q"], ["-o", mesh]):
+        result = run(*words, *more, "--save-config", "-")
+        assert result.exit_code == 0, result.output
+        config.write_text(result.stdout)
+        assert resolve({}, config).to_toml() == result.stdout
+        assert (result.stderr == "") == (not mesh.exists())
+    assert sorted(tmp_path.iterdir()) == [mesh, config]
+    assert "angle = 12.5" in result.stdout
+    for other in ("--json", "--dry-run"):
+        usage_error(run(*words, other, "--save-config", "-"), "stdout for itself")
+    one_line_error(run("make", "honeycomb", "--height", "-1", "--save-config", "-"), "--height is -1 mm")
+
+
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_settings_survive_the_file(name: str, tmp_path: Path) -> None:
     given = {option: value for option, value in (("cell", 5), ("angle", 20)) if option in parameters(PATTERNS[name])}
@@ -407,7 +448,7 @@ def test_flags_win_over_the_file(tmp_path: Path) -> None:
             'pattern = "honeycomb"\ncell = 5\n[set]\ncell = 6',
             "cell = 5 in the config file and cell = 6 in .set. of the config file differ",
         ),
-        ('pattern = "zigzag"\ncell = 5\n[set]\nwaves = 6', "waves replaces cell: leave one out"),
+        ('pattern = "zigzag"\ncell = 5\n[set]\nwaves = 6', "waves of zigzag replaces cell: leave one out"),
         ('pattern = "honeycomb"\nwaves = 3', "honeycomb has no option 'waves'"),
         ('pattern = "honeycomb"\nheight = "tall"', "height is 'tall'; it must be a number"),
         ('pattern = "honeycomb"\nframe = 1', "frame of honeycomb is 1; it must be true or false"),
@@ -438,7 +479,7 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
         with pytest.raises(ParameterError, match="size is"):
             parse_size(bad)
     for bad in ("", "-1G", "0", "2Q"):
-        with pytest.raises(ParameterError, match="memory limit"):
+        with pytest.raises(ParameterError, match="max_memory is"):
             parse_bytes(bad)
     assert [as_bytes(n) for n in (5, 12_345, 10_625_284, 3e9, 5e12)] == [
         "5 B",
@@ -469,7 +510,7 @@ def test_cell_and_what_replaces_it(tmp_path: Path) -> None:
     }
     config.write_text('pattern = "concentric-heart"\ncell = 8\n')
     assert resolve({"hearts": 2}, config).parameters == {"hearts": 2}
-    with pytest.raises(ParameterError, match="hearts replaces cell: leave one out"):
+    with pytest.raises(ParameterError, match="hearts of concentric-heart replaces cell: leave one out"):
         resolve({"pattern": "concentric-heart", "hearts": 5, "cell": 4})
 
 
@@ -494,12 +535,12 @@ BAD = [
     (["honeycomb", "--cell", "1.3"], "1.3 mm apart, under 3 line widths .1.35 mm."),
     (["honeycomb", "--alpha", "0.26"], "stable up to 0.25 on this 2D grid; lower alpha"),
     (["honeycomb", "--alpha", "nan"], "alpha is nan"),
-    (["honeycomb", "--steps", "-1"], "number of steps is -1"),
+    (["honeycomb", "--steps", "-1"], "--steps is -1"),
     (["honeycomb", "--fidelity", "-1"], "fidelity is -1"),
-    (["honeycomb", "--stamp", "round"], "there is no stamp 'round'; choose block or exact"),
+    (["honeycomb", "--stamp", "round"], "'--stamp': .*'round' is not one of 'block', 'exact'"),
     (["honeycomb", "--size", "100000"], "needs about .* GiB of memory and .* GiB is at hand; the grid has"),
     (["honeycomb", "--max-memory", "100M"], "needs about 0.* GiB of memory and 0.10 GiB is allowed"),
-    (["honeycomb", "--max-memory", "lots"], "the memory limit is 'lots'"),
+    (["honeycomb", "--max-memory", "lots"], "--max-memory is 'lots'"),
     (["honeycomb", "--waves", "3"], "honeycomb has no option 'waves'"),
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
     (["honeycomb", "--size", "20", "--cells", "1"], "in smoothing.*more cells per line, fewer steps or more fidelity"),
@@ -509,7 +550,7 @@ BAD = [
 
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[" ".join(words) for words, _ in BAD])
 def test_bad_input_is_one_clear_line(words: list[str], says: str, tmp_path: Path) -> None:
-    one_line_error(run("make", *words, "-o", tmp_path / "a.stl", "--preview", tmp_path / "a.png"), says)
+    refused(run("make", *words, "-o", tmp_path / "a.stl", "--preview", tmp_path / "a.png"), says)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -212,7 +212,7 @@ def test_a_program_that_fails_leaves_the_print_and_says_why(
 def test_an_error_of_the_program_itself(plugin: ModuleType, program: Path, messages: list[str]) -> None:
     data = items_of(PRINT)
     assert run(plugin, data, program=str(program), smooth_radius="wide") is data
-    assert "smooth radius is 'wide'; give auto, or a number in mm" in messages[0]
+    assert "--smooth-radius is 'wide'; give auto, or a number in mm" in messages[0]
 
 
 def test_a_missing_program(plugin: ModuleType, messages: list[str]) -> None:

@@ -109,7 +109,7 @@ def test_stamping_follows_mirrors(rng: np.random.Generator) -> None:
 
 
 @pytest.mark.parametrize("spacing", [0.2, (0.2, 0.3)])
-@pytest.mark.parametrize("angle", [0, 0.1, math.pi / 4, 1.3])
+@pytest.mark.parametrize("angle", [0, 6, 45, 75])
 def test_the_exact_stamp_is_the_clipped_distance(angle: float, spacing: float | tuple[float, float]) -> None:
     """It falls from solid to void over the smaller side of a cell, 0.2 mm."""
     grid = Grid(shape=(60, 50), spacing=spacing, origin=(-6, -5))

@@ -25,7 +25,7 @@ every_level_set = pytest.mark.parametrize(
     ("pattern", "z"),
     [
         (Ripples(frame=False), 0.0),
-        (Ripples(frame=False, cell=7, angle=0.4, phase=(1.0, -2.0)), 3.0),
+        (Ripples(frame=False, cell=7, angle=23, phase=(1.0, -2.0)), 3.0),
         (SchwarzP(), 0.0),
         (SchwarzP(), 2.0),
         (SchwarzP(cell=9.3), 4.0),
@@ -152,8 +152,8 @@ def test_a_large_grid_is_taken_in_parts(monkeypatch: pytest.MonkeyPatch) -> None
 def test_turned_and_shifted_waves_are_turned_and_shifted() -> None:
     small = box(-12, -12, 12, 12)
     plain = Ripples(frame=False).lines(REGIONS[0])
-    moved = Ripples(frame=False, angle=0.5, phase=(3.0, -1.0)).lines(REGIONS[0])
-    turned = shapely.affinity.rotate(plain, 0.5, origin=(0, 0), use_radians=True)
+    moved = Ripples(frame=False, angle=30, phase=(3.0, -1.0)).lines(REGIONS[0])
+    turned = shapely.affinity.rotate(plain, 30, origin=(0, 0))
     expected = shapely.affinity.translate(turned, 3, -1).intersection(small)
     # Both are chords of the same curves: a step of 0.14 mm, squared, over 8 radii of 6.7 mm; twice.
     assert shapely.hausdorff_distance(moved.intersection(small), expected) < 2e-3

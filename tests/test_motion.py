@@ -434,7 +434,10 @@ def test_a_jerk_keeps_the_model_of_a_file_that_has_one(tmp_path: Path) -> None:
 
 
 def test_limits_of_two_models_are_an_error(tmp_path: Path) -> None:
-    with pytest.raises(ParameterError, match="belong to 2 models, jerk, klipper; name one"):
+    with pytest.raises(
+        ParameterError,
+        match="jerk and square_corner_velocity belong|square_corner_velocity and jerk belong to 2 models, jerk, klipper; give model",
+    ):
         motion(written(tmp_path, SQUARE), jerk=5, square_corner_velocity=5)
 
 

@@ -284,9 +284,10 @@ def test_the_command_says_which_plate_it_took(archive: Path, binary: Path, tmp_p
     plot = tmp_path / "layer.png"
     assert run("motion", archive, binary, "--plot", plot, "--layer", 3).exit_code == 0
     assert plot.stat().st_size > 1000
-    one_line_error(run("motion", archive, "--plate", 3), r"plate 3 is not in part.gcode.3mf; it has 1, 2")
+    one_line_error(run("motion", archive, "--plate", 3), r"--plate is 3, which is not in part.gcode.3mf; it has 1, 2")
     one_line_error(
-        run("motion", binary, "--plate", 1), r"plate 1 is not in part.bgcode; it has no plates; leave it out"
+        run("motion", binary, "--plate", 1),
+        r"--plate is 1, which is not in part.bgcode; it has no plates; leave it out",
     )
     archive.write_bytes(packed({1: ONE}))
     assert "1, the only one" in run("motion", archive).stdout

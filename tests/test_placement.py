@@ -13,7 +13,7 @@ import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
 from lines import DISC, least_spacing, length_of
-from test_command_line import one_line_error, run
+from test_command_line import refused, run
 from test_parameters import offered
 
 from infill import FormatError, ParameterError, refill
@@ -36,7 +36,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PRINT = written(Dialect(layers=5))
 WIDTH = 0.45
 GAP = TOUCH * WIDTH
-ANGLE = math.radians(17)
+ANGLE = 17.0
 AROUND = shapely.Point(0, 0).buffer(9, quad_segs=64)
 TILE = '<svg xmlns="http://www.w3.org/2000/svg" width="8mm" height="6mm" viewBox="0 0 8 6"><path d="{}"/></svg>'
 
@@ -120,7 +120,7 @@ def test_a_turned_pattern_takes_the_length_asked_for(name: str) -> None:
 @pytest.mark.parametrize("name", ["rectilinear", "schwarz-p"])
 def test_a_turn_by_a_right_angle(name: str) -> None:
     """Straight lines come to lie as those of the next layer, and tubes as they lay."""
-    quarter = family_of(name, {"angle": math.pi / 2})
+    quarter = family_of(name, {"angle": 90})
     after = 4 if name == "rectilinear" else 3
     assert apart(lines(FAMILIES[name], layer=after), lines(quarter)) < 1e-6
 
@@ -135,7 +135,7 @@ def test_a_turn_by_half_and_a_shift(name: str) -> None:
         shift = (wave.period / 2, wave.height)
     # Where a gyroid has its corners is interpolated, forwards along one wave and backwards along the other.
     limit = 5e-6 if name == "gyroid" else 1e-6
-    assert apart(lines(family), lines(family_of(name, {"angle": math.pi, "phase": shift}))) < limit
+    assert apart(lines(family), lines(family_of(name, {"angle": 180, "phase": shift}))) < limit
 
 
 def test_the_comparison_can_fail() -> None:
@@ -150,7 +150,7 @@ def test_without_a_turn_a_family_is_itself() -> None:
 
 def test_hearts_stand_on_a_point() -> None:
     """The tip of every heart lies to the lower left of the middle; turned by 45°, below it."""
-    family = family_of("concentric-heart", {"angle": math.pi / 4, "middle": (50.0, 60.0)})
+    family = family_of("concentric-heart", {"angle": 45, "middle": (50.0, 60.0)})
     paths = family.strands((40, 50, 60, 70), cell=4.0, line_width=WIDTH, z=0.2, layer=0, radius=0.0)
     for path in paths:
         assert path[path[:, 1].argmin(), 0] == pytest.approx(50, abs=1e-9)
@@ -217,8 +217,8 @@ MISTAKES = {
     "density = true": "density is True; it must be a number",
     'density = "dense"': "density is 'dense'; give same, or a share such as 20%",
     "density = 20": "density is 20; give same, or a share such as 20%",
-    "smooth-radius = [1]": "smooth radius is [1]; give auto, or a number in mm",
-    'max-deviation = "1"': "max deviation is '1'; it must be a number",
+    "smooth-radius = [1]": "smooth_radius is [1]; give auto, or a number in mm",
+    'max-deviation = "1"': "max_deviation is '1'; it must be a number",
     "layers = [1, 2, 3]": "layers is [1, 2, 3]; give a range such as 5-20, or 5-",
     "layers = [1.5, 2]": "layers is [1.5, 2]; give a range such as 5-20, or 5-",
     "layers = true": "layers is True; give a range such as 5-20, or 5-",
@@ -347,27 +347,27 @@ def test_hearts_lie_about_the_middle_that_is_given(gcode: Path) -> None:
     ],
 )
 def test_a_mistake_is_one_line_and_the_print_stays(words: list[str], says: str, gcode: Path) -> None:
-    one_line_error(run("refill", gcode, *words), re.escape(says))
+    refused(run("refill", gcode, *words), re.escape(says))
     assert gcode.read_bytes() == PRINT
 
 
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["--layers", "0"], "layers are 0 to 0; count from 1, the lower one first"),
-        (["--layers", "0-3"], "layers are 0 to 3; count from 1"),
-        (["--layers=-3"], "layers is '-3'; give a range such as 5-20, or 5-"),
-        (["--layers", ""], "layers is ''; give a range"),
-        (["--layers", "1.5"], "layers is '1.5'; give a range"),
-        (["--layers", "2-3-4"], "layers is '2-3-4'; give a range"),
-        (["--layers", "1,3"], "layers is '1,3'; give a range"),
+        (["--layers", "0"], "--layers is 0 to 0; count from 1, the lower one first"),
+        (["--layers", "0-3"], "--layers is 0 to 3; count from 1"),
+        (["--layers=-3"], "--layers is '-3'; give a range such as 5-20, or 5-"),
+        (["--layers", ""], "--layers is ''; give a range"),
+        (["--layers", "1.5"], "--layers is '1.5'; give a range"),
+        (["--layers", "2-3-4"], "--layers is '2-3-4'; give a range"),
+        (["--layers", "1,3"], "--layers is '1,3'; give a range"),
         (["--layers", "9" * 5000], "; give a range"),
-        (["--object", ""], "object is ''; it must be a word"),
+        (["--object", ""], "--object is ''; it must be a word"),
         (["--object", " \t"], "it must be a word"),
     ],
 )
 def test_hostile_layers_and_objects_are_one_line(words: list[str], says: str, gcode: Path) -> None:
-    one_line_error(run("refill", gcode, *words), re.escape(says))
+    refused(run("refill", gcode, *words), re.escape(says))
     assert gcode.read_bytes() == PRINT
 
 

@@ -14,7 +14,7 @@ import pytest
 from slicers import missing_prusa
 from test_architecture import modules_after
 from test_binary_gcode import made, parts
-from test_command_line import one_line_error, run
+from test_command_line import one_line_error, refused, run, usage_error
 
 from infill.gcode.binary import Block, Kind, blocks, decoded, encoded, stored
 from infill.gcode.meatpack import normalised
@@ -46,7 +46,8 @@ def log_of(path: Path) -> Path:
 def logged(result: Any, log: Path) -> None:
     """The log holds the line that the command said, which names the log."""
     assert result.stderr.endswith(f" (log: {log})\n")
-    assert log.read_text(encoding="utf-8") == result.stderr.replace(f" (log: {log})", "")
+    line = result.stderr.splitlines(keepends=True)[-1]
+    assert log.read_text(encoding="utf-8") == line.replace(f" (log: {log})", "")
 
 
 def names(folder: Path) -> list[str]:
@@ -239,19 +240,19 @@ def test_a_picture_that_is_in_the_way_leaves_the_print_alone(gcode: Path, tmp_pa
 @pytest.mark.parametrize(
     ("words", "says"),
     [
-        (["--smooth-radius", "wide"], "smooth radius is 'wide'; give auto, or a number in mm"),
-        (["--smooth-radius", "-1"], "smooth radius"),
-        (["--max-deviation", "1000"], "max deviation"),
-        (["--density", "150%"], "density is '150%'; give same, or a share such as 20%"),
-        (["--density", "20%"], "keep has the slicer's density"),
-        (["--layers", "ten"], "layers is 'ten'; give a range such as 5-20"),
-        (["--layers", "9-2"], "layers are 9 to 2; count from 1, the lower one first"),
+        (["--smooth-radius", "wide"], "--smooth-radius is 'wide'; give auto, or a number in mm"),
+        (["--smooth-radius", "-1"], "--smooth-radius is -1"),
+        (["--max-deviation", "1000"], "--max-deviation is 1000"),
+        (["--density", "150%"], "--density is '150%'; give same, or a share such as 20%"),
+        (["--density", "20%"], "--density is for patterns of ours; keep has the slicer's"),
+        (["--layers", "ten"], "--layers is 'ten'; give a range such as 5-20"),
+        (["--layers", "9-2"], "--layers is 9 to 2; count from 1, the lower one first"),
         (["--pattern", "honycomb"], "there is no pattern 'honycomb'; did you mean 'honeycomb'"),
     ],
 )
 def test_a_mistake_is_one_line_and_a_log(words: list[str], says: str, gcode: Path) -> None:
     result = run("refill", gcode, *words)
-    one_line_error(result, re.escape(says))
+    refused(result, re.escape(says))
     assert gcode.read_bytes() == PRINT
     logged(result, log_of(gcode))
     assert names(gcode.parent) == sorted([gcode.name, log_of(gcode).name])
@@ -273,7 +274,7 @@ def test_the_log_lies_beside_what_the_slicer_is_about_to_write(
     target.parent.mkdir()
     monkeypatch.setenv("SLIC3R_PP_OUTPUT_NAME", str(target))
     result = run("refill", gcode, "--layers", "ten")
-    one_line_error(result, "layers is 'ten'")
+    usage_error(result, "error: --layers is 'ten'")
     logged(result, log_of(target))
     assert names(gcode.parent) == ["exported", gcode.name]
     assert run("refill", gcode).exit_code == 0
@@ -309,7 +310,7 @@ def test_a_run_that_succeeds_removes_the_log_of_one_that_failed(gcode: Path) -> 
 
 def test_no_log_where_nothing_is_replaced_in_place(gcode: Path, tmp_path: Path) -> None:
     for words in (["--dry-run"], ["-o", tmp_path / "new.gcode"]):
-        one_line_error(run("refill", gcode, "--layers", "ten", *words), "layers")
+        usage_error(run("refill", gcode, "--layers", "ten", *words), "--layers")
         assert names(tmp_path) == [gcode.name]
 
 
@@ -420,5 +421,5 @@ def test_prusaslicer_tells_what_went_wrong(program: str, tmp_path: Path) -> None
     done = sliced(tmp_path, script=program + " --layers ten")
     said = done.stdout + done.stderr
     assert done.returncode != 0, said
-    assert "layers is 'ten'; give a range such as 5-20" in said
+    assert "--layers is 'ten'; give a range such as 5-20" in said
     assert "give a range" in log_of(tmp_path / "out.gcode").read_text(encoding="utf-8")

@@ -123,17 +123,17 @@ def test_values_that_do_not_tell_are_not_guessed(values: np.ndarray, least: floa
 @pytest.mark.parametrize(
     ("way", "says"),
     [
-        ({"low": 19}, "no cell would be solid by range low 19; the values go from -8 to 18"),
+        ({"low": 19}, "threshold is 19, and no cell would be solid; the values go from -8 to 18"),
         ({"high": -9}, "no cell"),
-        ({"low": -8}, "every cell would be solid by range low -8"),
+        ({"low": -8}, "threshold is -8, and every cell would be solid"),
         ({"low": -np.inf, "high": np.inf}, "every cell"),
-        ({"label": 99}, "no cell would be solid by label 99; the values go from -8 to 18"),
+        ({"label": 99}, "label is 99, and no cell would be solid; the values go from -8 to 18"),
         ({"low": 5, "high": 2}, "give the lower end first"),
-        ({"low": np.nan}, "low end of the range is nan"),
-        ({"high": "much"}, "high end of the range"),
+        ({"low": np.nan}, "threshold is nan"),
+        ({"high": "much"}, "threshold is 'much'; it must be a number"),
         ({"label": 1.5}, "label is 1.5; it must be a whole number"),
         ({"label": True}, "label is True"),
-        ({"label": ()}, "no label is given"),
+        ({"label": ()}, "label is empty"),
         ({"low": 1, "otsu": True}, "exclude each other"),
         ({"high": 1, "label": 1}, "exclude each other"),
         ({"label": 1, "otsu": True}, "exclude each other"),
@@ -146,7 +146,7 @@ def test_a_choice_that_cannot_be(way: dict[str, Any], says: str) -> None:
 
 
 def test_few_labels_are_named() -> None:
-    with pytest.raises(ParameterError, match=r"no cell would be solid by label 7; .* from 0 to 4 \(0, 2, 4\)"):
+    with pytest.raises(ParameterError, match=r"label is 7, and no cell would be solid; .* from 0 to 4 \(0, 2, 4\)"):
         threshold(volume(np.array([0, 2, 4, 4])), label=7)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 import trimesh
 from shapes import assert_printable
-from test_command_line import one_line_error, run
+from test_command_line import one_line_error, refused, run
 
 from infill import Volume, read_mesh, read_volume
 from infill.cli.console import log_said
@@ -358,34 +358,37 @@ def test_a_speck_that_vanishes_is_told(folder: Path) -> None:
 # --- errors: one clear line, exit 1, nothing written -----------------------------------------------------
 
 BAD = [
-    ("ball.npy --as picture", "there is no kind 'picture'; choose from mesh, points, volume"),
-    ("s.stl --units yard", "there is no unit 'yard'; choose from um, mm, cm, m, in"),
+    ("ball.npy --as picture", "'--as': .*'picture' is not one of 'mesh', 'points', 'volume'"),
+    ("s.stl --units yard", "'--units': .*'yard' is not one of 'um', 'mm', 'cm', 'm', 'in'"),
     *[
-        (f"s.stl --{option}", f"{option.split()[0]} is for")
+        (f"s.stl --{option}", f"--{option.split()[0]} is for")
         for option in ("threshold 3", "label 3", "otsu", "grey", "range 1,2", "shell 3")
     ],
-    *[(f"s.stl --{option} 1", "for volumes, and s.stl is read as") for option in ("spacing", "array", "series")],
-    *[(f"ball.npy --{option} 2", f"{option} is for") for option in ("shell", "resolution")],
+    *[
+        (f"s.stl --{option} 1", f"--{option} is for volumes, and s.stl is read as mesh")
+        for option in ("spacing", "array", "series")
+    ],
+    *[(f"ball.npy --{option} 2", f"--{option} is for") for option in ("shell", "resolution")],
     ("ball.npy --voxel 0.5", "voxel is 0.5 mm and the volume has 1 mm; give no less, or leave it out"),
     ("ball.npy --voxel 20", "voxel is 20 mm and the volume 26 mm long; give at most 13 mm"),
     ("ball.npy --units mm", "give the spacing of a volume in mm"),
-    *[(f"p.xyz --{option}", f"{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey")],
+    *[(f"p.xyz --{option}", f"--{option.split()[0]} is for") for option in ("threshold 3", "label 3", "otsu", "grey")],
     *[
-        (f"{name} --resolution 30 --voxel 1", "both voxel and resolution are given; give one")
+        (f"{name} --resolution 30 --voxel 1", "--voxel and --resolution are both given; give one")
         for name in ("s.stl", "p.xyz")
     ],
     ("ct.npy", "from -1000 to 1000 and do not say what is solid; give --threshold X"),
-    ("ct.npy --threshold 3 --otsu", "threshold and otsu exclude each other"),
-    ("ct.npy --threshold 3 --range 3,4", "threshold and range exclude each other"),
+    ("ct.npy --threshold 3 --otsu", "--threshold and --otsu exclude each other"),
+    ("ct.npy --threshold 3 --range 3,4", "--threshold and --range exclude each other"),
     ("ct.npy --threshold 3 --label 4", "exclude each other; give one of them"),
-    ("ct.npy --threshold 3000", "no cell would be solid .* from -1000 to 1000"),
+    ("ct.npy --threshold 3000", "--threshold is 3000, and no cell would be solid; .* from -1000 to 1000"),
     ("ct.npy --threshold -3000", "every cell would be solid"),
     ("ct.npy --threshold nan", "nan; it must be a number"),
-    ("ct.npy --label 5", "no cell would be solid by label 5"),
+    ("ct.npy --label 5", "--label is 5, and no cell would be solid"),
     ("ct.npy --label 1000 --grey", "one threshold"),
-    ("ct.npy --range 5,2", "from 5 to 2; give the lower end first"),
-    *[(f"ct.npy --range {text}", f"range is '{text}'; give") for text in ("5", "a,b", "5,inf", "1,2,3")],
-    *[(f"ball.npy --spacing {text}", f"spacing is '{text}'; give") for text in ("1,2", "x", "1,2,3,4", "nan")],
+    ("ct.npy --range 5,2", "--range goes from 5 to 2; give the lower end first"),
+    *[(f"ct.npy --range {text}", f"--range is '{text}'; give") for text in ("5", "a,b", "5,inf", "1,2,3")],
+    *[(f"ball.npy --spacing {text}", f"--spacing is '{text}'; give") for text in ("1,2", "x", "1,2,3,4", "nan")],
     ("ball.npy --spacing 0", "spacing is 0 mm; it must be a finite number above 0"),
     ("ball.npy --spacing 1,-1,1", "spacing is -1 mm"),
     ("ball.npy --level middle", "level is? .*'middle'"),
@@ -406,18 +409,18 @@ BAD = [
     ("p.xyz --voxel 100", "voxel is 100 mm and the points are 20 mm thick"),
     ("p.xyz --shell 0.05", "shell of at least one voxel"),
     ("p.xyz --shell 0", "shell is 0 mm"),
-    ("ball.npy --steps -1", "number of steps is -1"),
+    ("ball.npy --steps -1", "--steps is -1"),
     ("ball.npy --fidelity -1", "fidelity is -1"),
     ("ball.npy --fidelity nan", "fidelity is nan"),
     ("ball.npy --interface 0", "interface is 0; it must be a number from 0.25"),
     ("ball.npy --despeckle 1e9", r"despeckle is 1e\+09 mm³ and the largest component has .* mm³; give less"),
     ("ball.npy --despeckle -1", "despeckle is -1"),
     ("ball.npy --tolerance -1", "tolerance is -1 mm"),
-    ("ball.npy --smooth best", "there is no method 'best'; choose from auto, plain, refine, grey"),
+    ("ball.npy --smooth best", "'--smooth': .*'best' is not one of 'auto', 'plain', 'refine', 'grey'"),
     ("s.stl --smooth grey", "grey levels are those of scans; choose plain or refine for a mesh"),
-    ("ball.npy --max-triangles 3", "number of triangles is 3; .* at least 4"),
-    ("ball.npy --threads 0", "number of threads is 0; .* at least 1"),
-    ("ball.npy --max-memory lots", "the memory limit is 'lots'"),
+    ("ball.npy --max-triangles 3", "--max-triangles is 3; .* at least 4"),
+    ("ball.npy --threads 0", "--threads is 0; .* at least 1"),
+    ("ball.npy --max-memory lots", "--max-memory is 'lots'"),
     ("ball.npy --max-memory 1K", "is allowed; give --voxel"),
     ("s.stl --max-memory 1M", "is allowed; the grid has 216 x 216 x 216 cells; give larger voxels"),
     *[
@@ -435,14 +438,14 @@ BAD = [
     ("two.npz", "holds 2 arrays with three axes .a, b."),
     ("two.npz --array c", "holds no array 'c'; it holds a, b"),
     ("ball.npy --array a", "only an .npz holds named arrays"),
-    ("ball.npy --series 1.2", "give the folder that holds the series"),
+    ("ball.npy --series 1.2", "is no folder; give the one that holds the series"),
 ]
 
 
 @pytest.mark.parametrize(("words", "says"), BAD, ids=[words for words, _ in BAD])
 def test_bad_input_is_one_clear_line(words: str, says: str, folder: Path) -> None:
     before = sorted(folder.iterdir())
-    one_line_error(run("smooth", *words.split(), "-o", "a.stl", "--preview", "a.png"), says)
+    refused(run("smooth", *words.split(), "-o", "a.stl", "--preview", "a.png"), says)
     assert sorted(folder.iterdir()) == before
 
 

@@ -653,12 +653,12 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     (pear(), {"spacing": (1, 1)}, "spacing has 2 numbers for 3 axes"),
     (pear(), {"spacing": math.nan}, "spacing is nan mm"),
     (pear(), {"origin": (0, 0, math.inf)}, "origin is .* 3 finite numbers"),
-    (pear(), {"level": "middle"}, "there is no level 'middle'"),
+    (pear(), {"level": "middle"}, "level is 'middle'"),
     (pear(), {"level": 1.5}, "level is 1.5; it must be a number from -0.999 to 0.999"),
     (pear(), {"level": 1.5, "refine": True}, "level is 1.5; it must be a number from -0.99 to 0.99"),
-    (pear(), {"method": "best"}, "there is no method 'best'; choose from auto, plain, refine, grey"),
+    (pear(), {"method": "best"}, "method is 'best'; choose from auto, plain, refine, grey"),
     (pear(), {"refine": True, "method": "plain"}, "refine is True and method plain; give one of them"),
-    (pear(), {"radius": 0.0}, "smooth-radius is 0 mm"),
+    (pear(), {"radius": 0.0}, "^radius is 0 mm"),
     (pear(), {"radius": 100.0}, "would take 35000 steps; give at most 23.9 mm"),
     (pear(), {"tolerance": "fine"}, "tolerance is 'fine'; give a number of mm, or auto"),
     (pear(), {"crumbs": -1.0}, "crumbs is -1; it must be a number from 0 to inf mm³"),
@@ -671,7 +671,7 @@ WRONG: list[tuple[Any, dict[str, Any], str]] = [
     (pear().astype(int) * 9, {"threshold": 50}, "no cell would be solid"),
     (pear().astype(int) * 9, {"threshold": (9, 3)}, "lower end first"),
     (pear().astype(int) * 9, {"threshold": 3, "label": 9}, "exclude each other"),
-    (pear().astype(int) * 9, {"label": 4}, "no cell would be solid by label 4"),
+    (pear().astype(int) * 9, {"label": 4}, "label is 4, and no cell would be solid"),
     (pear().astype(int) * 9, {"label": 9, "grey": True}, "one threshold"),
     (pear(), {"grey": True}, "one threshold"),
 ]
@@ -933,3 +933,19 @@ def test_how_far_edges_may_draw_back_goes_with_the_diffusion() -> None:
     assert lost[0] == lost[1]
     assert [piece["voxels"] for piece in lost[0]] == [60]
     assert Smoothing(steps=20).blur == pytest.approx(Smoothing(steps=80, alpha=1 / 28).blur)
+
+
+@pytest.mark.parametrize("tolerance", [0.05, 0.5])
+def test_changes_of_the_volume_say_what_they_compare(tolerance: float) -> None:
+    """One is that of the mesh that is written over the data, in all places; the other is that of simplifying alone."""
+    ball = trimesh.creation.icosphere(3, 10.0)
+    options: dict[str, Any] = {"resolution": 30, "allow_broken": True, "level": 0.0}
+    full = smooth_mesh(ball, tolerance=None, **options)
+    lean = smooth_mesh(ball, tolerance=tolerance, **options)
+    report, solid = lean.report, lean.report["solid"]
+    assert report["volume"] == solid["volume"] == pytest.approx(lean.mesh.volume, rel=1e-6)
+    assert report["volume_change"] == solid["change"] == solid["volume"] / solid["data"] - 1
+    cost = report["mesh"]["simplified"]["volume_change"]
+    assert cost == pytest.approx(report["volume"] / full.report["volume"] - 1, abs=1e-12)
+    assert 1 + report["volume_change"] == pytest.approx((1 + full.report["volume_change"]) * (1 + cost), abs=1e-12)
+    assert abs(full.report["volume_change"]) > 1e-4  # at the level 0 both are told apart

@@ -238,7 +238,7 @@ def test_the_exact_stamp_keeps_the_width_through_smoothing(degrees: float) -> No
     """Five cells across, ten steps: 1 % in the mean, 2 % from the 5th to the 95th percentile."""
     width = 0.45
     grid = Grid(shape=(500, 500), spacing=width / 5, origin=(-22.5, -22.5))
-    lines = Honeycomb(angle=math.radians(degrees)).lines(shapely.box(-22.275, -22.275, 22.275, 22.275))
+    lines = Honeycomb(angle=degrees).lines(shapely.box(-22.275, -22.275, 22.275, 22.275))
     found = wall_width(lines, smooth(stamp_lines(lines, grid, width=width)), grid, requested=width)
     assert found.samples > 1000
     assert found.mean == pytest.approx(width, rel=0.01)

@@ -312,7 +312,7 @@ def test_a_row_through_nothing_is_empty() -> None:
 @pytest.mark.parametrize(
     ("mesh", "options", "error", "says"),
     [
-        (surface(box(4, 4, 4)), {"voxel": 1, "resolution": 9}, ParameterError, "both voxel and resolution"),
+        (surface(box(4, 4, 4)), {"voxel": 1, "resolution": 9}, ParameterError, "voxel and resolution are both given"),
         (surface(box(4, 4, 4)), {"voxel": 0}, ParameterError, "voxel is 0"),
         (surface(box(4, 4, 4)), {"resolution": 0}, ParameterError, "resolution is 0"),
         (surface(box(4, 4, 4)), {"margin": -1}, ParameterError, "margin is -1"),

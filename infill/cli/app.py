@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from infill.cli.checking import check
+from infill.cli.commands import Command, Group
 from infill.cli.listing import list_patterns
 from infill.cli.making import make
 from infill.cli.refilling import refill
@@ -33,6 +34,7 @@ def build(asked: str = "") -> typer.Typer:
     """Return the app; if the name of a command is asked for, with that one alone, which begins sooner."""
     app = typer.Typer(
         name="infill",
+        cls=Group,
         no_args_is_help=True,
         pretty_exceptions_enable=False,
         context_settings={"help_option_names": ["-h", "--help"]},
@@ -49,7 +51,7 @@ def build(asked: str = "") -> typer.Typer:
 
     for name in [asked] if asked in COMMANDS else COMMANDS:
         function, example = COMMANDS[name]
-        app.command(name, no_args_is_help=name != "list", epilog=f"Example: {example}")(function)
+        app.command(name, cls=Command, no_args_is_help=name != "list", epilog=f"Example: {example}")(function)
     return app
 
 

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from infill.cli.console import print_json, reports_errors, say, table
+from infill.cli.console import print_json, say, table
 from infill.errors import InfillError
 
 if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
 
 
-@reports_errors
 def check(
     meshes: Annotated[
         list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb.")

@@ -1,21 +1,16 @@
-"""What every command shares: one-line errors, a progress bar, plain-text tables."""
+"""What every command prints with: messages, a progress bar, plain-text tables."""
 
 from __future__ import annotations
 
 import contextlib
-import functools
 import json
 import logging
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, TextIO, TypeVar
+from typing import Any, TextIO
 
 import typer
 
-from infill.errors import InfillError
-from patterns.errors import PatternError
-
-Function = TypeVar("Function", bound=Callable[..., Any])
 UNITS = ("B", "kB", "MB", "GB")
 
 
@@ -34,22 +29,6 @@ def warn(
 ) -> None:
     """Print a warning as one line."""
     say(f"warning: {message}")
-
-
-def reports_errors(command: Function) -> Function:
-    """Make a command end with one line and exit code 1 for errors of ours."""
-
-    @functools.wraps(command)
-    def run(*args: Any, **options: Any) -> Any:  # noqa: ANN401 - whatever the command takes
-        try:
-            return command(*args, **options)
-        except (InfillError, PatternError) as error:
-            say(f"error: {error}")
-        except MemoryError:
-            say("error: out of memory; use larger cells or voxels, or a smaller part")
-        raise typer.Exit(1)
-
-    return run  # type: ignore[return-value]
 
 
 @contextlib.contextmanager

@@ -35,6 +35,7 @@ Labels = Annotated[
     Path | None,
     typer.Option(
         "--labels",
+        metavar="FILE",
         help="Names and colours of the labels: label descriptions of ITK-SNAP, a lookup table of FreeSurfer, a .ctbl "
         "of 3D Slicer. (default: as in a .seg.nrrd)",
         rich_help_panel=LABELS,
@@ -52,6 +53,7 @@ KeepGoing = Annotated[
 Frame = Annotated[
     int | None,
     typer.Option(
+        metavar="N",
         help="Which volume of a file with several, counted from 0: a frame of a series, a layer of segments.",
         rich_help_panel="Files",
     ),
@@ -59,8 +61,9 @@ Frame = Annotated[
 Roi = Annotated[
     str | None,
     typer.Option(
-        help="Only the part of a volume in this box: X0,X1,Y0,Y1,Z0,Z1, mm, where the mesh will lie (LPS for medical "
-        "images). The surface is closed where the box cuts it.",
+        metavar="X0,X1,Y0,Y1,Z0,Z1",
+        help="Only the part of a volume in this box, mm, where the mesh will lie (LPS for medical images). The surface "
+        "is closed where the box cuts it.",
         rich_help_panel="Grid",
     ),
 ]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from infill.cli.completing import pattern_names
-from infill.cli.console import can_show, print_json, reports_errors, say, table
+from infill.cli.console import can_show, print_json, say, table
 
 if TYPE_CHECKING:
     from patterns import Pattern
@@ -17,14 +17,16 @@ if TYPE_CHECKING:
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
 
-@reports_errors
 def list_patterns(
     pattern: Annotated[
         str | None,
-        typer.Argument(help="Show this one, with its parameters and a picture.", autocompletion=pattern_names),
+        typer.Argument(
+            metavar="PATTERN", help="Show this one, with its parameters and a picture.", autocompletion=pattern_names
+        ),
     ] = None,
     preview: Annotated[
-        Path | None, typer.Option(help="Picture to write of the pattern in its default block: FILE.png.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Picture to write of the pattern in its default block: a .png."),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,

@@ -5,32 +5,35 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
 
 import typer
 
 from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
-from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, print_json, progress_bar, say, table
 
 if TYPE_CHECKING:
     from infill.report_keys import MakeReport
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
-BLOCK, FILES, PATTERN, RUN = "Block", "Files", "Pattern", "Run"
+STDOUT = Path("-")
+BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
 
-@reports_errors
 def make(
     *,
     pattern: Annotated[
         str | None,
-        typer.Argument(help="Name of the pattern: 'infill list' shows all.", autocompletion=pattern_names),
+        typer.Argument(
+            metavar="PATTERN", help="Name of the pattern: 'infill list' shows all.", autocompletion=pattern_names
+        ),
     ] = None,
     output: Annotated[
         list[Path] | None,
         typer.Option(
             "-o",
             "--output",
+            metavar="FILE",
             help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; - for an STL on stdout, -.3mf for others. May be "
             "given again.",
             rich_help_panel=FILES,
@@ -38,33 +41,43 @@ def make(
     ] = None,
     preview: Annotated[
         Path | None,
-        typer.Option(help="Picture of the four stages to write: FILE.png.", rich_help_panel=FILES),
+        typer.Option(metavar="FILE", help="Picture to write, from lines to mesh: a .png.", rich_help_panel=FILES),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     config: Annotated[
         Path | None,
-        typer.Option(help="TOML file of options; flags override it.", rich_help_panel=FILES),
+        typer.Option(metavar="FILE", help="TOML file of options; flags override it.", rich_help_panel=FILES),
     ] = None,
     save_config: Annotated[
         Path | None,
-        typer.Option(help="TOML file to write all options to, as resolved; - for stdout.", rich_help_panel=FILES),
+        typer.Option(
+            metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
+        ),
     ] = None,
     cell: Annotated[
         float | None,
-        typer.Option(help="Distance between neighbouring lines, mm.", rich_help_panel=PATTERN),
+        typer.Option(
+            metavar="MM",
+            help="Distance between neighbouring lines. (default: the pattern's own, mostly 6)",
+            rich_help_panel=PATTERN,
+        ),
     ] = None,
     angle: Annotated[
         float | None,
-        typer.Option(help="Turns the pattern counter-clockwise, degrees.", rich_help_panel=PATTERN),
+        typer.Option(metavar="DEG", help="Turns the pattern counter-clockwise. (default: 0)", rich_help_panel=PATTERN),
     ] = None,
     phase: Annotated[
         tuple[float, float] | None,
-        typer.Option(metavar="X Y", help="Shifts the pattern in x and y, mm.", rich_help_panel=PATTERN),
+        typer.Option(metavar="MM MM", help="Shifts the pattern in x and y. (default: 0 0)", rich_help_panel=PATTERN),
     ] = None,
     frame: Annotated[
         bool | None,
-        typer.Option("--frame/--no-frame", help="A wall around the block.", rich_help_panel=PATTERN),
+        typer.Option(
+            "--frame/--no-frame",
+            help="A wall around the block. (default: the pattern's own)",
+            rich_help_panel=PATTERN,
+        ),
     ] = None,
     assigned: Annotated[
         list[str] | None,
@@ -81,20 +94,23 @@ def make(
     hearts: Annotated[int | None, typer.Option(hidden=True)] = None,
     size: Annotated[
         str | None,
-        typer.Option(help="Block in x and y, mm: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="MMxMM", help="Block in x and y: 60x40, or 60 for a square. (default: 60x60)", rich_help_panel=BLOCK
+        ),
     ] = None,
     height: Annotated[
         float | None,
-        typer.Option(help="Height of the block, mm. (default: 6)", rich_help_panel=BLOCK),
+        typer.Option(metavar="MM", help="Height of the block. (default: 6)", rich_help_panel=BLOCK),
     ] = None,
     line_width: Annotated[
         float | None,
-        typer.Option(help="Width of the walls, mm. (default: 0.45)", rich_help_panel=BLOCK),
+        typer.Option(metavar="MM", help="Width of the walls. (default: 0.45)", rich_help_panel=BLOCK),
     ] = None,
     stamp: Annotated[
-        str | None,
+        Literal["block", "exact"] | None,
         typer.Option(
-            help="block: the paper's stamps, walls up to 41 % wider on diagonals; "
+            metavar="block|exact",
+            help="How lines become walls. block: quick, up to 41 % wider on diagonals; "
             "exact: the same width in every direction. (default: block)",
             autocompletion=stamp_names,
             rich_help_panel=BLOCK,
@@ -102,32 +118,48 @@ def make(
     ] = None,
     cells: Annotated[
         int | None,
-        typer.Option(help="Grid cells across a line. (default: 3 for block, 5 for exact)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="N",
+            help="Grid cells across a line: more are finer and take longer. (default: 3 for block, 5 for exact)",
+            rich_help_panel=BLOCK,
+        ),
     ] = None,
     steps: Annotated[
         int | None,
-        typer.Option(help="Smoothing steps. (default: 10)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="N",
+            help="Smoothing steps: more are rounder, and wear thin walls. (default: 10)",
+            rich_help_panel=BLOCK,
+        ),
     ] = None,
     fidelity: Annotated[
         float | None,
         typer.Option(
-            help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)", rich_help_panel=BLOCK
+            metavar="NUMBER",
+            help="How strongly the stamp constrains the result, 0 to 1 or more. (default: 0.01)",
+            rich_help_panel=ADVANCED,
         ),
     ] = None,
     interface: Annotated[
         float | None,
-        typer.Option(help="Cells from the surface to phi = 0.9. (default: 2)", rich_help_panel=BLOCK),
+        typer.Option(metavar="CELLS", help="From the surface to phi = 0.9. (default: 2)", rich_help_panel=ADVANCED),
     ] = None,
     alpha: Annotated[
         float | None,
-        typer.Option(help="Time step over the cell size squared, up to 0.25. (default: 1/7)", rich_help_panel=BLOCK),
+        typer.Option(
+            metavar="NUMBER",
+            help="Time step over the cell size squared, up to 0.25. (default: 1/7)",
+            rich_help_panel=ADVANCED,
+        ),
     ] = None,
     allow_broken: Annotated[
         bool, typer.Option("--allow-broken", help="Write the mesh even if smoothing broke walls.", rich_help_panel=RUN)
     ] = False,
     max_memory: Annotated[
         str | None,
-        typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
+        typer.Option(
+            metavar="SIZE", help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN
+        ),
     ] = None,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Only show grid, memory, triangles and file size.", rich_help_panel=RUN)
@@ -138,10 +170,11 @@ def make(
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
-    """Make a block of infill: points, stamps on a grid, smoothing, a closed mesh."""
+    """Make a block of infill from a pattern: smooth walls, a closed mesh for a slicer."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import writer
+    from infill.making.duration import warning_of
     from infill.making.settings import resolve
 
     flags = {
@@ -165,6 +198,8 @@ def make(
     outputs = [with_suffix(path) for path in output or []]
     if not (outputs or preview or save_config or dry_run or as_json):
         raise typer.BadParameter("nothing to write; give -o FILE, or --dry-run to see what it would be")
+    if save_config == STDOUT and (as_json or dry_run):
+        raise typer.BadParameter("--save-config - has stdout for itself; leave --json and --dry-run out")
     settings = resolve(flags, config, assigned or [])
     limit = None if max_memory is None else parse_bytes(max_memory)
     for path in outputs:
@@ -174,15 +209,19 @@ def make(
 
         check_preview(preview)
     check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
+    block = settings.plan()
     if dry_run:
-        _show_plan(settings.plan(), limit, as_json=as_json)
+        _show_plan(block, limit, as_json=as_json)
+    else:
+        block.require_grid_memory(limit)  # of what cannot be made, it does not matter how long it takes
+    if not quiet and (slow := warning_of(block)):
+        say(f"warning: {slow}")
+    if dry_run:
         return
     result = None
     with progress_bar(shown=not quiet) as progress:
         if outputs or preview or as_json:
             result = settings.make(allow_broken=allow_broken, max_memory=limit, progress=progress)
-        else:
-            settings.plan()  # what is saved must be valid
         if progress is not None:
             progress("write", 0.8)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -193,12 +232,10 @@ def make(
         if save_config is not None:
             parts[save_config] = lambda file: file.write(settings.to_toml().encode())
         files = deliver_all(parts)
-    if not quiet:
-        say(
-            f"wrote {', '.join(files)}"
-            if result is None
-            else _summary(result.report, files, settings.size, verbose=verbose)
-        )
+    if not quiet and result is not None:
+        say(_summary(result.report, files, settings.size, verbose=verbose))
+    elif not quiet and files:
+        say(f"wrote {', '.join(files)}")
     if as_json and result is not None:
         print_json({**result.report, "files": files})
 
@@ -233,11 +270,10 @@ def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *
     )
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
-        f"{report['components']} component(s), Euler number {report['mesh']['euler_number']}",
+        f"{report['components']} component(s)",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
-        "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
-        f"volume {report['volume_change']:+.2%} (excluding rims)",
+        "smoothing": f"{request['steps']} steps, volume {report['volume_change']:+.2%} (excluding rims)",
     }
     if any(abs(one - other) > SHOWN for one, other in zip(request["size"], asked, strict=True)):
         rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in asked)} mm asked for"
@@ -247,6 +283,8 @@ def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *
     if report["problems"]:
         rows["PROBLEMS"] = "; ".join(report["problems"])
     if verbose:
+        rows["fidelity"] = f"{request['fidelity']:g}"
+        rows["Euler number"] = f"{report['mesh']['euler_number']}"
         rows["grid"] = f"{' x '.join(map(str, grid['shape'][:2]))} cells of {grid['spacing'][0]:.4g} mm"
         for name, counts in (("stamp", topology["data"]), ("result", topology["result"])):
             rows[name] = f"{counts['components']} component(s), {counts['tunnels']} holes"

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from infill.cli.commands import spelled
 from infill.cli.completing import placement_assignments
-from infill.cli.console import print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import print_json, progress_bar, say, table
 from infill.cli.piping import STDOUT, check_outputs, is_piped, send_file
 from infill.errors import InfillError
 from patterns.errors import PatternError
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
 PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 
 
-@reports_errors
 def refill(
+    context: typer.Context,
     gcode: Annotated[
         Path,
         typer.Argument(
@@ -34,7 +35,13 @@ def refill(
     ],
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", help="G-code to write instead; - for stdout.", rich_help_panel=FILES),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="G-code to write; - for stdout. (default: in place)",
+            rich_help_panel=FILES,
+        ),
     ] = None,
     force: Annotated[
         bool, typer.Option("--force", help="Overwrite an existing -o file.", rich_help_panel=FILES)
@@ -42,6 +49,7 @@ def refill(
     pattern: Annotated[
         str | None,
         typer.Option(
+            metavar="keep|NAME|FILE",
             help="keep: the slicer's own paths, with round corners. Or one of ours: honeycomb, zigzag, "
             "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, "
             "schwarz-d, concentric, honeycomb-3d. Or a drawing: tile.svg, .dxf, .png, .wkt. "
@@ -63,6 +71,7 @@ def refill(
     density: Annotated[
         str | None,
         typer.Option(
+            metavar="same|PERCENT",
             help="same: the filament that the infill took; with keep, by beads up to 8 % wider. 20%: of the volume, "
             "for a pattern of ours. (default: same for ours, the slicer's filament per mm for keep)",
             rich_help_panel=PATHS,
@@ -71,24 +80,37 @@ def refill(
     smooth_radius: Annotated[
         str | None,
         typer.Option(
-            help="Largest radius of a corner, mm; 0 leaves corners; auto: as large as support and contact allow. "
+            metavar="auto|MM",
+            help="Largest radius of a corner; 0 leaves corners; auto: as large as support and contact allow. "
             "(default: auto)",
             rich_help_panel=PATHS,
         ),
     ] = None,
     max_deviation: Annotated[
-        float | None, typer.Option(help="How far a path may move, mm.", rich_help_panel=PATHS)
+        float | None,
+        typer.Option(metavar="MM", help="How far a path may move. (default: no limit)", rich_help_panel=PATHS),
     ] = None,
     layers: Annotated[
-        str | None, typer.Option(help="Layers to refill, counted from 1: 5-20, or 5-.", rich_help_panel=WHERE)
+        str | None,
+        typer.Option(
+            metavar="FROM-TO",
+            help="Layers to refill, counted from 1: 5-20, or 5-. (default: all)",
+            rich_help_panel=WHERE,
+        ),
     ] = None,
     part: Annotated[
         str | None,
-        typer.Option("--object", help="Refill only objects with this in their name.", rich_help_panel=WHERE),
+        typer.Option(
+            "--object",
+            metavar="NAME",
+            help="Refill only objects with this in their name. (default: all)",
+            rich_help_panel=WHERE,
+        ),
     ] = None,
     config: Annotated[
         Path | None,
         typer.Option(
+            metavar="FILE",
             help="TOML file of these options, and of the pattern's parameters; the command line overrides it.",
             rich_help_panel=FILES,
         ),
@@ -96,7 +118,8 @@ def refill(
     preview: Annotated[
         Path | None,
         typer.Option(
-            help="Picture to write of the middle layer, before and after, coloured by speed: FILE.png.",
+            metavar="FILE",
+            help="Picture to write of the middle layer, before and after, coloured by speed: a .png.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -122,7 +145,10 @@ def refill(
         if piped:
             check_outputs([output], overwrite=force, as_json=as_json, dry_run=dry_run)
             output = Path(stack.enter_context(tempfile.TemporaryDirectory())) / (gcode.name or "print")
-        with _logged(gcode, in_place=output is None and not dry_run), progress_bar(shown=not quiet) as progress:
+        with (
+            _logged(gcode, context, in_place=output is None and not dry_run),
+            progress_bar(shown=not quiet) as progress,
+        ):
             from infill.filling.refilling import refill as refilled
             from infill.filling.settings import resolve
 
@@ -178,12 +204,13 @@ def _write_preview(number: int, before: dict[str, LayerSpeeds], path: Path, prev
 
 
 @contextlib.contextmanager
-def _logged(gcode: Path, *, in_place: bool) -> Iterator[None]:
+def _logged(gcode: Path, context: typer.Context, *, in_place: bool) -> Iterator[None]:
     """Put an error into a log too, and name the log in it: some slicers show nothing of what a script prints."""
     logs = _logs(gcode) if in_place else []
     try:
         yield
     except (InfillError, PatternError) as error:
+        error.args = (spelled(str(error), context),)
         for log in logs if gcode.is_file() else []:
             with contextlib.suppress(OSError):
                 log.write_text(f"error: {error}\n", encoding="utf-8")

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, cast
+from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal, cast
 
 import typer
 
 from infill.cli.completing import unit_names
 from infill.cli.components import ByComponent, check_fields, component_summary, component_writer
-from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, reports_errors, say, table
+from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, say, table
 from infill.cli.foreseeing import foresee
 from infill.cli.labelled import EachLabel, Frame, KeepGoing, Labels, Roi, Written, refuse, smooth_each, wants_each
 from infill.cli.labelled import Given as GivenLabels
@@ -20,10 +20,9 @@ if TYPE_CHECKING:
     from infill.report_keys import SmoothReport
     from infill.smoothing.request import Options
 
-GRID, SOLID, SURFACE, FILES, RUN = "Grid", "What is solid", "Surface", "Files", "Run"
+GRID, SOLID, SURFACE, FILES, RUN, ADVANCED = "Grid", "What is solid", "Surface", "Files", "Run", "Advanced"
 
 
-@reports_errors
 def smooth(
     context: typer.Context,
     source: Annotated[
@@ -39,6 +38,7 @@ def smooth(
         typer.Option(
             "-o",
             "--output",
+            metavar="FILE",
             help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; or the field: .npz .nrrd; - for an STL on "
             "stdout, -.3mf for others. May be given again.",
             rich_help_panel=FILES,
@@ -47,7 +47,8 @@ def smooth(
     preview: Annotated[
         Path | None,
         typer.Option(
-            help="Picture of before and after to write, what was lost in red, what was added in blue: FILE.png.",
+            metavar="FILE",
+            help="Picture of before and after to write, what was lost in red, what was added in blue: a .png.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -61,26 +62,30 @@ def smooth(
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     kind: Annotated[
-        str | None,
+        Literal["mesh", "points", "volume"] | None,
         typer.Option(
             "--as",
-            help="Read INPUT as mesh, points or volume. (default: by the file)",
+            metavar="mesh|points|volume",
+            help="What INPUT is read as. (default: by the file)",
             rich_help_panel=FILES,
         ),
     ] = None,
     units: Annotated[
-        str | None,
+        Literal["um", "mm", "cm", "m", "in"] | None,
         typer.Option(
-            help="Unit of a mesh or of points: um, mm, cm, m, in. (default: as in the file, or mm)",
+            metavar="um|mm|cm|m|in",
+            help="Unit of a mesh or of points. (default: as in the file, or mm)",
             autocompletion=unit_names,
             rich_help_panel=FILES,
         ),
     ] = None,
     array: Annotated[
-        str | None, typer.Option(help="Name of the array, if a .npz holds several.", rich_help_panel=FILES)
+        str | None,
+        typer.Option(metavar="NAME", help="Name of the array, if a .npz holds several.", rich_help_panel=FILES),
     ] = None,
     series: Annotated[
-        str | None, typer.Option(help="UID of the series, if a DICOM folder holds several.", rich_help_panel=FILES)
+        str | None,
+        typer.Option(metavar="UID", help="UID of the series, if a DICOM folder holds several.", rich_help_panel=FILES),
     ] = None,
     frame: Frame = None,
     each_label: EachLabel = False,
@@ -88,37 +93,54 @@ def smooth(
     keep_going: KeepGoing = False,
     resolution: Annotated[
         int | None,
-        typer.Option(help="Voxels along the longest side of a mesh or of points. (default: 200)", rich_help_panel=GRID),
+        typer.Option(
+            metavar="N",
+            help="Voxels along the longest side of a mesh or of points. (default: 200)",
+            rich_help_panel=GRID,
+        ),
     ] = None,
     voxel: Annotated[
-        float | None, typer.Option(help="Voxel size instead, mm; of a scan: larger voxels.", rich_help_panel=GRID)
+        float | None,
+        typer.Option(metavar="MM", help="Voxel size instead; of a scan: larger voxels.", rich_help_panel=GRID),
     ] = None,
     spacing: Annotated[
         str | None,
         typer.Option(
-            help="Voxel size of a volume, mm: 0.9,0.9,1.5, or 1. (default: as in the file)", rich_help_panel=GRID
+            metavar="MM,MM,MM",
+            help="Voxel size of a volume: 0.9,0.9,1.5, or 1. (default: as in the file)",
+            rich_help_panel=GRID,
         ),
     ] = None,
     roi: Roi = None,
     shell: Annotated[
         float | None,
         typer.Option(
-            help="Points: a wall of this width along them, mm, instead of the solid inside.", rich_help_panel=SOLID
+            metavar="MM",
+            help="Points: a wall of this width along them, instead of the solid inside.",
+            rich_help_panel=SOLID,
         ),
     ] = None,
     threshold: Annotated[
-        float | None, typer.Option(help="Solid is what has at least this value.", rich_help_panel=SOLID)
+        float | None,
+        typer.Option(metavar="VALUE", help="Solid is what has at least this value.", rich_help_panel=SOLID),
     ] = None,
     between: Annotated[
-        str | None, typer.Option("--range", help="Solid is what lies between: LOW,HIGH.", rich_help_panel=SOLID)
+        str | None,
+        typer.Option(
+            "--range", metavar="LOW,HIGH", help="Solid is what lies between these values.", rich_help_panel=SOLID
+        ),
     ] = None,
     label: Annotated[
-        list[int] | None, typer.Option(help="Solid is what has this label. May be given again.", rich_help_panel=SOLID)
+        list[int] | None,
+        typer.Option(metavar="N", help="Solid is what has this label. May be given again.", rich_help_panel=SOLID),
     ] = None,
     otsu: Annotated[
         bool,
         typer.Option(
-            "--otsu/--no-otsu", show_default=False, help="Find the threshold by Otsu's method.", rich_help_panel=SOLID
+            "--otsu/--no-otsu",
+            show_default=False,
+            help="Find the threshold from the values (Otsu's method).",
+            rich_help_panel=SOLID,
         ),
     ] = False,
     grey: Annotated[
@@ -132,17 +154,31 @@ def smooth(
     ] = False,
     by_component: ByComponent = False,
     despeckle: Annotated[
-        float, typer.Option(help="First remove components up to this volume, mm³.", rich_help_panel=SOLID)
+        float,
+        typer.Option(
+            metavar="MM3",
+            show_default=False,
+            help="First remove components up to this volume. (default: 0)",
+            rich_help_panel=SOLID,
+        ),
     ] = 0.0,
     steps: Annotated[
-        int, typer.Option(help="Smoothing steps: 20 for models, 30 for medical data.", rich_help_panel=SURFACE)
+        int,
+        typer.Option(
+            metavar="N",
+            show_default=False,
+            help="Smoothing steps: more are smoother; 30 suit medical data. (default: 20)",
+            rich_help_panel=SURFACE,
+        ),
     ] = 20,
     method: Annotated[
-        str,
+        Literal["auto", "plain", "refine", "grey"],
         typer.Option(
             "--smooth",
-            help="auto: by the data; plain: the paper's way, for noise; refine: keeps edges and thin walls; "
-            "grey: keeps the grey levels of a scan, too.",
+            metavar="auto|plain|refine|grey",
+            show_default=False,
+            help="auto: by the data; plain: for noise; refine: keeps edges and thin walls; "
+            "grey: keeps the grey levels of a scan, too. (default: auto)",
             rich_help_panel=SURFACE,
         ),
     ] = "auto",
@@ -155,42 +191,57 @@ def smooth(
     smooth_radius: Annotated[
         float | None,
         typer.Option(
-            help="Instead of steps: smooth as a Gaussian of this standard deviation, mm.", rich_help_panel=SURFACE
+            metavar="MM",
+            help="Instead of steps: how far smoothing reaches, as the radius of a Gaussian blur.",
+            rich_help_panel=SURFACE,
         ),
     ] = None,
     crumbs: Annotated[
         float | None,
         typer.Option(
-            help="Remove pieces up to this volume that smoothing broke off, mm³. (default: 8 voxels)",
+            metavar="MM3",
+            help="Remove pieces up to this volume that smoothing broke off. (default: 8 voxels)",
             rich_help_panel=SURFACE,
         ),
     ] = None,
     fidelity: Annotated[
         float | None,
         typer.Option(
+            metavar="NUMBER",
             help="How strongly the data hold, 0 to 1 or more; not with --refine. (default: 0.01)",
-            rich_help_panel=SURFACE,
+            rich_help_panel=ADVANCED,
         ),
     ] = None,
     interface: Annotated[
-        float, typer.Option(help="Voxels from the surface to phi = 0.9.", rich_help_panel=SURFACE)
+        float,
+        typer.Option(
+            metavar="VOXELS",
+            show_default=False,
+            help="From the surface to phi = 0.9. (default: 2)",
+            rich_help_panel=ADVANCED,
+        ),
     ] = 2.0,
     level: Annotated[
         str,
         typer.Option(
-            help="volume: each part keeps its volume; 0: the paper's surface, which shrinks.",
-            rich_help_panel=SURFACE,
+            metavar="volume|NUMBER",
+            show_default=False,
+            help="Where the surface lies. volume: each part keeps its volume; 0: at phi = 0, as in the paper, "
+            "which shrinks. (default: volume)",
+            rich_help_panel=ADVANCED,
         ),
     ] = "volume",
     tolerance: Annotated[
         float | None,
         typer.Option(
-            help="Simplify the mesh: move it by at most this, mm; 0 for all triangles. (default: 0.1 voxels)",
+            metavar="MM",
+            help="Simplify the mesh: move it by at most this; 0 for all triangles. (default: 0.1 voxels)",
             rich_help_panel=SURFACE,
         ),
     ] = None,
     max_triangles: Annotated[
-        int | None, typer.Option(help="Simplify the mesh to at most this many triangles.", rich_help_panel=SURFACE)
+        int | None,
+        typer.Option(metavar="N", help="Simplify the mesh to at most this many triangles.", rich_help_panel=SURFACE),
     ] = None,
     allow_broken: Annotated[
         bool,
@@ -211,11 +262,13 @@ def smooth(
         ),
     ] = False,
     threads: Annotated[
-        int | None, typer.Option(help="Threads to use. (default: one per core)", rich_help_panel=RUN)
+        int | None, typer.Option(metavar="N", help="Threads to use. (default: one per core)", rich_help_panel=RUN)
     ] = None,
     max_memory: Annotated[
         str | None,
-        typer.Option(help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN),
+        typer.Option(
+            metavar="SIZE", help="Memory to use at most, such as 2G. (default: what is free)", rich_help_panel=RUN
+        ),
     ] = None,
     dry_run: Annotated[
         bool,
@@ -384,11 +437,10 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     now, was = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
-    how = ", refined" if request["refine"] else f", fidelity {request['fidelity']:g}"
+    how = ", refined" if request["refine"] else ""
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
-        "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+.4%} of the data, "
-        f"at level {level['common']:.3f}{own}",
+        "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+z.4%} of the data",
         "smoothing": f"{request['steps']} steps{how}, "
         f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
@@ -403,7 +455,7 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     if cost := report["mesh"].get("simplified"):
         rows["simplified"] = (
             f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
-            f"volume {cost['volume_change']:+.4%}, {cost['shells']} shell(s)"
+            f"volume {cost['volume_change']:+z.4%} by that, {cost['shells']} shell(s)"
         )
     verdict = report["verdict"]
     rows["verdict"] = "; ".join(
@@ -412,6 +464,9 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     if len(verdict["tried"]) > 1:
         rows["tried"] = f"{', '.join(verdict['tried'])}: taken is {verdict['taken']}"
     if verbose:
+        if not request["refine"]:
+            rows["fidelity"] = f"{request['fidelity']:g}"
+        rows["level"] = f"{level['common']:.3f}{own}"
         thin = report["walls"]["thinnest"]
         rows["thinnest wall"] = " -> ".join("none" if x is None else f"{x:.3g} mm" for x in thin.values())
         rows["Euler number"] = f"{was['euler_number']} -> {now['euler_number']}"

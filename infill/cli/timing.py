@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from infill.cli.console import print_json, reports_errors, say, table
+from infill.cli.console import print_json, say, table
 
 if TYPE_CHECKING:
     from infill.inspection.printing_time import FeatureMotion, Motion
@@ -31,7 +31,6 @@ COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
 }
 
 
-@reports_errors
 def motion(
     file: Annotated[
         Path, typer.Argument(metavar="A.gcode", help="What a slicer wrote: .gcode, .bgcode or .gcode.3mf.")
@@ -40,34 +39,54 @@ def motion(
         Path | None, typer.Argument(metavar="[B.gcode]", help="A second one, to compare with the first.")
     ] = None,
     model: Annotated[
-        str | None,
+        Literal["jerk", "vector-jerk", "junction", "klipper"] | None,
         typer.Option(
-            help="What bounds the speed at corners: jerk (as PrusaSlicer estimates), vector-jerk (as CuraEngine does), "
-            "junction (Marlin's deviation), klipper.",
+            metavar="jerk|vector-jerk|junction|klipper",
+            help="What bounds the speed at corners: jerk as PrusaSlicer estimates, vector-jerk as CuraEngine does, "
+            "Marlin's junction deviation, or Klipper. (default: as in the file)",
             rich_help_panel=MACHINE,
         ),
     ] = None,
     acceleration: Annotated[
-        float | None, typer.Option(help="Of printing and travel, mm/s².", rich_help_panel=MACHINE)
+        float | None,
+        typer.Option(
+            metavar="MM/S2", help="Of printing and travel. (default: as in the file)", rich_help_panel=MACHINE
+        ),
     ] = None,
-    jerk: Annotated[float | None, typer.Option(help="Of x and y, mm/s.", rich_help_panel=MACHINE)] = None,
-    junction_deviation: Annotated[float | None, typer.Option(help="Marlin's, mm.", rich_help_panel=MACHINE)] = None,
+    jerk: Annotated[
+        float | None,
+        typer.Option(metavar="MM/S", help="Of x and y. (default: as in the file)", rich_help_panel=MACHINE),
+    ] = None,
+    junction_deviation: Annotated[
+        float | None, typer.Option(metavar="MM", help="Marlin's. (default: as in the file)", rich_help_panel=MACHINE)
+    ] = None,
     square_corner_velocity: Annotated[
-        float | None, typer.Option(help="Klipper's, mm/s.", rich_help_panel=MACHINE)
+        float | None,
+        typer.Option(metavar="MM/S", help="Klipper's. (default: as in the file)", rich_help_panel=MACHINE),
     ] = None,
     minimum_cruise_ratio: Annotated[
-        float | None, typer.Option(help="Klipper's, from 0 to less than 1.", rich_help_panel=MACHINE)
+        float | None,
+        typer.Option(
+            metavar="NUMBER",
+            help="Klipper's, from 0 to less than 1. (default: as in the file)",
+            rich_help_panel=MACHINE,
+        ),
     ] = None,
     plate: Annotated[
         int | None,
-        typer.Option(help="Which plate of an archive, .gcode.3mf. (default: the first)", rich_help_panel=FILES),
+        typer.Option(
+            metavar="N", help="Which plate of an archive, .gcode.3mf. (default: the first)", rich_help_panel=FILES
+        ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option(help="Picture to write of a layer, coloured by speed: FILE.png.", rich_help_panel=FILES),
+        typer.Option(
+            metavar="FILE", help="Picture to write of a layer, coloured by speed: a .png.", rich_help_panel=FILES
+        ),
     ] = None,
     layer: Annotated[
-        int | None, typer.Option(help="Which layer, from 1. (default: the middle one)", rich_help_panel=FILES)
+        int | None,
+        typer.Option(metavar="N", help="Which layer, from 1. (default: the middle one)", rich_help_panel=FILES),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.", rich_help_panel=FILES)] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 
 BYTES = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 
@@ -15,7 +15,10 @@ def parse_bytes(text: str) -> int:
     >>> parse_bytes("2G")
     2147483648
     """
-    found = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
-    if not found or float(found[1]) <= 0:
-        raise ParameterError(f"the memory limit is {text!r}; give a number above 0 with K, M, G or T, such as 2G")
+    advice = "give a number above 0 with K, M, G or T, such as 2G"
+    found = re.fullmatch(r"\s*(-?\d+(?:\.\d+)?|nan)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
+    if not found:
+        raise UsageError(f"max_memory is {text!r}; {advice}")
+    if not float(found[1]) > 0:
+        raise ParameterError(f"max_memory is {text!r}; {advice}")
     return int(float(found[1]) * BYTES[found[2].upper()])

@@ -49,7 +49,7 @@ class Sized(Plain):
 
 @dataclass(frozen=True, kw_only=True)
 class Placed(Sized):
-    """A pattern that covers the bed, wherever the parts stand on it; angles in radians."""
+    """A pattern that covers the bed, wherever the parts stand on it."""
 
     angle: float = angle_parameter()
     phase: tuple[float, float] = phase_parameter()
@@ -112,7 +112,7 @@ def unplaced(pattern: str) -> Plain:
 
 
 def placement(pattern: str, parameters: Mapping[str, Any]) -> Plain:
-    """Return the checked parameters of a pattern, angles in radians.
+    """Return the checked parameters of a pattern.
 
     Raises
     ------
@@ -134,7 +134,7 @@ def family_of(pattern: str, parameters: Mapping[str, Any]) -> Family:
     ----------
     pattern : str
     parameters : mapping
-        By name; angles in radians.
+        By name; angles in degrees.
     """
     from infill.filling.families.catalogue import FAMILIES
 

@@ -18,14 +18,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from infill.filling.placement import unplaced
 from infill.filling.prints import copy_mode, pieces, retold, write_print
 from infill.filling.request import AUTO, KEEP, Progress, Request
 from infill.formats.whole_files import check_target, scratch, whole_file
 from infill.gcode.estimates import Change, said_seconds, told_anew
 from infill.inspection.sliced_file import SlicedText, opened
 from infill.version import __version__
-from patterns.given import from_degrees
 
 if TYPE_CHECKING:
     from infill.filling.rules import Rules
@@ -126,7 +124,7 @@ def refill(
         max_deviation=max_deviation,
         layers=layers,
         part=part,
-        parameters=from_degrees(unplaced(pattern), parameters),
+        parameters=parameters,
     )
     if not isinstance(gcode, str | os.PathLike):
         return _refilled_lines(gcode, request, progress)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from infill.checks import positive, within
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from patterns.errors import PatternError
 
 Progress = Callable[[str, float], None]
@@ -41,7 +41,7 @@ class Request:
     part : str, optional
         Refill only objects whose name contains this.
     parameters : mapping
-        Of the pattern, by name; angles in radians.
+        Of the pattern, by name; angles in degrees.
 
     Raises
     ------
@@ -62,18 +62,18 @@ class Request:
             pass
         elif isinstance(self.density, str):
             if self.density != SAME:
-                raise ParameterError(f"density is {self.density!r}; give 'same', or a number above 0 and up to 1")
+                raise UsageError(f"density is {self.density!r}; give 'same', or a number above 0 and up to 1")
         elif not 0 < positive("density", self.density) <= 1:
             raise ParameterError(f"density is {self.density:g}; give 'same', or a number above 0 and up to 1")
         if isinstance(self.smooth_radius, str):
             if self.smooth_radius != AUTO:
-                raise ParameterError(f"smooth radius is {self.smooth_radius!r}; give 'auto', or a number in mm")
+                raise UsageError(f"smooth_radius is {self.smooth_radius!r}; give 'auto', or a number in mm")
         else:
-            within("smooth radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
+            within("smooth_radius", self.smooth_radius, 0, LARGEST_RADIUS, "mm")
         if self.max_deviation is not None:
-            within("max deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
+            within("max_deviation", self.max_deviation, 0, LARGEST_RADIUS, "mm")
         if self.layers is not None and not 1 <= self.layers[0] <= self.layers[1]:
-            raise ParameterError(f"layers are {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
+            raise ParameterError(f"layers is {self.layers[0]} to {self.layers[1]}; count from 1, the lower one first")
         if self.pattern != KEEP and Path(self.pattern).suffix.lower() not in DRAWINGS:
             from infill.filling.families.catalogue import FAMILIES
 
@@ -82,7 +82,7 @@ class Request:
                 advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
                 raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
-            raise ParameterError("keep has the slicer's density; give another pattern, or set it in the slicer")
+            raise UsageError("density is for patterns of ours; keep has the slicer's: leave it out, or set it there")
         if self.parameters:
             from infill.filling.placement import placement
 
@@ -91,7 +91,7 @@ class Request:
             except PatternError as error:
                 raise ParameterError(str(error)) from None
             if self.cell is not None and self.density is not None:
-                raise ParameterError("density and cell are both given, and each decides the other; leave one out")
+                raise UsageError("density and cell are both given, and each decides the other; leave one out")
 
     @property
     def radius(self) -> float:

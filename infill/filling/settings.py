@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.filling.request import AUTO, KEEP, SAME
 from infill.formats.options import parse_number, parse_word
 
@@ -77,7 +77,7 @@ def parse_radius(name: str, value: object) -> str | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise ParameterError(f"{name.replace('_', ' ')} is {value!r}; give auto, or a number in mm") from None
+        raise UsageError(f"{name} is {value!r}; give auto, or a number in mm") from None
 
 
 def parse_share(name: str, value: object) -> str | float:
@@ -89,12 +89,14 @@ def parse_share(name: str, value: object) -> str | float:
     if value == SAME:
         return SAME
     if isinstance(value, str):
-        found = re.fullmatch(r"\s*(\d+(?:\.\d+)?)\s*(%?)\s*", value)
-        share = float(found[1]) / (100 if found[2] else 1) if found else 0.0
+        found = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
+        if not found:
+            raise UsageError(f"{name} is {value!r}; give same, or a share such as 20%")
+        share = float(found[1]) / (100 if found[2] else 1)
     else:
         share = parse_number(name, value)
     if not 0 < share <= 1:
-        raise ParameterError(f"{name} is {value!r}; give same, or a share such as 20%")
+        raise ParameterError(f"{name} is {value!r}; give same, or a share such as 20%, up to 100%")
     return share
 
 
@@ -110,7 +112,7 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
         return numbers[0], numbers[-1]
     found = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
     if not found:
-        raise ParameterError(f"{name} is {value!r}; give a range such as 5-20, or 5-")
+        raise UsageError(f"{name} is {value!r}; give a range such as 5-20, or 5-")
     first = int(found[1])
     return first, int(found[3]) if found[3] else ENDLESS if found[2] else first
 

@@ -13,7 +13,7 @@ from infill.filling.support import LEAST_SHARE, kept_shares
 from infill.filling.tally import Tally
 from infill.gcode.survey import Survey
 from infill.version import __version__
-from patterns.given import in_degrees
+from patterns.declared import parameter_values
 
 FORM = 1
 
@@ -37,7 +37,7 @@ def report_of_refill(
         "form": FORM,
         "request": {
             "pattern": request.pattern,
-            "parameters": in_degrees(placement(request.pattern, request.parameters)),
+            "parameters": parameter_values(placement(request.pattern, request.parameters)),
             "density": request.density,
             "smooth_radius_mm": request.smooth_radius,
             "max_deviation_mm": request.max_deviation,

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from patterns.declared import Named, parameters
-from patterns.errors import PatternError
+from patterns.errors import PatternError, PatternUsageError
 from patterns.given import assigned, nearest, value_of
 
 SET = "set"
@@ -123,7 +123,8 @@ def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = (
             word = text.partition("=")[0].strip().replace("-", "_")
             if word in flags and word not in parameters(kind):
                 raise ParameterError(f"{said}: {word} is not a parameter of {kind.name}; give {flags[word]}") from None
-            raise ParameterError(f"{said}: {error}") from error
+            leaf = UsageError if isinstance(error, PatternUsageError) else ParameterError
+            raise leaf(f"{said}: {error}") from error
         yield Given(name=name, value=value, said=said)
 
 
@@ -142,9 +143,8 @@ def merged(kind: Named, *, command: Iterable[Given], file: Iterable[Given]) -> d
             filed.pop(rival, None)
         both = filed | typed
         if _counts(both, name) and _counts(both, rival):
-            raise ParameterError(
-                f"{name} and {rival} of {kind.name} are both given; {name} replaces {rival}: leave one out"
-            )
+            said = f"{both[name].said} and {both[rival].said}"
+            raise UsageError(f"{said} are both given; {name} of {kind.name} replaces {rival}: leave one out")
     both = filed | typed
     return {name: both[name].value for name in parameters(kind) if name in both}
 
@@ -155,7 +155,7 @@ def _once(given: Iterable[Given]) -> dict[str, Given]:
     for each in given:
         first = found.setdefault(each.name, each)
         if first.value != each.value:
-            raise ParameterError(f"{first.said} and {each.said} differ; give {each.name} once")
+            raise UsageError(f"{first.said} and {each.said} differ; give {each.name} once")
     return found
 
 

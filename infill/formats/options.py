@@ -6,54 +6,54 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from patterns.given import nearest
 
 Reader = Callable[[str, object], Any]
 
 
 def parse_word(name: str, value: object) -> str:
-    """Return a word, or raise ParameterError."""
+    """Return a word, or raise UsageError."""
     if not isinstance(value, str) or not value.strip():
-        raise ParameterError(f"{_said(name)} is {value!r}; it must be a word")
+        raise UsageError(f"{name} is {value!r}; it must be a word")
     return value
 
 
 def parse_flag(name: str, value: object) -> bool:
-    """Return true or false, or raise ParameterError."""
+    """Return true or false, or raise UsageError."""
     if not isinstance(value, bool):
-        raise ParameterError(f"{_said(name)} is {value!r}; it must be true or false")
+        raise UsageError(f"{name} is {value!r}; it must be true or false")
     return value
 
 
 def parse_number(name: str, value: object) -> float:
-    """Return a number, or raise ParameterError."""
+    """Return a number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ParameterError(f"{_said(name)} is {value!r}; it must be a number")
+        raise UsageError(f"{name} is {value!r}; it must be a number")
     return value
 
 
 def parse_whole(name: str, value: object) -> int:
-    """Return a whole number, or raise ParameterError."""
+    """Return a whole number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, int):
-        raise ParameterError(f"{_said(name)} is {value!r}; it must be a whole number")
+        raise UsageError(f"{name} is {value!r}; it must be a whole number")
     return value
 
 
 def parse_wholes(name: str, value: object) -> tuple[int, ...]:
-    """Return whole numbers, of which there may be one alone, or raise ParameterError.
+    """Return whole numbers, of which there may be one alone, or raise UsageError.
 
     >>> parse_wholes("label", [3, 4]), parse_wholes("label", 3)
     ((3, 4), (3,))
     """
     values = value if isinstance(value, (list, tuple)) else (value,)
     if not values:
-        raise ParameterError(f"{_said(name)} is empty; give a whole number, or several")
+        raise UsageError(f"{name} is empty; give a whole number, or several")
     return tuple(parse_whole(name, each) for each in values)
 
 
 def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """Return numbers with commas between, or in a list; raise ParameterError if their count is not in `counts`.
+    """Return numbers with commas between, or in a list; raise UsageError if their count is not in `counts`.
 
     >>> parse_numbers("range", "200, 900", (2,)), parse_numbers("spacing", 0.5, (1, 3))
     ((200.0, 900.0), (0.5,))
@@ -65,14 +65,16 @@ def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[fl
         numbers = tuple(float(part) for part in parts if not isinstance(part, bool))
     except (TypeError, ValueError):
         numbers = ()
-    if len(numbers) not in counts or not all(math.isfinite(number) for number in numbers):
+    if len(numbers) not in counts:
         wanted = " or ".join(map(str, counts))
-        raise ParameterError(f"{_said(name)} is {value!r}; give {wanted} number(s), with commas between")
+        raise UsageError(f"{name} is {value!r}; give {wanted} number(s), with commas between")
+    if not all(map(math.isfinite, numbers)):
+        raise ParameterError(f"{name} is {value!r}; give finite numbers")
     return numbers
 
 
 def parse_level(name: str, value: object) -> Literal["volume"] | float:
-    """Return the level of a surface, by name or number, or raise ParameterError.
+    """Return the level of a surface, by name or number, or raise UsageError.
 
     >>> parse_level("level", "0")
     0.0
@@ -82,7 +84,7 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise ParameterError(f"{_said(name)} is {value!r}; give volume, or a number between -1 and 1") from None
+        raise UsageError(f"{name} is {value!r}; give volume, or a number between -1 and 1") from None
 
 
 def parsed(command: str, readers: Mapping[str, Reader], given: Mapping[str, object]) -> dict[str, Any]:
@@ -98,7 +100,3 @@ def parsed(command: str, readers: Mapping[str, Reader], given: Mapping[str, obje
             word = name.replace("_", "-")
             raise ParameterError(f"{command} has no option {word!r}; {nearest(name, readers)}")
     return {name: readers[name](name, value) for name, value in given.items()}
-
-
-def _said(name: str) -> str:
-    return name.replace("_", " ")

@@ -67,11 +67,13 @@ def read_volume(
     source = Path(path)
     suffix = next((each for each in READERS if source.name.lower().endswith(each)), "")
     if array is not None and suffix != ".npz":
-        raise ParameterError(f"array={array!r} was given for {source}; only an .npz holds named arrays")
+        raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
     if series is not None and not source.is_dir():
-        raise ParameterError(f"series={series!r} was given for {source}; give the folder that holds the series")
+        raise ParameterError(f"series is {series!r}, and {source} is no folder; give the one that holds the series")
     if frame is not None and (source.is_dir() or (suffix and suffix not in FRAMED)):
-        raise ParameterError(f"frame={frame!r} was given for {source}; only {', '.join(FRAMED)} hold frames")
+        raise ParameterError(
+            f"frame is {frame!r}, and only {', '.join(FRAMED)} hold frames, not {source}; leave it out"
+        )
     try:
         if source.is_dir():
             return _read_folder(source, series)

@@ -128,7 +128,8 @@ def _members(archive: zipfile.ZipFile) -> dict[int, str]:
 
 def _member(members: Mapping[int, str], plate: int) -> str:
     if plate not in members:
-        raise ParameterError(f"plate {plate} is not in the archive; it has {', '.join(map(str, sorted(members)))}")
+        there = ", ".join(map(str, sorted(members)))
+        raise ParameterError(f"plate is {plate}, which is not in the archive; it has {there}")
     return members[plate]
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Final, Literal, get_args
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 
 Model = Literal["jerk", "vector-jerk", "junction", "klipper"]
 JERKS: Final = ("jerk", "vector-jerk")
@@ -78,17 +78,17 @@ class Limits:
 
     def __post_init__(self) -> None:
         if self.model not in MODELS:
-            raise ParameterError(f"the model is {self.model!r}; give one of {', '.join(MODELS)}")
+            raise UsageError(f"model is {self.model!r}; give one of {', '.join(MODELS)}")
         for each in fields(self)[1:]:
             given = getattr(self, each.name)
             for value in given if isinstance(given, tuple) else (given,):
                 if not (value > 0 or (value == 0 and each.name in _MAY_BE_ZERO)):
-                    raise ParameterError(f"{each.name.replace('_', ' ')} is {value:g}; give a number above 0")
+                    raise ParameterError(f"{each.name} is {value:g}; give a number above 0")
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
-                raise ParameterError(f"{name.replace('_', ' ')} is infinite; give a number in mm/s²")
+                raise ParameterError(f"{name} is infinite; give a number in mm/s²")
         if self.minimum_cruise_ratio >= 1:
-            raise ParameterError(f"minimum cruise ratio is {self.minimum_cruise_ratio:g}; give a number below 1")
+            raise ParameterError(f"minimum_cruise_ratio is {self.minimum_cruise_ratio:g}; give a number below 1")
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times

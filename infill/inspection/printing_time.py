@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from infill.errors import ParameterError
+from infill.errors import UsageError
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import USED, FoundLimits
 from infill.gcode.limits import Limits, Model
@@ -224,7 +224,8 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     means["jerk"] = "jerk"
     meant = {model for name, model in means.items() if name in fixed}
     if "model" not in fixed and len(meant) > 1:
-        raise ParameterError(f"the limits given belong to {len(meant)} models, {', '.join(sorted(meant))}; name one")
+        names = " and ".join(name for name in means if name in fixed)
+        raise UsageError(f"{names} belong to {len(meant)} models, {', '.join(sorted(meant))}; give model")
     if "model" not in fixed and meant - {"jerk"}:  # there are two models with jerk: the file decides
         fixed["model"] = meant.pop()
     if "acceleration" in fixed:

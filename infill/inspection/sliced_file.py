@@ -72,7 +72,7 @@ class SlicedFile:
             return self.parts[0]
         if plate not in self.plates:
             there = f"it has {', '.join(map(str, self.plates))}" if self.plates else "it has no plates; leave it out"
-            raise ParameterError(f"plate {plate} is not in {self.name}; {there}")
+            raise ParameterError(f"plate is {plate}, which is not in {self.name}; {there}")
         return plate
 
     @contextlib.contextmanager

@@ -26,7 +26,7 @@ def thread_count(asked: int | None = None) -> int:
     3
     """
     if asked is not None:
-        return min(whole("the number of threads", asked, 1), MOST)
+        return min(whole("threads", asked, 1), MOST)
     said = os.environ.get(VARIABLE, "")
     return min(int(said), MOST) if said.isdecimal() and int(said) > 0 else usable_cores()
 

@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import shapely
 
 from infill.checks import length, whole
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.surfaces.stacking import layer_count
-from patterns import PATTERNS, Pattern, PatternError, in_degrees, lacking
-from patterns.given import from_degrees
+from patterns import PATTERNS, Pattern, PatternError, lacking, parameter_values
 from patterns.protocol import lines_of
 
 if TYPE_CHECKING:
@@ -114,7 +113,7 @@ class Block:
         smoothing = self.smoothing
         return {
             "pattern": self.pattern.name,
-            "parameters": in_degrees(self.pattern),
+            "parameters": parameter_values(self.pattern),
             "size": list(self.grid.extents),
             "height": self.height,
             "line_width": self.line_width,
@@ -177,13 +176,14 @@ def plan(
     if len(sides) != 2:
         raise ParameterError(f"size has {len(sides)} numbers; give x and y in mm, or one number for a square")
     width, depth, height = length("size x", sides[0]), length("size y", sides[1]), length("height", height)
-    line_width = length("line width", line_width)
+    line_width = length("line_width", line_width)
     if stamp not in get_args(StampMethod):
-        raise ParameterError(f"there is no stamp {stamp!r}; choose block or exact")
-    across = whole("the number of cells per line", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
+        raise UsageError(f"stamp is {stamp!r}; choose block or exact")
+    across = whole("cells", DEFAULT_CELLS[stamp] if cells is None else cells, 1)
     if stamp == "block" and across % 2 == 0:
         raise ParameterError(
-            f"a block of {across} × {across} cells has no middle cell; use an odd number of cells, or the exact stamp"
+            f"cells is {across}, and a block of {across} × {across} cells has no middle cell; use an odd number, "
+            "or the exact stamp"
         )
     cell = line_width / across
     counts = tuple(max(1, round(side / cell)) for side in (width, depth))
@@ -214,7 +214,7 @@ def plan(
 
 
 def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
-    """Return the pattern that a name and its parameters describe, angles in degrees, or the pattern itself."""
+    """Return the pattern that a name and its parameters describe, or the pattern itself."""
     if not isinstance(pattern, str):
         if isinstance(pattern, type) or lacking(pattern):
             raise ParameterError(f"{pattern!r} is not a pattern; give a name, or a pattern such as Honeycomb(cell=5)")
@@ -229,4 +229,4 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
     for name in parameters:
         if name not in known:
             raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(known)}")
-    return kind(**from_degrees(kind, parameters))
+    return kind(**parameters)

@@ -1,7 +1,5 @@
 """The settings of `infill make`: defaults, overridden by a TOML file, overridden by flags.
 
-Angles are in degrees here, as on the command line; `MakeSettings.make` turns them into radians.
-
 In the file, make's options are at the top level; the pattern's parameters go next to them, or in a table::
 
     pattern = "zigzag"
@@ -20,11 +18,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.formats.assignments import SET, gathered, table_of
 from infill.formats.toml import read_toml, toml_rows
-from patterns import PATTERNS, Pattern, in_degrees
-from patterns.given import from_degrees
+from patterns import PATTERNS, Pattern, parameter_values
 
 if TYPE_CHECKING:
     from infill.making.request import Block
@@ -51,7 +48,7 @@ class MakeSettings:
     steps, fidelity, interface, alpha
         As in `infill.Smoothing`.
     parameters : dict
-        The pattern's own parameters, angles in degrees.
+        The pattern's own parameters.
     """
 
     pattern: str
@@ -67,9 +64,8 @@ class MakeSettings:
     parameters: dict[str, Any] = field(default_factory=dict)
 
     def build_pattern(self) -> Pattern:
-        """Return the pattern with its parameters, angles in radians."""
-        kind = PATTERNS.find(self.pattern)
-        return kind(**from_degrees(kind, self.parameters))
+        """Return the pattern with its parameters."""
+        return PATTERNS.find(self.pattern)(**self.parameters)
 
     def _request(self) -> dict[str, Any]:
         from infill.phasefield.allen_cahn import Smoothing
@@ -103,7 +99,7 @@ class MakeSettings:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = dataclasses.asdict(self)
         del plain["parameters"]
-        own = in_degrees(self.build_pattern())
+        own = parameter_values(self.build_pattern())
         lines = ["# infill make --config THIS_FILE -o OUT", *toml_rows(plain), "", f"[{SET}]", *toml_rows(own), ""]
         return "\n".join(lines)
 
@@ -156,13 +152,12 @@ def parse_size(size: object) -> tuple[float, float]:
     except (TypeError, ValueError):
         lengths = []
     if len(lengths) not in (1, 2):
-        raise ParameterError(f"size is {size!r}; give millimetres as 60x40, or 60 for a square")
+        raise UsageError(f"size is {size!r}; give millimetres as 60x40, or 60 for a square")
     return lengths[0], lengths[-1]
 
 
 def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
     """Return the value of one of make's options if it has the same type as `default`, or raise ParameterError."""
-    word = name.replace("_", "-")
     if name == "size":
         return parse_size(value)
     if isinstance(default, str) or name == "pattern":
@@ -170,7 +165,7 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     else:
         wanted, fits = "a number", _is_number(value)
     if not fits:
-        raise ParameterError(f"{word} is {value!r}; it must be {wanted}")
+        raise UsageError(f"{name} is {value!r}; it must be {wanted}")
     return value
 
 

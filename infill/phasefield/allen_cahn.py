@@ -60,7 +60,7 @@ class Smoothing:
 
     def __post_init__(self) -> None:
         """Check the ranges that do not depend on the data, and convert to plain numbers."""
-        object.__setattr__(self, "steps", whole("the number of steps", self.steps, 0))
+        object.__setattr__(self, "steps", whole("steps", self.steps, 0))
         for name, (low, high) in RANGES.items():
             object.__setattr__(self, name, within(name, getattr(self, name), low, high))
 
@@ -97,7 +97,7 @@ class Smoothing:
         limit = 1 / (2 * sum(shares))
         if self.alpha > limit * (1 + 1e-12):
             raise ParameterError(
-                f"alpha (time step over h²) is {self.alpha:g}; explicit diffusion is stable up to {limit:g} "
+                f"alpha is {self.alpha:g}, the time step over h²; explicit diffusion is stable up to {limit:g} "
                 f"on this {len(spacing)}D grid; lower alpha"
             )
         return tuple(self.alpha * share for share in shares)

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing, phase_field, smooth_reference
 from infill.phasefield.inplace import smooth_inplace
 
@@ -89,7 +89,7 @@ def smooth(
     [1.0, 1.0, 1.0]
     """
     if method != "auto" and method not in KERNELS:
-        raise ParameterError(f"there is no method {method!r}; choose from auto, {', '.join(KERNELS)}")
+        raise UsageError(f"method is {method!r}; choose from auto, {', '.join(KERNELS)}")
     if method in COMPILED and np.ndim(f) > COMPILED_AXES:
         raise ParameterError(f"method {method!r} takes up to {COMPILED_AXES} axes, not {np.ndim(f)}; choose inplace")
     field = phase_field(f)

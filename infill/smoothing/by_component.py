@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast, get_args
 import numpy as np
 
 from infill.checks import length, whole
-from infill.errors import GeometryError, InfillError, ParameterError
+from infill.errors import GeometryError, InfillError, ParameterError, UsageError
 from infill.inspection.fidelity import Word
 from infill.report import FORM
 from infill.result import Clock, Result, told_between
@@ -140,7 +140,7 @@ def _voxel(surface: Surface, resolution: int | None, voxel: float | None) -> flo
     """Return the size of the voxels, mm."""
     if voxel is not None:
         if resolution is not None:
-            raise ParameterError("both voxel and resolution are given; give one of them")
+            raise UsageError("voxel and resolution are both given; give one of them")
         return length("voxel", voxel)
     count = whole("resolution", RESOLUTION if resolution is None else resolution, 1)
     longest = float(np.ptp(surface.vertices[np.unique(surface.faces)], axis=0).max())

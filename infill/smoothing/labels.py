@@ -189,7 +189,7 @@ def _pieces(
     for value in wanted or ():
         if value not in there:
             listed = ", ".join(map(str, there[:LISTED])) + (", …" if len(there) > LISTED else "")
-            raise ParameterError(f"there is no label {value}; the volume holds {listed}")
+            raise ParameterError(f"label is {value}, and the volume holds {listed}; give one that is there")
     taken: set[str] = set()
     pieces = []
     for segment, extent in found:

@@ -139,7 +139,7 @@ def planned(
         voxel=voxel is not None,
         shell=shell is not None,
         threshold=threshold is not None,
-        range=between is not None,
+        between=between is not None,
         label=label is not None,
         otsu=otsu,
         grey=grey,

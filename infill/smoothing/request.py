@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
 from infill.checks import positive, within
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.profile import REFINED, STRAIGHT, Profile
 from infill.phasefield.schedule import FEWEST
@@ -91,22 +91,24 @@ class Request:
     def __post_init__(self) -> None:
         """Check what does not depend on the data."""
         if self.method not in METHODS:
-            raise ParameterError(f"there is no method {self.method!r}; choose from {', '.join(METHODS)}")
+            raise UsageError(f"method is {self.method!r}; choose from {', '.join(METHODS)}")
         if self.refine is not None:
             if self.method not in (AUTO, "refine" if self.refine else "plain"):
-                raise ParameterError(f"refine is {self.refine} and method {self.method}; give one of them")
+                raise UsageError(f"refine is {self.refine} and method {self.method}; give one of them")
             object.__setattr__(self, "method", "refine" if self.refine else "plain")
         if self.radius is not None:
-            object.__setattr__(self, "radius", positive("smooth-radius", self.radius, "mm"))
+            object.__setattr__(self, "radius", positive("radius", self.radius, "mm"))
         if isinstance(self.tolerance, str) and self.tolerance != AUTO:
-            raise ParameterError(f"tolerance is {self.tolerance!r}; give a number of mm, or auto")
+            raise UsageError(f"tolerance is {self.tolerance!r}; give a number of mm, or auto")
+        if self.tolerance is not None and not isinstance(self.tolerance, str):
+            positive("tolerance", self.tolerance, "mm")  # before the work
         if self.crumbs is not None:
             object.__setattr__(self, "crumbs", within("crumbs", self.crumbs, 0, math.inf, "mm³"))
         if not isinstance(self.level, str):
             highest = HIGHEST_REFINED if self.refined else HIGHEST
             object.__setattr__(self, "level", within("level", float(self.level), -highest, highest))
         elif self.level != "volume":
-            raise ParameterError(f"there is no level {self.level!r}; give volume, or a number between -1 and 1")
+            raise UsageError(f"level is {self.level!r}; give volume, or a number between -1 and 1")
         object.__setattr__(self, "despeckle", within("despeckle", self.despeckle, 0, math.inf, "mm³"))
 
     @property
@@ -130,7 +132,7 @@ class Request:
             steps = max(fewest, round(STEPS_PER_VARIANCE * (self.radius / cell) ** 2))
             if steps > MOST_STEPS:
                 raise ParameterError(
-                    f"smooth-radius is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "
+                    f"radius is {self.radius:g} mm, {self.radius / cell:.3g} voxels, which would take {steps} "
                     f"steps; give at most {cell * math.sqrt(MOST_STEPS / STEPS_PER_VARIANCE):.3g} mm, or larger voxels"
                 )
             smoothing = replace(smoothing, steps=steps)

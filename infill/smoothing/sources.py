@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import whole
-from infill.errors import FormatError, GeometryError, ParameterError
+from infill.errors import FormatError, GeometryError, ParameterError, UsageError
 from infill.formats.mesh_files import READERS, read_mesh
 from infill.formats.point_files import read_points_and_normals
 from infill.formats.segmentations import Segmentation, read_segmentation
@@ -36,7 +36,7 @@ Source = Surface | Volume | NDArray[np.float64]
 LOG = logging.getLogger("infill")
 POINT_SUFFIXES = (".xyz", ".txt", ".pts", ".csv")
 FITTING = {
-    "volume": ("threshold", "range", "label", "otsu", "grey", "voxel"),
+    "volume": ("threshold", "between", "label", "otsu", "grey", "voxel"),
     "mesh": ("resolution", "voxel", "by_component"),
     "points": ("resolution", "voxel", "shell"),
 }
@@ -88,16 +88,18 @@ def read_source(
     """
     source = Path(path)
     if kind is not None and kind not in KINDS:
-        raise ParameterError(f"there is no kind {kind!r}; choose from {', '.join(KINDS)}")
+        raise UsageError(f"kind is {kind!r}; choose from {', '.join(KINDS)}")
     if units is not None and units not in UNITS:
-        raise ParameterError(f"there is no unit {units!r}; choose from {', '.join(UNITS)}")
+        raise UsageError(f"units is {units!r}; choose from {', '.join(UNITS)}")
     found = kind or _kind_of(source)
     if found == "volume":
         if units is not None:
-            raise ParameterError("units are for meshes and points; give the spacing of a volume in mm")
+            raise ParameterError("units is for meshes and points; give the spacing of a volume in mm")
         return _placed(read_volume(source, array=array, series=series, frame=frame), spacing, roi)
-    if any(each is not None for each in (spacing, array, series, frame, roi)):
-        raise ParameterError(f"spacing, array, series, frame and roi are for volumes, and {source} is read as {found}")
+    own = {"spacing": spacing, "array": array, "series": series, "frame": frame, "roi": roi}
+    if any(each is not None for each in own.values()):
+        names = " and ".join(name for name, each in own.items() if each is not None)
+        raise ParameterError(f"{names} is for volumes, and {source} is read as {found}; leave it out")
     if found == "points":
         points, normals = read_points_and_normals(source)
         points = points * _scale(source, points, units)
@@ -176,7 +178,7 @@ def smooth_source(
         voxel=voxel is not None,
         shell=shell is not None,
         threshold=threshold is not None,
-        range=between is not None,
+        between=between is not None,
         label=label is not None,
         otsu=otsu,
         grey=grey,
@@ -206,11 +208,10 @@ def check_fitting(source: Source, **given: bool) -> None:
     wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
     if wrong:
         fits = [each for each in KINDS if wrong[0] in FITTING[each]]
-        name = wrong[0].replace("_", "-")
-        raise ParameterError(f"{name} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
-    ways = [name for name in ("threshold", "range", "otsu") if given[name]]
+        raise ParameterError(f"{wrong[0]} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
+    ways = [name for name in ("threshold", "between", "otsu") if given[name]]
     if len(ways) > 1:
-        raise ParameterError(f"{' and '.join(ways)} exclude each other; give one of them")
+        raise UsageError(f"{' and '.join(ways)} exclude each other; give one of them")
 
 
 def threshold_of(threshold: float | None, between: tuple[float, ...] | None, *, otsu: bool) -> Any:  # noqa: ANN401
@@ -222,7 +223,7 @@ def voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: 
     """Return the size of the voxels for points (N, 3), mm."""
     if voxel is not None:
         if resolution is not None:
-            raise ParameterError("both voxel and resolution are given; give one of them")
+            raise UsageError("voxel and resolution are both given; give one of them")
         return voxel
     longest = float(np.ptp(points, axis=0).max())
     if longest == 0:

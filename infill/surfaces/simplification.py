@@ -41,7 +41,7 @@ def simplified(
     infill.surfaces.collapsing.collapsed : How it is done.
     """
     near = None if tolerance is None else positive("tolerance", tolerance, "mm")
-    few = FEWEST if triangles is None else whole("the number of triangles", triangles, FEWEST)
+    few = FEWEST if triangles is None else whole("max_triangles", triangles, FEWEST)
     found = collapsed(surface, tolerance=None if near is None else SAFE * near, triangles=few, threads=threads)
     if found is None:
         raise GeometryError(

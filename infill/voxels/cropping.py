@@ -71,7 +71,7 @@ def cropped(volume: Volume, roi: Box, *, varied: bool = True) -> Volume:
     kept = part(volume, tuple(low.tolist()), tuple(high.tolist()))
     least, most = kept.values.min().item(), kept.values.max().item()
     if varied and least == most:
-        raise ParameterError(f"the roi holds {least:g} in all cells, so no surface; make it larger, or move it")
+        raise ParameterError(f"roi holds {least:g} in all cells, so no surface; make it larger, or move it")
     return kept
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import length, whole
-from infill.errors import GeometryError, ParameterError
+from infill.errors import GeometryError, ParameterError, UsageError
 from infill.grid import Grid
 from infill.machine import require_memory
 from infill.surface import Surface
@@ -199,7 +199,7 @@ def voxelise_reported(
 ) -> Voxelised:
     """Return the cells inside a mesh, what had to be assumed, and the mesh actually used: see `voxelise`."""
     if voxel is not None and resolution is not None:
-        raise ParameterError("both voxel and resolution are given; give one of them")
+        raise UsageError("voxel and resolution are both given; give one of them")
     margin = whole("margin", margin, 0)
     if len(surface.faces) == 0:
         raise GeometryError("the mesh has no triangles, so nothing is inside; give a closed mesh")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.checks import positive, within
-from infill.errors import ParameterError
+from infill.errors import ParameterError, UsageError
 from infill.volume import Volume
 
 SIGNS = (-1, 1)  # void and solid, as in a phase field
@@ -67,7 +67,7 @@ def threshold(
     """
     ways = [low is not None or high is not None, label is not None, otsu]
     if sum(ways) > 1:
-        raise ParameterError("a threshold or range, a label and Otsu's method exclude each other; give one of them")
+        raise UsageError("threshold, label and otsu exclude each other; give one of them")
     values = volume.values
     least, most = _ends(values)
     used: dict[str, Any]
@@ -88,7 +88,7 @@ def threshold(
     if count in (0, solid.size):
         amount = "no cell" if count == 0 else "every cell"
         raise ParameterError(
-            f"{amount} would be solid by {_said(used)}; the values go from {least:g} to {most:g}{_labels(values)}; "
+            f"{_said(used)}, and {amount} would be solid; the values go from {least:g} to {most:g}{_labels(values)}; "
             "choose within them"
         )
     used |= {"values": [+least, +most], "solid": count / solid.size}  # of booleans, 0 and 1
@@ -243,11 +243,11 @@ def _plain(volume: Volume, least: float, most: float) -> tuple[NDArray[Any], dic
 
 
 def _check_ends(low: float | None, high: float | None) -> None:
-    for name, value in (("low", low), ("high", high)):
+    for value in (low, high):
         if value is not None:
-            within(f"{name} end of the range", value, -math.inf, math.inf)
+            within("threshold", value, -math.inf, math.inf)
     if low is not None and high is not None and low > high:
-        raise ParameterError(f"the range goes from {low:g} to {high:g}; give the lower end first")
+        raise ParameterError(f"threshold goes from {low:g} to {high:g}; give the lower end first")
 
 
 def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDArray[np.bool_]:
@@ -262,7 +262,7 @@ def _between(values: NDArray[Any], low: float | None, high: float | None) -> NDA
 
 def _labelled(values: NDArray[Any], labels: tuple[int, ...]) -> NDArray[np.bool_]:
     if not labels:
-        raise ParameterError("no label is given; give one, or several")
+        raise ParameterError("label is empty; give one, or several")
     solid = np.zeros_like(values, dtype=bool)
     for label in labels:
         if isinstance(label, bool) or not isinstance(label, int | np.integer):
@@ -318,6 +318,11 @@ def _labels(values: NDArray[Any]) -> str:
 
 def _said(used: dict[str, Any]) -> str:
     if used["method"] == "label":
-        return f"label {', '.join(str(each) for each in used['label'])}"
-    ends = " to ".join(f"{name} {used[name]:g}" for name in ("low", "high") if used.get(name) is not None)
-    return f"{used['method']} {ends}".strip()
+        return f"label is {', '.join(str(each) for each in used['label'])}"
+    if used["method"] != "range":
+        found = f", {used['low']:g}" if "low" in used else ""
+        return f"what is solid is found by {used['method']}{found}"
+    low, high = (used.get(end) for end in ("low", "high"))
+    if low is None or high is None:
+        return f"threshold is {f'{low:g}' if high is None else f'up to {high:g}'}"
+    return f"threshold is {low:g} to {high:g}"

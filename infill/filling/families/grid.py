@@ -14,7 +14,7 @@ SHARE = 0.3  # of a cell that a radius may have, so that cells stay nearly squar
 
 @dataclass(frozen=True, kw_only=True)
 class Zigzags:
-    """Flanks at 45° to the rows, which run at `angle` radians; `cell` is the distance between parallel flanks.
+    """Flanks at 45° to the rows, which run at `angle` degrees; `cell` is the distance between parallel flanks.
 
     >>> rows = Zigzags(name="zigzag", summary="").rows(4.0, 0.45, 1.0)
     >>> round(rows.waves[0].height, 3), round(rows.pitch, 3)
@@ -57,4 +57,4 @@ class Zigzags:
 
 
 ZIGZAG = Zigzags(name="zigzag", summary="the paper's crossing strokes, resolved into zigzags that touch")
-GRID = Zigzags(name="grid", summary="squares; every crossing resolved, so that no bead runs over another", angle=TURN)
+GRID = Zigzags(name="grid", summary="squares; every crossing resolved, so that no bead runs over another", angle=45.0)

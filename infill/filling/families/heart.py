@@ -19,7 +19,7 @@ class ConcentricHeart:
     """Hearts inside one another, `cell` apart at their straight sides and up to twice that at their lobes.
 
     They lie about `middle`, mm, which is to be that of the whole part in every layer, or else about the middle of the
-    box, turned by `angle` radians.
+    box, turned by `angle` degrees.
     """
 
     name: str = "concentric-heart"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 from infill.filling.families.protocol import TOUCH, Bounds, Path
@@ -30,7 +29,7 @@ class Rectilinear:
     ) -> list[Path]:
         """Return one line per row; see `Family`."""
         line = Wave(period=cell, bottom=cell, top=0, height=0)
-        return strands(Rows(waves=[line], pitch=cell, slip=0, angle=math.radians((45, 135)[layer % 2])), bounds)
+        return strands(Rows(waves=[line], pitch=cell, slip=0, angle=(45, 135)[layer % 2]), bounds)
 
     def cell_for(self, density: float, line_width: float) -> float:
         """Return the cell for a density; see `Family`."""

@@ -11,7 +11,7 @@ from infill.filling.families.protocol import Bounds, Family, Path
 
 @dataclass(frozen=True, kw_only=True)
 class Turned:
-    """The lines of another family, turned by `angle` radians about (0, 0), then shifted by `phase`, mm."""
+    """The lines of another family, turned by `angle` degrees about (0, 0), then shifted by `phase`, mm."""
 
     family: Family
     angle: float = 0.0

@@ -44,7 +44,7 @@ class Wave:
 
 @dataclass(frozen=True, kw_only=True)
 class Rows:
-    """Waves that repeat every `pitch` mm across the rows, each row `slip` mm further on; turned by `angle` radians."""
+    """Waves that repeat every `pitch` mm across the rows, each row `slip` mm further on; turned by `angle` degrees."""
 
     waves: Sequence[Wave]
     pitch: float
@@ -106,9 +106,9 @@ def _corners(wave: Wave) -> Path:
 def _turn(points: Path, angle: float) -> Path:
     if not angle:
         return points
-    cosine, sine = math.cos(angle), math.sin(angle)
-    x, y = points[..., 0], points[..., 1]
-    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+    from patterns.linework import turn
+
+    return turn(points, angle)
 
 
 def _turned(bounds: Bounds, angle: float) -> Bounds:

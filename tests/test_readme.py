@@ -1,0 +1,123 @@
+"""What README shows works: its blocks, read from it, run in their order in a folder that holds a user's own files."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from handmade_prints import Dialect, written
+from test_command_line import run
+from test_label_tables import FIELDS, seg_nrrd
+from test_scans import write_series
+
+ROOT = Path(__file__).resolve().parents[1]
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+# Lines that install something, or build in a clone.
+SKIPPED = {
+    "pip install phasefill",
+    "pip install phasefill          # or: pipx install phasefill, or: uvx phasefill make honeycomb -o honeycomb.stl",
+    "make demo      # the three designs as STL, with a picture of each",
+    "make test      # the whole test suite",
+}
+# What a user has, and the README therefore does not make.
+GIVEN = {
+    "scan.nrrd",
+    "scan.nii.gz",
+    "large.nii.gz",
+    "labels.nrrd",
+    "labels.seg.nrrd",
+    "dicom-folder",
+    "part.stl",
+    "cloud.xyz",
+    "leaf.svg",
+    "print.gcode",
+    "before.gcode",
+    "after.gcode",
+}
+
+
+def blocks(text: str) -> list[tuple[str, str]]:
+    """Return the fenced blocks of a page: the language, and what stands in them.
+
+    >>> blocks("a\\n```bash\\ninfill list\\n```\\nb\\n")
+    [('bash', 'infill list\\n')]
+    """
+    return [(found[1], found[2]) for found in FENCE.finditer(text)]
+
+
+README = blocks((ROOT / "README.md").read_text(encoding="utf-8"))
+LINES = [line for language, block in README if language == "bash" for line in block.splitlines()]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with nothing but small stand-ins for what a user has."""
+    sitk = pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
+    monkeypatch.chdir(tmp_path)
+    shape = (26, 26, 26)
+    radius = np.linalg.norm(np.indices(shape) - 12.5, axis=0)
+    bone = np.clip(226 + 100 * (8 - radius), -1000, 1000).round().astype(np.int16)
+    image = sitk.GetImageFromArray(bone)
+    image.SetSpacing((0.7, 0.7, 1.0))
+    for name in ("scan.nrrd", "scan.nii.gz", "large.nii.gz"):
+        sitk.WriteImage(image, name)
+    Path("dicom-folder").mkdir()
+    write_series(sitk, Path("dicom-folder"), "1.2.826.0.1.1", image)
+    labels = np.where(radius < 8, 3, 0).astype(np.uint8)
+    labels[13:][labels[13:] == 3] = 4
+    sitk.WriteImage(sitk.GetImageFromArray(labels), "labels.nrrd")
+    seg_nrrd(Path("labels.seg.nrrd"), FIELDS.partition("Segment10")[0], (labels.T.clip(2) - 2).astype(np.uint8))
+    trimesh.creation.box((40, 4, 3)).export("part.stl")  # slender: voxels are counted along its length
+    np.savetxt("cloud.xyz", trimesh.sample.sample_surface(trimesh.creation.icosphere(3, 5.0), 4000, seed=1)[0])
+    leaf = '<path d="M2 10 Q10 0 18 10 Q10 20 2 10 Z"/>'
+    Path("leaf.svg").write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">{leaf}</svg>'
+    )
+    for name in ("print.gcode", "before.gcode", "after.gcode"):
+        Path(name).write_bytes(written(Dialect(layers=5)))
+    assert {path.name for path in tmp_path.iterdir()} == GIVEN
+    return tmp_path
+
+
+def done(line: str) -> Any:
+    """Run a line as a shell would, in this process, and return what came of it."""
+    words = shlex.split(line, comments=True)
+    target = words.pop() if ">" in words else ""
+    result = run(*(word for word in words[1:] if word != ">"))
+    if target:
+        Path(target).write_text(result.stdout)
+    return result
+
+
+def test_every_block_has_a_language() -> None:
+    assert {language for language, _ in README} == {"bash", "python", "text"}
+    for line in LINES:
+        assert line.startswith("infill ") or line in SKIPPED
+    assert set(LINES) >= SKIPPED
+
+
+def test_the_blocks_of_the_readme_run_in_their_order(folder: Path) -> None:
+    for language, block in README:
+        if language == "python":
+            exec(compile(block, "README.md", "exec"), {})
+        for line in block.splitlines() if language == "bash" else []:
+            if line in SKIPPED:
+                continue
+            result = done(line)
+            assert result.exit_code == 0, f"{line}\n{result.output}"
+            for made in re.findall(r"(?:-o|--preview|--save-config|--plot|>) (\S+)", line.partition(" #")[0]):
+                if "--dry-run" not in line and "{" not in made:
+                    assert Path(made).stat().st_size > 100, line
+    assert Path("report.json").read_text().startswith("{")
+    assert {"Femur, left_right.stl", "Cartilage.stl"} & {path.name for path in folder.iterdir()}
+
+
+def test_a_command_that_fails_leaves_no_report(folder: Path) -> None:
+    """What is redirected is JSON or nothing."""
+    assert done("infill make honeycomb -o part.stl --json > report.json").exit_code == 1
+    assert Path("report.json").read_text() == ""
