@@ -205,7 +205,8 @@ def test_a_value_that_is_missing_is_wrong_usage(command: str) -> None:
 @pytest.mark.parametrize("command", COMMANDS)
 def test_an_unknown_option_is_wrong_usage(command: str) -> None:
     usage_error(run(command, "x", "--nonsense"), "--nonsense")
-    usage_error(run(command, "x", "y", "z", "more"), "more|unexpected")
+    if command != "check":  # which takes any number of meshes
+        usage_error(run(command, "x", "y", "z", "more"), "more|unexpected")
 
 
 @pytest.mark.parametrize(

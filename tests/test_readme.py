@@ -90,7 +90,7 @@ def done(line: str) -> Any:
     target = words.pop() if ">" in words else ""
     result = run(*(word for word in words[1:] if word != ">"))
     if target:
-        Path(target).write_text(result.stdout)
+        Path(target).write_bytes(result.stdout_bytes)
     return result
 
 

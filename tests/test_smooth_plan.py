@@ -90,7 +90,6 @@ def test_it_is_told_in_words(folder: Path) -> None:
         ("gone.stl", "there is no file gone.stl"),
         ("two.stl --threshold 3", "threshold is for"),
         ("two.stl --voxel 100", "voxel is 100 mm and the part"),
-        ("p.xyz --resolution 30 --voxel 1", "both voxel and resolution are given"),
         ("p.xyz --voxel 1 --shell 0.5", "shell is 0.5 mm and voxel 1 mm"),
         ("ball.npy --max-memory 1M", "is allowed; give larger voxels"),
         ("ball.npy -o old.stl", "old.stl exists"),

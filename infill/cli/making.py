@@ -234,7 +234,7 @@ def make(
         files = deliver_all(parts)
     if not quiet and result is not None:
         say(_summary(result.report, files, settings.size, verbose=verbose))
-    elif not quiet and files:
+    elif not quiet and files != [str(STDOUT)]:
         say(f"wrote {', '.join(files)}")
     if as_json and result is not None:
         print_json({**result.report, "files": files})

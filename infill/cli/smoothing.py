@@ -53,11 +53,14 @@ def smooth(
         ),
     ] = None,
     config: Annotated[
-        Path | None, typer.Option(help="TOML file of options; flags override it.", rich_help_panel=FILES)
+        Path | None,
+        typer.Option(metavar="FILE", help="TOML file of options; flags override it.", rich_help_panel=FILES),
     ] = None,
     save_config: Annotated[
         Path | None,
-        typer.Option(help="TOML file to write all options to, as resolved; - for stdout.", rich_help_panel=FILES),
+        typer.Option(
+            metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
+        ),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,

@@ -86,7 +86,7 @@ def grid_around(
 ) -> Grid:
     """Return the grid on which a mesh is looked at: see `voxelise`."""
     if voxel is not None and resolution is not None:
-        raise ParameterError("both voxel and resolution are given; give one of them")
+        raise UsageError("voxel and resolution are both given; give one of them")
     lower, upper = surface.bounds
     extents = upper - lower
     if not extents.max() > 0:
