@@ -9,7 +9,7 @@ from typing import Annotated, Any, BinaryIO
 
 import typer
 
-from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
+from infill.cli.completing import pattern_assignments, pattern_names, stamp_names, surface_names
 from infill.cli.console import as_bytes, print_json, progress_bar, reports_errors, say, table
 
 SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
@@ -100,6 +100,23 @@ def make(
         int | None,
         typer.Option(help="Grid cells across a line. (default: 3 for block, 5 for exact)", rich_help_panel=BLOCK),
     ] = None,
+    surface: Annotated[
+        str | None,
+        typer.Option(
+            help="prism: vertical walls along the contour, between flat caps; grid: the paper's isosurface as it is. "
+            "(default: prism; grid for a tolerance of 0)",
+            autocompletion=surface_names,
+            rich_help_panel=BLOCK,
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            help="How far the contour may lie from the isosurface's, mm; its area stays. 0 keeps the raw isosurface. "
+            "(default: 0.002)",
+            rich_help_panel=BLOCK,
+        ),
+    ] = None,
     steps: Annotated[
         int | None,
         typer.Option(help="Smoothing steps. (default: 10)", rich_help_panel=BLOCK),
@@ -147,6 +164,8 @@ def make(
         "line_width": line_width,
         "stamp": stamp,
         "cells": cells,
+        "surface": surface,
+        "tolerance": tolerance,
         "steps": steps,
         "fidelity": fidelity,
         "interface": interface,

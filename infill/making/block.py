@@ -19,13 +19,16 @@ from infill.errors import GeometryError
 from infill.inspection.changes import Changes
 from infill.inspection.layers import Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
-from infill.making.request import Block, StampMethod, plan
+from infill.making.request import Block, StampMethod, SurfaceMethod, plan
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
 from infill.report import report_of
 from infill.result import Clock, Progress, Result
+from infill.surfaces.contours import contours
+from infill.surfaces.prisms import prism
 from infill.surfaces.stacking import extruded
+from infill.surfaces.straightening import straightened
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
 from patterns import Pattern
@@ -34,6 +37,8 @@ from patterns.linework import bodies, sample
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString
+
+    from infill.surface import Surface
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
 MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
@@ -50,6 +55,8 @@ def make(
     stamp: StampMethod = "block",
     cells: int | None = None,
     smoothing: Smoothing = Smoothing(),  # noqa: B008 - frozen
+    surface: SurfaceMethod | None = None,
+    tolerance: float | None = None,
     allow_broken: bool = False,
     max_memory: int | None = None,
     progress: Progress | None = None,
@@ -74,6 +81,13 @@ def make(
         Grid cells across a line: 3 for "block" (odd), 5 for "exact".
     smoothing : Smoothing
         The paper takes 10 steps for patterns.
+    surface : {"prism", "grid"}, optional
+        "prism", the default: vertical walls along the contour of the smoothed layer, between flat caps.
+        "grid" is the paper's: the isosurface of the stacked layers as it is, with rounded rims.
+    tolerance : float, optional
+        How far the contour of a prism may lie from the isosurface's at mid height, mm: 0.002 by default, and at most a
+        tenth of the line width. Every ring keeps its area. 0 keeps the raw isosurface: "grid", unless "prism" is asked
+        for, which then has the whole contour.
     allow_broken : bool
         Return a result in which walls broke or vanished, and say so in the report, instead of raising.
     max_memory : int, optional
@@ -103,7 +117,8 @@ def make(
     Source: Wang et al. 2020, section 3.4.
 
     The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its volume change is
-    how much smoothing changed the layer: the rounding of the rims, at most half a layer, is not included.
+    how much smoothing changed the layer: the rounding of the rims of the surface "grid", at most half a layer, is not
+    included.
 
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
@@ -119,6 +134,8 @@ def make(
             cells=cells,
             smoothing=smoothing,
             parameters=parameters,
+            surface=surface,
+            tolerance=tolerance,
         )
         block.require_memory(max_memory)
         points = _points(block)
@@ -139,21 +156,21 @@ def make(
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
     with clock.stage("surface", 0.5):
-        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=block.origin)
-        if not surface.closed or surface.volume <= 0:
+        mesh = _surface(block, smoothed)
+        if not mesh.closed or mesh.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
     cells_per_layer = math.prod(block.grid.shape)
     layer = math.prod(block.grid.extents) * block.height
     components = after.topology.components
     report = report_of(
         product="make",
-        surface=surface,
+        surface=mesh,
         request=block.asked(),
         grid=block.laid_out(),
         solid={
             "data": area / cells_per_layer * layer,
             "change": volume_change,
-            "density": surface.volume / layer,
+            "density": mesh.volume / layer,
             "level": {"method": "fixed", "common": 0.0, "lowest": 0.0, "highest": 0.0, "components": components},
         },
         data=before.topology.extruded,
@@ -164,7 +181,16 @@ def make(
         seconds=clock.seconds,
     )
     stages = MakeStages(points=points, lines=block.lines, grid=block.grid, stamp=data, smoothed=smoothed)
-    return Result(surfaces={"block": surface}, report=report, stages=stages)
+    return Result(surfaces={"block": mesh}, report=report, stages=stages)
+
+
+def _surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
+    """Return the surface that was asked for."""
+    spacing = tuple(block.grid.cell_size.tolist())
+    if block.surface == "grid":
+        return extruded(smoothed, block.height, spacing, origin=block.origin)
+    contour = contours(smoothed, spacing, origin=block.origin)
+    return prism(straightened(contour, block.tolerance), block.height)
 
 
 def _points(block: Block) -> NDArray[np.float64]:

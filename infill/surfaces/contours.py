@@ -85,8 +85,8 @@ def contours(
     -----
     These are the horizontal cuts of the surface that `infill.extrude` returns, between its rims: the same values,
     interpolated linearly along the edges of the grid. In a square whose corners alternate, solid is joined across the
-    middle if the bilinear saddle there is solid (Nielson and Hamann 1991, the asymptotic decider), as the marching cubes
-    of Lewiner et al. 2003 decide for two equal layers.
+    middle if the bilinear saddle there is solid (the asymptotic decider of Nielson and Hamann 1991), as the marching
+    cubes of Lewiner et al. 2003 decide for two equal layers.
 
     >>> contours(np.ones((4, 4))).areas.round(4).tolist()  # the four corners are cut off
     [15.5]
@@ -121,16 +121,16 @@ def _crossings(field: NDArray[np.float32], solid: Flags) -> tuple[Floats, Indice
     return np.concatenate(points), numbers[0], numbers[1]
 
 
-def _steps(
-    field: NDArray[np.float32], solid: Flags, along_x: Indices, along_y: Indices, count: int
-) -> Indices:
-    """Return the crossing that follows each crossing, (N,): the squares of four centres are walked, solid on the left."""
+def _steps(field: NDArray[np.float32], solid: Flags, along_x: Indices, along_y: Indices, count: int) -> Indices:
+    """Return the crossing that follows each crossing, (N,), solid on the left: a step through each square of centres."""
     parts = [(slice(i, i - 1 or None), slice(j, j - 1 or None)) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     corner = np.stack([solid[part] for part in parts])  # counter-clockwise
     mixed = np.nonzero((corner != corner[0]).any(axis=0))
     corner = corner[:, mixed[0], mixed[1]]
     i, j = mixed
-    side = np.stack([along_x[i, j], along_y[i + 1, j], along_x[i, j + 1], along_y[i, j]])  # from each corner to the next
+    side = np.stack(
+        [along_x[i, j], along_y[i + 1, j], along_x[i, j + 1], along_y[i, j]]
+    )  # from each corner to the next
     value = np.stack([field[part][mixed] for part in parts]).astype(np.float64)
     leaving = corner & ~np.roll(corner, -1, axis=0)
     entering = ~corner & np.roll(corner, -1, axis=0)
@@ -151,11 +151,11 @@ def _steps(
 def _diagonal(value: Floats, corner: Flags) -> Floats:
     """Return the product of the solid corners less that of the void ones: positive if the saddle is solid."""
     even, odd = value[0] * value[2], value[1] * value[3]
-    return np.where(corner[0], even - odd, odd - even)
+    return np.asarray(np.where(corner[0], even - odd, odd - even))
 
 
 def cycles(ahead: Indices) -> tuple[Indices, Indices]:
-    """Return the cycles of a permutation (N,), each from its lowest number on: all numbers in order, and where each begins.
+    """Return the cycles of a permutation (N,), each from its lowest number on, and where each begins.
 
     >>> [each.tolist() for each in cycles(np.array([2, 1, 3, 0]))]
     [[0, 2, 3, 1], [0, 3, 4]]

@@ -12,6 +12,7 @@ from infill.surfaces.contours import Contours
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
+Complexes = NDArray[np.complex128]
 Flags = NDArray[np.bool_]
 
 # Of the tolerance, how far a chord may lie from the corners that it replaces before its ends are moved. A circle lies
@@ -37,9 +38,9 @@ def straightened(contours: Contours, tolerance: float) -> Contours:
 
     Notes
     -----
-    Corners are chosen by halving chords at the corner furthest from them (Ramer 1972, Douglas and Peucker 1973), on all
-    chords at once. Chords of a convex curve lie inside it, so the corners that are left are moved outwards by as much as
-    keeps the area: a corner by (a + b) / l, where a and b are the areas between the chords beside it and what they
+    Corners are chosen by halving chords at the corner furthest from them (Ramer 1972, Douglas and Peucker 1973), all
+    chords at once. Chords of a convex curve lie inside it, so the corners that are left are moved outwards by as much
+    as keeps the area: a corner by (a + b) / l, where a and b are the areas between the chords beside it and what they
     replace, and l is the distance between its neighbours. Chords that then lie too far away are halved again.
 
     Where chords cross, or pass a ring so thin that they might pass on its wrong side, the original corners come
@@ -56,7 +57,7 @@ def straightened(contours: Contours, tolerance: float) -> Contours:
     while True:
         chords = _fitted(rings, kept, tolerance)
         tangled = _tangled(chords, frail, tolerance)
-        short = tangled[np.diff(np.flatnonzero(np.append(kept, True)))[tangled] > 1]  # noqa: FBT003
+        short = tangled[np.diff(np.flatnonzero(np.append(kept, True)))[tangled] > 1]
         if len(short) == 0:
             return chords
         kept |= np.isin(np.cumsum(kept) - 1, short)
@@ -85,18 +86,23 @@ def _furthest_from_first(rings: Contours) -> Indices:
 
 def _halve(rings: Contours, kept: Flags, most: float) -> None:
     """Keep more corners, in place, until all others lie no further than `most` from their chord."""
-    points = rings.points
+    points = _complex(rings.points)
     where = np.arange(len(points))  # corners on chords that are not yet near enough
     while len(where):
         begins = np.flatnonzero(kept[where])
+        counts = np.diff(begins, append=len(where))
         corner = where[begins]
-        chord = np.repeat(np.arange(len(corner)), np.diff(begins, append=len(where)))
-        end = _next_kept(rings, kept)[corner]
-        distance = _distances(points[where], points[corner][chord], points[end][chord])
+        start, end = (np.repeat(points[each], counts) for each in (corner, _next_kept(rings, kept)[corner]))
+        distance = _distances(points[where], start, end)
         far = np.maximum.reduceat(distance, begins)
         split = far > most
-        kept[where[_first_of(distance == far[chord], begins)[split]]] = True
-        where = where[split[chord]]
+        kept[where[_first_of(distance == np.repeat(far, counts), begins)[split]]] = True
+        where = where[np.repeat(split, counts)]
+
+
+def _complex(points: Floats) -> Complexes:
+    """Return points (N, 2) as x + iy, for which arithmetic is fast."""
+    return np.ascontiguousarray(points).view(np.complex128)[:, 0]
 
 
 def _next_kept(rings: Contours, kept: Flags) -> Indices:
@@ -115,46 +121,42 @@ def _first_of(flags: Flags, begins: Indices) -> Indices:
     return marked[np.searchsorted(marked, begins)]
 
 
-def _distances(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Return how far each point (N, 2) is from its segment."""
+def _distances(points: Complexes, start: Complexes, end: Complexes) -> Floats:
+    """Return how far each point (N,) is from its segment."""
     along, away = end - start, points - start
-    squared = np.einsum("ij,ij->i", along, along)
-    share = np.einsum("ij,ij->i", along, away) / np.where(squared > 0, squared, 1)
-    x, y = (away - along * share.clip(0, 1)[:, None]).T
-    return np.hypot(x, y)
+    squared = along.real**2 + along.imag**2
+    share = (along.real * away.real + along.imag * away.imag) / np.where(squared > 0, squared, 1)
+    return np.asarray(np.abs(away - along * share.clip(0, 1)))
 
 
 def _fitted(rings: Contours, kept: Flags, tolerance: float) -> Contours:
-    """Return the chords with their ends moved so that every area is kept; in place, more corners are kept where needed."""
+    """Return the chords with their ends moved so that every area is kept; keep more corners, in place, where needed."""
+    points, areas = _complex(rings.points), rings.areas
     while True:
         at = np.flatnonzero(kept)
-        chord = np.cumsum(kept) - 1
-        chords = Contours(points=rings.points[at], first=np.searchsorted(at, rings.first).astype(np.intp))
-        moved = _with_areas(chords, rings.areas, _left_out(rings, chords, at, chord))
-        start, end = moved.points, moved.points[moved.ahead]
-        distance = _distances(rings.points, start[chord], end[chord])
-        far = np.maximum.reduceat(distance, at)
-        x, y = (moved.points - chords.points).T
-        strayed = np.hypot(x, y) > tolerance
-        back = np.empty_like(moved.ahead)
-        back[moved.ahead] = np.arange(len(at))
-        split = (far > tolerance) | strayed | strayed[moved.ahead]
         counts = np.diff(at, append=len(kept))
+        chords = Contours(points=rings.points[at], first=np.searchsorted(at, rings.first).astype(np.intp))
+        ahead = chords.ahead
+        moved = _with_areas(chords, areas, _left_out(rings, chords, at, counts))
+        start = _complex(moved.points)
+        distance = _distances(points, np.repeat(start, counts), np.repeat(start[ahead], counts))
+        strayed = np.abs(start - points[at]) > tolerance
+        split = (np.maximum.reduceat(distance, at) > tolerance) | strayed | strayed[ahead]
         split &= counts > 1
         if not split.any():
             return moved
-        # The furthest from the chord as it was: an end that was moved far is not what is to be kept.
-        distance = _distances(rings.points, chords.points[chord], chords.points[chords.ahead][chord])
+        # At the corner furthest from the chord as it was, since an end that has strayed is further from anything.
+        distance = _distances(points, np.repeat(points[at], counts), np.repeat(points[at][ahead], counts))
         distance[at] = -1
         far = np.maximum.reduceat(distance, at)
-        kept[_first_of(distance == far[chord], at)[split]] = True
+        kept[_first_of(distance == np.repeat(far, counts), at)[split]] = True
 
 
-def _left_out(rings: Contours, chords: Contours, at: Indices, chord: Indices) -> Floats:
+def _left_out(rings: Contours, chords: Contours, at: Indices, counts: Indices) -> Floats:
     """Return the area between each chord and what it replaces, positive on its right."""
-    here = rings.points - chords.points[chord]
-    there = rings.points[rings.ahead] - chords.points[chord]
-    return np.asarray(np.add.reduceat(here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0], at) / 2)
+    points, start = _complex(rings.points), np.repeat(_complex(chords.points), counts)
+    here, there = points - start, points[rings.ahead] - start
+    return np.asarray(np.add.reduceat(here.real * there.imag - here.imag * there.real, at) / 2)
 
 
 def _with_areas(chords: Contours, areas: Floats, left_out: Floats) -> Contours:
@@ -171,9 +173,7 @@ def _with_areas(chords: Contours, areas: Floats, left_out: Floats) -> Contours:
         # Neighbours that move together miss the area by a product of both ways: what is missing is shared by all.
         points = moved.points
         owing = np.repeat((areas - moved.areas) / np.diff(chords.first), np.diff(chords.first)) * 2
-        if not np.isfinite(points).all():
-            break
-    return replace(chords, points=points)
+    return moved
 
 
 def _tangled(chords: Contours, frail: Flags, tolerance: float) -> Indices:
@@ -181,9 +181,11 @@ def _tangled(chords: Contours, frail: Flags, tolerance: float) -> Indices:
     ahead = chords.ahead
     lines = shapely.linestrings(np.stack([chords.points, chords.points[ahead]], axis=1))
     tree = shapely.STRtree(lines)
-    one, other = tree.query(lines, predicate="intersects")
-    apart = (one != other) & (ahead[one] != other) & (ahead[other] != one)
-    found = [one[apart]]
+    one, other = tree.query(lines)  # by their boxes: most of the pairs are neighbours, which need no closer look
+    apart = (one < other) & (ahead[one] != other) & (ahead[other] != one)
+    one, other = one[apart], other[apart]
+    crossed = shapely.intersects(lines[one], lines[other])
+    found = [one[crossed], other[crossed]]
     thin = frail[chords.ring]
     if thin.any():
         near, chord = tree.query(shapely.points(chords.points[thin]), predicate="dwithin", distance=4 * tolerance)

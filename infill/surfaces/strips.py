@@ -12,7 +12,7 @@ from infill.surfaces.contours import Contours, cycles
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-CORNERS = 2000  # of a strip, about; see `infill.surfaces.triangulation`
+CORNERS = 1000  # of a strip, about; see `infill.surfaces.triangulation`
 CLEAR = 1e-5  # of all x: how far a cut keeps from corners, so that a 32-bit file does not merge them
 
 
@@ -25,8 +25,8 @@ class Strips:
     contours : Contours
         The contours, with a corner where a cut crosses them.
     order : (N,) int
-        Corners of the contours: those of the rings around all pieces and the holes in them, one ring after another, solid
-        on the left.
+        Corners of the contours, as they follow each other on the rings around all pieces and around the holes in them:
+        one ring after another, solid on the left.
     first : (R + 1,) int
         Where each ring begins in `order`, and N.
     """
@@ -69,7 +69,7 @@ def _cuts(x: Floats, corners: int) -> Floats:
 
 
 def _crossed(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]:
-    """Return the contours with corners on the cuts, and for each corner 2 n + 1 on cut n, 2 n in the strip before it."""
+    """Return the contours with corners on the cuts, and their places: 2 n + 1 on cut n, 2 n in the strip before it."""
     points, ahead = contours.points, contours.ahead
     strip = np.searchsorted(cuts, points[:, 0])
     across = strip[ahead] - strip
@@ -96,8 +96,7 @@ def _steps(contours: Contours, number: Indices) -> tuple[Indices, Indices]:
     """
     count, ahead = len(number), contours.ahead
     on_cut = np.flatnonzero(number % 2)
-    x, y = contours.points[on_cut].T
-    on_cut = on_cut[np.lexsort((y, number[on_cut]))]
+    on_cut = on_cut[np.lexsort((contours.points[on_cut, 1], number[on_cut]))]
     twin = np.arange(count)
     twin[on_cut] = count + np.arange(len(on_cut))
     there = number[ahead]

@@ -28,8 +28,8 @@ def filled(rings: Contours) -> Indices:
 
     Notes
     -----
-    The constrained Delaunay triangulation of every piece, by GEOS: of all triangulations without further corners it is the
-    one whose smallest angles are largest. It takes time that grows with the square of a piece's corners.
+    The constrained Delaunay triangulation of every piece, by GEOS: of all triangulations without further corners it has
+    the largest smallest angle. It takes time that grows with the square of a piece's corners.
 
     >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
     >>> len(filled(square))
