@@ -250,11 +250,18 @@ def _summary(report: dict[str, Any], files: list[str], asked: tuple[float, float
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
         f"{report['components']} component(s), Euler number {report['mesh']['euler_number']}",
+        "surface": f"{request['surface']}, within {request['tolerance']:g} mm of the isosurface at mid height"
+        if request["tolerance"]
+        else f"{request['surface']}, the isosurface as it is"
+        if request["surface"] == "grid"
+        else "prism, the whole contour of the isosurface",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
         "smoothing": f"{request['steps']} steps, fidelity {request['fidelity']:g}, "
-        f"volume {report['volume_change']:+.2%} (excluding rims)",
+        f"volume {report['volume_change']:+.2%}{' (excluding rims)' if request['surface'] == 'grid' else ''}",
     }
+    if (exact := report["walls"]["exact"]) is not None:
+        rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"
     if any(abs(one - other) > SHOWN for one, other in zip(request["size"], asked, strict=True)):
         rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in asked)} mm asked for"
     if change["pinholes"]:

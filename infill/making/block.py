@@ -19,7 +19,8 @@ from infill.errors import GeometryError
 from infill.inspection.changes import Changes
 from infill.inspection.layers import Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
-from infill.making.request import Block, StampMethod, SurfaceMethod, plan
+from infill.making.forecast import exact_width
+from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMethod, plan
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from infill.surface import Surface
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
+OFF = 0.05  # of the requested width; beyond this, the report tells what the exact stamp would give
 MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
@@ -152,6 +154,7 @@ def make(
         area = solid_area(data)
         volume_change = solid_area(smoothed) / area - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
+        exact = _exact(block, width, cells)
         problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
@@ -176,8 +179,12 @@ def make(
         data=before.topology.extruded,
         result=after.topology.extruded,
         changes=found,
-        walls={"width": {name: _finite(value) for name, value in asdict(width).items()}},
+        walls={
+            "width": {name: _finite(value) for name, value in asdict(width).items()},
+            "exact": exact,
+        },
         problems=problems,
+        mesh={"surface": block.surface, "tolerance": block.tolerance},
         seconds=clock.seconds,
     )
     stages = MakeStages(points=points, lines=block.lines, grid=block.grid, stamp=data, smoothed=smoothed)
@@ -191,6 +198,21 @@ def _surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
         return extruded(smoothed, block.height, spacing, origin=block.origin)
     contour = contours(smoothed, spacing, origin=block.origin)
     return prism(straightened(contour, block.tolerance), block.height)
+
+
+def _exact(block: Block, width: WallWidth, cells: int | None) -> float | None:
+    """Return the width that the exact stamp would give, on a sample; None unless walls are off and that is nearer."""
+    off = abs(width.mean - block.line_width)
+    if block.stamp == "exact" or not off > OFF * block.line_width:
+        return None
+    found = exact_width(
+        block.lines,
+        block.grid,
+        cells=DEFAULT_CELLS["exact"] if cells is None else cells,
+        width=block.line_width,
+        smoothing=block.smoothing,
+    )
+    return found if found is not None and abs(found - block.line_width) < off else None
 
 
 def _points(block: Block) -> NDArray[np.float64]:

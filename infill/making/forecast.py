@@ -27,7 +27,7 @@ WINDOW = 144  # cells across a sample
 WINDOWS = 24
 MARGIN = 16  # cells at its edges that are computed and not counted: there the lines are cut off
 GOLDEN = (5**0.5 - 1) / 2
-WIDTH_LINES = 45.0  # line widths across the sample that walls are measured on
+ACROSS = 45.0  # line widths: the sample that walls are measured on
 
 
 def layer_of(
@@ -91,19 +91,23 @@ def expected_corners(
     return round(corners + (-(-corners // CORNERS) - 1) * crossings)
 
 
-def exact_width(lines: MultiLineString, grid: Grid, *, cells: int, width: float, smoothing: Smoothing) -> float:
-    """Return the mean width that walls in the middle of a block would have if they were stamped exactly, mm; or NaN."""
+def exact_width(lines: MultiLineString, grid: Grid, *, cells: int, width: float, smoothing: Smoothing) -> float | None:
+    """Return how wide walls in the middle of a block would be on average if they were stamped exactly, mm.
+
+    None where none stands clear of others, or where nothing would be left of them.
+    """
     spacing = width / cells
-    middle = np.array(grid.origin) + np.array(grid.extents) / 2
-    reach = np.minimum(np.array(grid.extents), WIDTH_LINES * width) / 2
-    counts = np.maximum(np.round(2 * reach / spacing), 1).astype(int)
+    extents = np.array(grid.extents)
+    middle = np.array(grid.origin) + extents / 2
+    counts = np.maximum(np.round(np.minimum(extents, ACROSS * width) / spacing), 2 * cells).astype(int)
     window = Grid(shape=tuple(counts.tolist()), spacing=spacing, origin=tuple((middle - counts * spacing / 2).tolist()))
     near = _near(lines, window, width)
-    if near.is_empty:
-        return float("nan")
+    inside = _as_lines(shapely.intersection(near, _box(window, cells)))
+    if inside.is_empty:
+        return None
     layer = layer_of(near, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
-    inside = shapely.intersection(near, _box(window, cells))
-    return wall_width(_as_lines(inside), layer, window, requested=width).mean
+    mean = wall_width(inside, layer, window, requested=width).mean
+    return mean if mean > 0 else None  # neither NaN nor 0
 
 
 def _windows(grid: Grid) -> list[Grid]:

@@ -122,7 +122,7 @@ def _crossings(field: NDArray[np.float32], solid: Flags) -> tuple[Floats, Indice
 
 
 def _steps(field: NDArray[np.float32], solid: Flags, along_x: Indices, along_y: Indices, count: int) -> Indices:
-    """Return the crossing that follows each crossing, (N,), solid on the left: a step through each square of centres."""
+    """Return the crossing that follows each crossing, (N,), solid on the left: a step through every square."""
     parts = [(slice(i, i - 1 or None), slice(j, j - 1 or None)) for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
     corner = np.stack([solid[part] for part in parts])  # counter-clockwise
     mixed = np.nonzero((corner != corner[0]).any(axis=0))
