@@ -12,6 +12,8 @@ from infill.surfaces.contours import Contours
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+UNFILLED = "the outline cannot be filled with triangles; smooth less, or use walls of more cells"
+
 
 def filled(rings: Contours) -> Indices:
     """Return triangles (T, 3) that fill the solid inside rings, counter-clockwise, as numbers of corners.
@@ -36,7 +38,10 @@ def filled(rings: Contours) -> Indices:
     2
     """
     areas = rings.areas
-    found = shapely.get_coordinates(shapely.constrained_delaunay_triangles(_pieces(rings, areas)))
+    try:
+        found = shapely.get_coordinates(shapely.constrained_delaunay_triangles(_pieces(rings, areas)))
+    except shapely.GEOSException as error:
+        raise GeometryError(UNFILLED) from error
     triangles = _numbers(rings.points, found.reshape(-1, 4, 2)[:, :3])
     a, b, c = (rings.points[triangles[:, i]] for i in range(3))
     doubled = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
@@ -44,7 +49,7 @@ def filled(rings: Contours) -> Indices:
     # A piece of n corners and h holes has n + 2 h - 2 triangles.
     wanted = len(rings.points) + 2 * int((areas < 0).sum()) - 2 * int((areas > 0).sum())
     if len(triangles) != wanted or not np.isclose(np.abs(doubled).sum() / 2, areas.sum(), rtol=1e-9):
-        raise GeometryError("the outline cannot be filled with triangles; smooth less, or use walls of more cells")
+        raise GeometryError(UNFILLED)
     return triangles
 
 
