@@ -463,7 +463,7 @@ BAD = [
     (["honeycomb", "--fidelity", "-1"], "fidelity is -1"),
     (["honeycomb", "--stamp", "round"], "there is no stamp 'round'; choose block or exact"),
     (["honeycomb", "--size", "100000"], "needs about .* GiB of memory and .* GiB is at hand; the grid has"),
-    (["honeycomb", "--max-memory", "100M"], "needs about 0.* GiB of memory and 0.10 GiB is allowed"),
+    (["honeycomb", "--max-memory", "80M"], "needs about 0.* GiB of memory and 0.08 GiB is allowed"),
     (["honeycomb", "--max-memory", "lots"], "the memory limit is 'lots'"),
     (["honeycomb", "--waves", "3"], "honeycomb has no option 'waves'"),
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
@@ -526,7 +526,7 @@ def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
 def test_a_limit_holds_for_a_dry_run_too(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "--dry-run"]
     assert run(*words).exit_code == 0
-    one_line_error(run(*words, "--max-memory", "900M"), "0.88 GiB is allowed")
+    one_line_error(run(*words, "--max-memory", "500M"), "0.49 GiB is allowed")
 
 
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
