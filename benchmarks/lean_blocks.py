@@ -1,8 +1,8 @@
 """How much faster a slicer is on the prism than on the isosurface: ``python -m benchmarks.lean_blocks``.
 
 PrusaSlicer slices the default honeycomb both ways, in turn, with each of its two generators of perimeters; seconds are
-those of the processor, since slicing is threaded. It takes many minutes: ``--runs 1`` for a first look, ``--size 30`` for
-a smaller block.
+those of the processor, since slicing is threaded. It takes many minutes: ``--runs 1`` for a first look, ``--size 30``
+for a smaller block.
 """
 
 from __future__ import annotations

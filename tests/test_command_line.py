@@ -529,6 +529,23 @@ def test_a_limit_holds_for_a_dry_run_too(tmp_path: Path) -> None:
     one_line_error(run(*words, "--max-memory", "500M"), "0.49 GiB is allowed")
 
 
+def test_make_tells_its_surface_and_what_the_exact_stamp_would_give(tmp_path: Path) -> None:
+    lean = run("make", "honeycomb", "--size", "30", "-o", tmp_path / "a.stl").stderr
+    assert "prism, within 0.002 mm of the isosurface at mid height" in lean
+    assert re.search(r"^  advice +--stamp exact makes the walls 0\.4(4[89]|5[012]) mm wide", lean, re.MULTILINE)
+    exact = run("make", "honeycomb", "--size", "30", "--stamp", "exact", "-o", tmp_path / "b.stl").stderr
+    assert "advice" not in exact
+    grid = run("make", "honeycomb", "--size", "30", "--tolerance", "0", "-o", tmp_path / "c.stl").stderr
+    assert "grid, the isosurface as it is" in grid
+
+
+def test_a_saved_config_holds_surface_and_tolerance(tmp_path: Path) -> None:
+    config = tmp_path / "a.toml"
+    config.write_text(resolve({"pattern": "zigzag", "surface": "prism", "tolerance": 0.01}).to_toml())
+    assert (resolve({}, config).surface, resolve({}, config).tolerance) == ("prism", 0.01)
+    assert resolve({"tolerance": 0.0}, config).tolerance == 0
+
+
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     one_line_error(run("make", "honeycomb", *SMALL, "-o", tmp_path / "no" / "a.stl"), "there is no folder")
     (tmp_path / "d.stl").mkdir()

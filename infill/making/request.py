@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 StampMethod = Literal["block", "exact"]
 SurfaceMethod = Literal["prism", "grid"]
-TOLERANCE = 0.002  # mm: far below what a printer places, and a third of the triangles of the whole contour
+TOLERANCE = 0.002  # mm: far below what a printer places, and less than half the triangles of the whole contour
 COARSEST = 0.1  # of the line width: the tolerance at which both sides of a wall could take a fifth of it
 DEFAULT_CELLS = {"block": 3, "exact": 5}
 LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls, and a gap as wide as two of them
