@@ -31,6 +31,7 @@ def report_of(
     problems: Sequence[str],
     seconds: Mapping[str, float],
     simplified: Mapping[str, Any] | None = None,
+    mesh: Mapping[str, Any] | None = None,
     **more: Mapping[str, Any],
 ) -> dict[str, Any]:
     """Return the report of one run.
@@ -57,11 +58,13 @@ def report_of(
         Seconds spent, by stage.
     simplified : mapping, optional
         What simplification cost.
+    mesh : mapping, optional
+        How the surface was made.
     **more
         Sections that this product has in addition to the common ones.
     """
     bounds = surface.bounds
-    mesh = {
+    facts = {
         "vertices": len(surface.vertices),
         "triangles": len(surface.faces),
         "closed": surface.closed,
@@ -69,11 +72,12 @@ def report_of(
         "extents": (bounds[1] - bounds[0]).tolist(),
         "bounds": bounds.tolist(),
         "euler_number": surface.euler_number,
+        **(mesh or {}),
     }
     if simplified is not None:
-        mesh["simplified"] = dict(simplified)
+        facts["simplified"] = dict(simplified)
     filled = {"volume": surface.volume, "change": surface.volume / solid["data"] - 1, **solid}
-    first = {name: mesh[name] for name in ("triangles", "closed", "area", "extents", "bounds")}
+    first = {name: facts[name] for name in ("triangles", "closed", "area", "extents", "bounds")}
     first |= {"volume": filled["volume"], "volume_change": filled["change"], "components": result.components}
     if "density" in filled:
         first["density"] = filled["density"]
@@ -88,7 +92,7 @@ def report_of(
         "request": dict(request),
         "grid": dict(grid),
         **{name: dict(section) for name, section in more.items()},
-        "mesh": mesh,
+        "mesh": facts,
         "solid": filled,
         "topology": {"data": asdict(data), "result": asdict(result)},
         "changes": changes.facts(),

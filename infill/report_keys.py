@@ -63,6 +63,13 @@ class MeshKeys(TypedDict):
     euler_number: int
 
 
+class BlockMesh(MeshKeys):
+    """The same of a block."""
+
+    surface: str
+    tolerance: float
+
+
 class SolidMesh(MeshKeys):
     """The same of a solid."""
 
@@ -152,6 +159,7 @@ class BlockWalls(TypedDict):
     """How thick the walls of a block are."""
 
     width: Width
+    exact: float | None
 
 
 class Thinnest(TypedDict):
@@ -194,6 +202,8 @@ class BlockRequest(SmoothingKeys):
     line_width: float
     stamp: str
     cells_per_line: int
+    surface: str
+    tolerance: float
 
 
 class SolidRequest(SmoothingKeys):
@@ -338,7 +348,7 @@ class MakeReport(Report):
     density: float
     wall_width: Width
     request: BlockRequest
-    mesh: MeshKeys
+    mesh: BlockMesh
     solid: BlockSolid
     changes: BlockChanges
     walls: BlockWalls

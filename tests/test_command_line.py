@@ -539,7 +539,7 @@ BAD = [
     (["honeycomb", "--fidelity", "-1"], "fidelity is -1"),
     (["honeycomb", "--stamp", "round"], "'--stamp': .*'round' is not one of 'block', 'exact'"),
     (["honeycomb", "--size", "100000"], "needs about .* GiB of memory and .* GiB is at hand; the grid has"),
-    (["honeycomb", "--max-memory", "100M"], "needs about 0.* GiB of memory and 0.10 GiB is allowed"),
+    (["honeycomb", "--max-memory", "80M"], "needs about 0.* GiB of memory and 0.08 GiB is allowed"),
     (["honeycomb", "--max-memory", "lots"], "--max-memory is 'lots'"),
     (["honeycomb", "--waves", "3"], "honeycomb has no option 'waves'"),
     (["honeycomb", "--angle", "200"], "angle of honeycomb is 200 degrees; .* -180 to 180"),
@@ -602,7 +602,24 @@ def test_names_that_a_console_cannot_show(tmp_path: Path) -> None:
 def test_a_limit_holds_for_a_dry_run_too(tmp_path: Path) -> None:
     words = ["make", "honeycomb", "--size", "250x210", "--stamp", "exact", "--dry-run"]
     assert run(*words).exit_code == 0
-    one_line_error(run(*words, "--max-memory", "900M"), "0.88 GiB is allowed")
+    one_line_error(run(*words, "--max-memory", "500M"), "0.49 GiB is allowed")
+
+
+def test_make_tells_its_surface_and_what_the_exact_stamp_would_give(tmp_path: Path) -> None:
+    lean = run("make", "honeycomb", "--size", "30", "-o", tmp_path / "a.stl").stderr
+    assert "prism, within 0.002 mm of the isosurface at mid height" in lean
+    assert re.search(r"^  advice +--stamp exact makes the walls 0\.4(4[89]|5[012]) mm wide", lean, re.MULTILINE)
+    exact = run("make", "honeycomb", "--size", "30", "--stamp", "exact", "-o", tmp_path / "b.stl").stderr
+    assert "advice" not in exact
+    grid = run("make", "honeycomb", "--size", "30", "--tolerance", "0", "-o", tmp_path / "c.stl").stderr
+    assert "grid, the isosurface as it is" in grid
+
+
+def test_a_saved_config_holds_surface_and_tolerance(tmp_path: Path) -> None:
+    config = tmp_path / "a.toml"
+    config.write_text(resolve({"pattern": "zigzag", "surface": "prism", "tolerance": 0.01}).to_toml())
+    assert (resolve({}, config).surface, resolve({}, config).tolerance) == ("prism", 0.01)
+    assert resolve({"tolerance": 0.0}, config).tolerance == 0
 
 
 def test_missing_and_unwritable_folders_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

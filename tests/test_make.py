@@ -120,8 +120,11 @@ def test_the_report_tells_the_truth(name: str) -> None:
 
 
 def test_the_block_stands_on_the_bed_about_the_origin() -> None:
-    bounds = make("honeycomb", size=(30, 24), height=5).mesh.bounds
-    assert bounds == pytest.approx(np.array([[-15, -12, 0], [15, 12, 5]]), abs=1e-3)
+    wanted = np.array([[-15, -12, 0], [15, 12, 5]])
+    assert make("honeycomb", size=(30, 24), height=5, surface="grid").mesh.bounds == pytest.approx(wanted, abs=1e-3)
+    lean = make("honeycomb", size=(30, 24), height=5).mesh.bounds
+    assert lean == pytest.approx(wanted, abs=1e-3 + 2e-3)  # the contour may lie 0.002 mm away
+    assert lean[:, 2].tolist() == [0, 5]
 
 
 def test_the_block_stamp_shows_its_true_widths() -> None:
@@ -141,10 +144,21 @@ def test_the_exact_stamp_keeps_its_width(degrees: float) -> None:
 
 @pytest.mark.parametrize("unit", [1 / 25.4, 0.001])
 def test_the_unit_of_length_does_not_matter(unit: float) -> None:
-    plain = make(Honeycomb(cell=5), size=20, height=3)
-    scaled = make(Honeycomb(cell=5 * unit), size=20 * unit, height=3 * unit, line_width=0.45 * unit)
-    assert np.array_equal(plain.mesh.faces, scaled.mesh.faces)
-    assert scaled.mesh.vertices / unit == pytest.approx(plain.mesh.vertices, abs=1e-4)
+    for surface, tolerance in (("grid", 0), ("prism", 0.002)):
+        plain = make(Honeycomb(cell=5), size=20, height=3, surface=surface, tolerance=tolerance)
+        scaled = make(
+            Honeycomb(cell=5 * unit),
+            size=20 * unit,
+            height=3 * unit,
+            line_width=0.45 * unit,
+            surface=surface,
+            tolerance=tolerance * unit,
+        )
+        assert len(plain.mesh.faces) == len(scaled.mesh.faces)
+        assert scaled.mesh.volume / unit**3 == pytest.approx(plain.mesh.volume, rel=1e-6)
+        if surface == "grid":
+            assert np.array_equal(plain.mesh.faces, scaled.mesh.faces)
+            assert scaled.mesh.vertices / unit == pytest.approx(plain.mesh.vertices, abs=1e-4)
 
 
 def test_numpy_numbers_are_numbers() -> None:
@@ -264,7 +278,7 @@ def test_bad_requests_are_refused(pattern: Any, options: dict[str, Any], error: 
 def test_memory_is_refused_for_triangles_too() -> None:
     """The grid alone would fit; the triangles on top of it do not."""
     block = plan_of("honeycomb", (60, 60), 1.4)
-    between = (block.memory + 130_000_000 + 100 * block.grid.cells) // 2
+    between = (block.memory + block.grid_memory) // 2
     with pytest.raises(MemoryLimitError, match="is allowed; .*fewer cells per line"):
         make("honeycomb", cell=1.4, max_memory=between)
 
@@ -372,16 +386,24 @@ def test_an_open_surface_is_never_written(monkeypatch: pytest.MonkeyPatch) -> No
 # --- what it will cost -----------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("surface", ["prism", "grid"])
 @pytest.mark.parametrize("stamp", ["block", "exact"])
 @pytest.mark.parametrize("name", BUILT_IN)
-def test_the_plan_expects_the_triangles_and_the_file(name: str, stamp: Any, tmp_path: Path) -> None:
+def test_the_plan_expects_the_triangles_and_the_file(name: str, stamp: Any, surface: Any, tmp_path: Path) -> None:
     block = plan(
-        name, size=(50, 40), height=6, line_width=0.45, stamp=stamp, cells=None, smoothing=Smoothing(), parameters={}
+        name,
+        size=(50, 40),
+        height=6,
+        line_width=0.45,
+        stamp=stamp,
+        cells=None,
+        smoothing=Smoothing(),
+        parameters={},
+        surface=surface,
     )
-    result = make(name, size=(50, 40), stamp=stamp)
+    result = make(name, size=(50, 40), stamp=stamp, surface=surface)
     assert block.triangles == pytest.approx(result.report["triangles"], rel=0.25)
     assert block.stl_bytes == pytest.approx(result.save(tmp_path / "a.stl").stat().st_size, rel=0.25)
-    assert block.memory > 130e6
 
 
 # --- the paper's parameters ------------------------------------------------------------------------------

@@ -15,6 +15,11 @@ def stamp_names(incomplete: str) -> list[str]:
     return [name for name in ("block", "exact") if name.startswith(incomplete)]
 
 
+def surface_names(incomplete: str) -> list[str]:
+    """Return the surfaces of a block that begin with the word."""
+    return [name for name in ("prism", "grid") if name.startswith(incomplete)]
+
+
 def unit_names(incomplete: str) -> list[str]:
     """Return the units of length that begin with the word."""
     from infill.formats.units import UNITS

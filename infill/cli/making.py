@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
 
 import typer
 
-from infill.cli.completing import pattern_assignments, pattern_names, stamp_names
+from infill.cli.completing import pattern_assignments, pattern_names, stamp_names, surface_names
 from infill.cli.console import as_bytes, print_json, progress_bar, say, table
 
 if TYPE_CHECKING:
@@ -124,6 +124,24 @@ def make(
             rich_help_panel=BLOCK,
         ),
     ] = None,
+    surface: Annotated[
+        Literal["prism", "grid"] | None,
+        typer.Option(
+            help="prism: straight walls between flat faces; grid: the surface as it was computed, with rounded rims "
+            "and six times the triangles. (default: prism; grid for a tolerance of 0)",
+            autocompletion=surface_names,
+            rich_help_panel=BLOCK,
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            metavar="MM",
+            help="How far straightened walls may move: more makes fewer triangles, and 0 keeps them all. "
+            "(default: 0.002)",
+            rich_help_panel=BLOCK,
+        ),
+    ] = None,
     steps: Annotated[
         int | None,
         typer.Option(
@@ -184,6 +202,8 @@ def make(
         "line_width": line_width,
         "stamp": stamp,
         "cells": cells,
+        "surface": surface,
+        "tolerance": tolerance,
         "steps": steps,
         "fidelity": fidelity,
         "interface": interface,
@@ -271,10 +291,18 @@ def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, "
         f"{report['components']} component(s)",
+        "surface": f"{request['surface']}, within {request['tolerance']:g} mm of the isosurface at mid height"
+        if request["tolerance"]
+        else f"{request['surface']}, the isosurface as it is"
+        if request["surface"] == "grid"
+        else "prism, the whole contour of the isosurface",
         "solid": f"{report['volume']:.1f} mm³, {report['density']:.1%} of the block",
         "walls": measured,
-        "smoothing": f"{request['steps']} steps, volume {report['volume_change']:+.2%} (excluding rims)",
+        "smoothing": f"{request['steps']} steps, "
+        f"volume {report['volume_change']:+.2%}{' (excluding rims)' if request['surface'] == 'grid' else ''}",
     }
+    if (exact := report["walls"]["exact"]) is not None:
+        rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"
     if any(abs(one - other) > SHOWN for one, other in zip(request["size"], asked, strict=True)):
         rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in asked)} mm asked for"
     if change["pinholes"]:

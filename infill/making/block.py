@@ -19,13 +19,17 @@ from infill.errors import GeometryError
 from infill.inspection.changes import Changes
 from infill.inspection.layers import Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
-from infill.making.request import Block, StampMethod, plan
+from infill.making.forecast import exact_width
+from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMethod, plan
 from infill.making.stages import MakeStages
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
 from infill.report import report_of
 from infill.result import Clock, Progress, Result
+from infill.surfaces.contours import contours
+from infill.surfaces.prisms import prism
 from infill.surfaces.stacking import extruded
+from infill.surfaces.straightening import straightened
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
 from patterns import Pattern
@@ -36,8 +40,10 @@ if TYPE_CHECKING:
     from shapely import MultiLineString
 
     from infill.report_keys import MakeReport
+    from infill.surface import Surface
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
+OFF = 0.05  # of the requested width; beyond this, the report tells what the exact stamp would give
 MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
@@ -52,6 +58,8 @@ def make(
     stamp: StampMethod = "block",
     cells: int | None = None,
     smoothing: Smoothing = Smoothing(),  # noqa: B008 - frozen
+    surface: SurfaceMethod | None = None,
+    tolerance: float | None = None,
     allow_broken: bool = False,
     max_memory: int | None = None,
     progress: Progress | None = None,
@@ -76,6 +84,13 @@ def make(
         Grid cells across a line: 3 for "block" (odd), 5 for "exact".
     smoothing : Smoothing
         The paper takes 10 steps for patterns.
+    surface : {"prism", "grid"}, optional
+        "prism", the default: vertical walls along the contour of the smoothed layer, between flat caps.
+        "grid" is the paper's: the isosurface of the stacked layers as it is, with rounded rims.
+    tolerance : float, optional
+        How far the contour of a prism may lie from the isosurface's at mid height, mm: 0.002 by default, and at most a
+        tenth of the line width. Every ring keeps its area. 0 keeps the raw isosurface: "grid", unless "prism" is asked
+        for, which then has the whole contour.
     allow_broken : bool
         Return a result in which walls broke or vanished, and say so in the report, instead of raising.
     max_memory : int, optional
@@ -105,7 +120,8 @@ def make(
     Source: Wang et al. 2020, section 3.4.
 
     The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its volume change is
-    how much smoothing changed the layer: the rounding of the rims, at most half a layer, is not included.
+    how much smoothing changed the layer: the rounding of the rims of the surface "grid", at most half a layer, is not
+    included.
 
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
@@ -121,6 +137,8 @@ def make(
             cells=cells,
             smoothing=smoothing,
             parameters=parameters,
+            surface=surface,
+            tolerance=tolerance,
         )
         block.require_memory(max_memory)
         points = _points(block)
@@ -137,36 +155,65 @@ def make(
         area = solid_area(data)
         volume_change = solid_area(smoothed) / area - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
+        exact = _exact(block, width, cells)
         problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
     with clock.stage("surface", 0.5):
-        surface = extruded(smoothed, block.height, tuple(block.grid.cell_size), origin=block.origin)
-        if not surface.closed or surface.volume <= 0:
+        mesh = _surface(block, smoothed)
+        if not mesh.closed or mesh.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
     cells_per_layer = math.prod(block.grid.shape)
     layer = math.prod(block.grid.extents) * block.height
     components = after.topology.components
     report = report_of(
         product="make",
-        surface=surface,
+        surface=mesh,
         request=block.asked(),
         grid=block.laid_out(),
         solid={
             "data": area / cells_per_layer * layer,
             "change": volume_change,
-            "density": surface.volume / layer,
+            "density": mesh.volume / layer,
             "level": {"method": "fixed", "common": 0.0, "lowest": 0.0, "highest": 0.0, "components": components},
         },
         data=before.topology.extruded,
         result=after.topology.extruded,
         changes=found,
-        walls={"width": {name: _finite(value) for name, value in asdict(width).items()}},
+        walls={
+            "width": {name: _finite(value) for name, value in asdict(width).items()},
+            "exact": exact,
+        },
         problems=problems,
+        mesh={"surface": block.surface, "tolerance": block.tolerance},
         seconds=clock.seconds,
     )
     stages = MakeStages(points=points, lines=block.lines, grid=block.grid, stamp=data, smoothed=smoothed)
-    return Result(surfaces={"block": surface}, report=cast("MakeReport", report), stages=stages)
+    return Result(surfaces={"block": mesh}, report=cast("MakeReport", report), stages=stages)
+
+
+def _surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
+    """Return the surface that was asked for."""
+    spacing = tuple(block.grid.cell_size.tolist())
+    if block.surface == "grid":
+        return extruded(smoothed, block.height, spacing, origin=block.origin)
+    contour = contours(smoothed, spacing, origin=block.origin)
+    return prism(straightened(contour, block.tolerance), block.height)
+
+
+def _exact(block: Block, width: WallWidth, cells: int | None) -> float | None:
+    """Return the width that the exact stamp would give, on a sample; None unless walls are off and that is nearer."""
+    off = abs(width.mean - block.line_width)
+    if block.stamp == "exact" or not off > OFF * block.line_width:
+        return None
+    found = exact_width(
+        block.lines,
+        block.grid,
+        cells=DEFAULT_CELLS["exact"] if cells is None else cells,
+        width=block.line_width,
+        smoothing=block.smoothing,
+    )
+    return found if found is not None and abs(found - block.line_width) < off else None
 
 
 def _points(block: Block) -> NDArray[np.float64]:

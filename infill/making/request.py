@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import shapely
 
-from infill.checks import length, whole
+from infill.checks import length, whole, within
 from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
 from infill.machine import require_memory
@@ -23,15 +23,21 @@ if TYPE_CHECKING:
     from shapely import MultiLineString, Polygon
 
 StampMethod = Literal["block", "exact"]
+SurfaceMethod = Literal["prism", "grid"]
+TOLERANCE = 0.002  # mm: far below what a printer places, and less than half the triangles of the whole contour
+COARSEST = 0.1  # of the line width: the tolerance at which both sides of a wall could take a fifth of it
 DEFAULT_CELLS = {"block": 3, "exact": 5}
 LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls, and a gap as wide as two of them
 
 # Measured on the three designs, on blocks from 60 x 60 mm to a whole print bed.
-BYTES_BEFORE = 130e6
-BYTES_PER_CELL = 100
+BYTES_BEFORE = {"prism": 78e6, "grid": 130e6}  # the isosurface takes one library more
+BYTES_PER_CELL = {"prism": 60, "grid": 100}
 BYTES_PER_TRIANGLE = 70
+BYTES_PER_CORNER = 250
+CORNERS_PER_CELL = 1.125  # of contours, per cell of their length
 CAP_TRIANGLES_PER_CELL = 4  # two on each of the two faces
-SIDE_TRIANGLES_PER_CELL = 4.5  # per cell of outline length
+SIDE_TRIANGLES_PER_CORNER = 4
+PRISM_TRIANGLES_PER_CORNER = 4  # two of a wall, and one of each cap
 STL_BYTES_PER_TRIANGLE = 50
 
 
@@ -50,6 +56,9 @@ class Block:
     cells : int
         Grid cells across a line.
     smoothing : Smoothing
+    surface : {"prism", "grid"}
+    tolerance : float
+        mm; 0 for the surface "grid".
     """
 
     pattern: Pattern
@@ -59,6 +68,8 @@ class Block:
     stamp: StampMethod
     cells: int
     smoothing: Smoothing
+    surface: SurfaceMethod
+    tolerance: float
 
     @cached_property
     def region(self) -> Polygon:
@@ -80,12 +91,29 @@ class Block:
         """Number of layers, one cell thick each, that the stack represents."""
         return layer_count(self.height, float(self.grid.cell_size.min()))
 
-    @property
+    @cached_property
     def triangles(self) -> int:
-        """Expected number of triangles, accurate to about a quarter."""
-        run, cell = float(shapely.length(self.lines)), float(self.grid.cell_size.min())
-        caps = CAP_TRIANGLES_PER_CELL * run * self.line_width / cell**2
-        return round(caps + SIDE_TRIANGLES_PER_CELL * 2 * run / cell)
+        """Expected number of triangles, accurate to about a quarter; that of a prism is counted on samples."""
+        if self.surface == "grid":
+            cells = float(shapely.length(self.lines)) * self.line_width / float(self.grid.cell_size.prod())
+            return round(CAP_TRIANGLES_PER_CELL * cells + SIDE_TRIANGLES_PER_CORNER * self._corners)
+        from infill.making.forecast import expected_corners
+
+        corners = expected_corners(
+            self.lines,
+            self.grid,
+            stamp=self.stamp,
+            cells=self.cells,
+            width=self.line_width,
+            smoothing=self.smoothing,
+            tolerance=self.tolerance,
+        )
+        return PRISM_TRIANGLES_PER_CORNER * corners
+
+    @property
+    def _corners(self) -> float:
+        """Expected number of corners of the contours before they are straightened."""
+        return CORNERS_PER_CELL * 2 * float(shapely.length(self.lines)) / float(self.grid.cell_size.min())
 
     @property
     def stl_bytes(self) -> int:
@@ -95,12 +123,14 @@ class Block:
     @property
     def grid_memory(self) -> int:
         """Bytes of memory for the program and the grid."""
-        return int(BYTES_BEFORE) + BYTES_PER_CELL * self.grid.cells
+        return int(BYTES_BEFORE[self.surface]) + BYTES_PER_CELL[self.surface] * self.grid.cells
 
     @property
     def memory(self) -> int:
         """Bytes of memory the work will need, including the program itself."""
-        return self.grid_memory + BYTES_PER_TRIANGLE * self.triangles
+        if self.surface == "grid":
+            return self.grid_memory + BYTES_PER_TRIANGLE * self.triangles
+        return self.grid_memory + round(BYTES_PER_CORNER * self._corners)
 
     @property
     def origin(self) -> tuple[float, float, float]:
@@ -123,6 +153,8 @@ class Block:
             "fidelity": smoothing.fidelity,
             "interface": smoothing.interface,
             "alpha": smoothing.alpha,
+            "surface": self.surface,
+            "tolerance": self.tolerance,
         }
 
     def laid_out(self) -> dict[str, Any]:
@@ -169,6 +201,8 @@ def plan(
     cells: int | None,
     smoothing: Smoothing,
     parameters: dict[str, Any],
+    surface: SurfaceMethod | None = None,
+    tolerance: float | None = None,
 ) -> Block:
     """Check a request and return it with its grid; the parameters are the same as for `infill.make`."""
     made = pattern_of(pattern, parameters)
@@ -193,6 +227,7 @@ def plan(
             f"make it at least {(1 + LINES_PER_CELL) * line_width:g} mm in x and y"
         )
     smoothing.weights((1.0, 1.0))  # raises above the stability limit
+    surface, tolerance = _surface_of(surface, tolerance, line_width)
     block = Block(
         pattern=made,
         grid=Grid(shape=counts, spacing=cell, origin=tuple(-count * cell / 2 for count in counts)),
@@ -201,6 +236,8 @@ def plan(
         stamp=stamp,
         cells=across,
         smoothing=smoothing,
+        surface=surface,
+        tolerance=tolerance,
     )
     if not made.prismatic:
         raise ParameterError(f"the lines of {made.name} change with height; only prismatic patterns can be made")
@@ -211,6 +248,27 @@ def plan(
             f"({LINES_PER_CELL * line_width:g} mm); use larger cells or a thinner line"
         )
     return block
+
+
+def _surface_of(
+    surface: SurfaceMethod | None, tolerance: float | None, line_width: float
+) -> tuple[SurfaceMethod, float]:
+    """Return the surface and its tolerance: what is not given follows from the other."""
+    if surface is not None and surface not in get_args(SurfaceMethod):
+        raise UsageError(f"surface is {surface!r}; choose prism or grid")
+    if tolerance is None:
+        return ("grid", 0.0) if surface == "grid" else ("prism", min(TOLERANCE, COARSEST * line_width))
+    within("tolerance", tolerance, 0.0, math.inf, "mm")
+    if surface == "grid" and tolerance > 0:
+        raise UsageError(
+            f"surface and tolerance exclude each other: grid is the isosurface as it is, and cannot be {tolerance:g} mm "
+            "off; leave the tolerance out, or take prism"
+        )
+    if tolerance > COARSEST * line_width:
+        raise ParameterError(
+            f"tolerance is {tolerance:g} mm; it must be at most a tenth of the line width, {COARSEST * line_width:g} mm"
+        )
+    return surface or ("prism" if tolerance > 0 else "grid"), float(tolerance)
 
 
 def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:

@@ -45,6 +45,10 @@ class MakeSettings:
     stamp : {"block", "exact"}
     cells : int or None
         Grid cells across a line; None for 3 (block) or 5 (exact).
+    surface : {"prism", "grid"} or None
+        None for prism, and for grid where the tolerance is 0.
+    tolerance : float or None
+        mm; None for 0.002, and for 0 where the surface is grid.
     steps, fidelity, interface, alpha
         As in `infill.Smoothing`.
     parameters : dict
@@ -57,6 +61,8 @@ class MakeSettings:
     line_width: float = 0.45
     stamp: str = "block"
     cells: int | None = None
+    surface: str | None = None
+    tolerance: float | None = None
     steps: int = 10
     fidelity: float = 0.01
     interface: float = 2.0
@@ -79,6 +85,8 @@ class MakeSettings:
             "stamp": self.stamp,
             "cells": self.cells,
             "smoothing": smoothing,
+            "surface": self.surface,
+            "tolerance": self.tolerance,
         }
 
     def plan(self) -> Block:
@@ -160,7 +168,7 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     """Return the value of one of make's options if it has the same type as `default`, or raise ParameterError."""
     if name == "size":
         return parse_size(value)
-    if isinstance(default, str) or name == "pattern":
+    if isinstance(default, str) or name in ("pattern", "surface"):
         wanted, fits = "a word", isinstance(value, str)
     else:
         wanted, fits = "a number", _is_number(value)

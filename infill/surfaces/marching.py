@@ -34,8 +34,26 @@ def extract(
     # to (z, x, y) preserves the handedness, and with it the orientation of the faces.
     field = np.full((nz + 2, nx + 2, ny + 2), np.float32(VOID))
     field[1:-1, 1:-1, 1:-1] = np.moveaxis(volume, 2, 0)
+    nudged(field, level)
+    # Gradient ascent: the solid is above the level, and its faces must point outwards.
+    vertices, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")  # type: ignore[no-untyped-call]
+    # The centre of the first cell, now at index 1, lies half a cell inside the box.
+    placed = (vertices[:, [1, 2, 0]] - 0.5) * np.array(spacing) + np.array(origin)
+    return Surface(vertices=placed, faces=faces)
+
+
+def nudged(field: NDArray[np.float32], level: float = 0.0) -> NDArray[np.bool_]:
+    """Change a field in place so that its surface is that of {field > level} at level 0, and return what is solid.
+
+    No value stays within `CLEARANCE` of the level, and solid is weakened by `TIE`.
+
+    Raises
+    ------
+    GeometryError
+        If nothing is solid.
+    """
     field -= np.float32(level)
-    solid = field > 0
+    solid: NDArray[np.bool_] = field > 0
     if not solid.any():
         raise GeometryError(
             f"nothing is left above the level {level:g}: no surface; smooth less, or use walls of more cells"
@@ -43,11 +61,7 @@ def extract(
     near = np.abs(field) < CLEARANCE
     field[near] = np.where(solid[near], np.float32(CLEARANCE), np.float32(-CLEARANCE))
     np.multiply(field, np.float32(TIE), out=field, where=solid)
-    # Gradient ascent: the solid is above the level, and its faces must point outwards.
-    vertices, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent")  # type: ignore[no-untyped-call]
-    # The centre of the first cell, now at index 1, lies half a cell inside the box.
-    placed = (vertices[:, [1, 2, 0]] - 0.5) * np.array(spacing) + np.array(origin)
-    return Surface(vertices=placed, faces=faces)
+    return solid
 
 
 def isosurface(

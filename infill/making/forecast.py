@@ -1,0 +1,144 @@
+"""What a block will come to, found on samples of it: the same steps on some small windows of its grid."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import shapely
+
+from infill.grid import Grid
+from infill.inspection.width import wall_width
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.methods import smooth
+from infill.surfaces.contours import contours
+from infill.surfaces.straightening import straightened
+from infill.surfaces.strips import CORNERS
+from infill.voxels.stamping import stamp as stamp_points
+from infill.voxels.stamping import stamp_lines
+from patterns.linework import sample
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from shapely import MultiLineString
+
+WINDOW = 144  # cells across a sample
+WINDOWS = 24
+MARGIN = 16  # cells at its edges that are computed and not counted: there the lines are cut off
+GOLDEN = (5**0.5 - 1) / 2
+ACROSS = 45.0  # line widths: the sample that walls are measured on
+
+
+def layer_of(
+    lines: MultiLineString,
+    grid: Grid,
+    *,
+    stamp: Literal["block", "exact"],
+    cells: int,
+    width: float,
+    smoothing: Smoothing,
+) -> NDArray[np.floating]:
+    """Return the smoothed layer of the lines on a grid, which may be part of the block's.
+
+    Parameters
+    ----------
+    lines : MultiLineString, mm
+    grid : Grid
+    stamp, cells, width, smoothing
+        As of `infill.make`.
+    """
+    if stamp == "exact":
+        data = stamp_lines(lines, grid, width=width)
+    else:
+        points = sample(lines, min(grid.cell_size) / 2)
+        data = stamp_points(points, grid, block=cells, outside="clip")
+    return smooth(data, smoothing, spacing=grid.spacing)
+
+
+def expected_corners(
+    lines: MultiLineString,
+    grid: Grid,
+    *,
+    stamp: Literal["block", "exact"],
+    cells: int,
+    width: float,
+    smoothing: Smoothing,
+    tolerance: float,
+) -> int:
+    """Return about how many corners the straightened contours of a block will have.
+
+    Corners are counted in windows of `WINDOW` cells a side and related to the length of the lines there; a block with
+    no more cells than all windows is made as a whole.
+    """
+    found = length = 0.0
+    for window in _windows(grid):
+        layer = layer_of(
+            _near(lines, window, width), window, stamp=stamp, cells=cells, width=width, smoothing=smoothing
+        )
+        if not (layer > 0).any():
+            continue
+        rings = straightened(contours(layer, tuple(window.cell_size.tolist()), origin=window.origin), tolerance)
+        inner = _box(window, 0 if window is grid else MARGIN)
+        found += shapely.contains_xy(inner, rings.points).sum() if window is not grid else len(rings.points)
+        length += shapely.length(shapely.intersection(lines, inner))
+    if not length:
+        return 0
+    run = float(shapely.length(lines))
+    corners = found * run / length
+    # Where the caps are cut into strips: a line of any direction crosses a cut 2 / pi times per step of one along x.
+    crossings = 2 * run * 2 / math.pi / grid.extents[0]
+    return round(corners + (-(-corners // CORNERS) - 1) * crossings)
+
+
+def exact_width(lines: MultiLineString, grid: Grid, *, cells: int, width: float, smoothing: Smoothing) -> float | None:
+    """Return how wide walls in the middle of a block would be on average if they were stamped exactly, mm.
+
+    None where none stands clear of others, or where nothing would be left of them.
+    """
+    spacing = width / cells
+    extents = np.array(grid.extents)
+    middle = np.array(grid.origin) + extents / 2
+    counts = np.maximum(np.round(np.minimum(extents, ACROSS * width) / spacing), 2 * cells).astype(int)
+    window = Grid(shape=tuple(counts.tolist()), spacing=spacing, origin=tuple((middle - counts * spacing / 2).tolist()))
+    near = _near(lines, window, width)
+    inside = _as_lines(shapely.intersection(near, _box(window, cells)))
+    if inside.is_empty:
+        return None
+    layer = layer_of(near, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
+    mean = wall_width(inside, layer, window, requested=width).mean
+    return mean if mean > 0 else None  # neither NaN nor 0
+
+
+def _windows(grid: Grid) -> list[Grid]:
+    """Return windows of a grid, all cells of it if there are not many more than these."""
+    if grid.cells <= WINDOWS * WINDOW**2:
+        return [grid]
+    shape = np.array(grid.shape)
+    sides = np.minimum(shape, WINDOW)
+    found = []
+    # A lattice on the golden ratio: evenly spread, and in step with no pattern.
+    for number in range(WINDOWS):
+        place = (number + 0.5) / WINDOWS, ((number + 1) * GOLDEN) % 1
+        low = np.round((shape - sides) * place).astype(int)
+        origin = np.array(grid.origin) + low * grid.cell_size
+        found.append(Grid(shape=tuple(sides.tolist()), spacing=grid.spacing, origin=tuple(origin.tolist())))
+    return found
+
+
+def _box(grid: Grid, margin: int) -> shapely.Polygon:
+    """Return the box of a grid less some cells on every side."""
+    low = np.array(grid.origin) + margin * grid.cell_size
+    high = np.array(grid.origin) + np.array(grid.extents) - margin * grid.cell_size
+    return shapely.box(*low, *high)
+
+
+def _near(lines: MultiLineString, window: Grid, width: float) -> MultiLineString:
+    """Return the parts of the lines that can mark cells of a window."""
+    return _as_lines(shapely.intersection(lines, shapely.buffer(_box(window, 0), width, join_style="mitre")))
+
+
+def _as_lines(geometry: shapely.Geometry) -> MultiLineString:
+    """Return the lines of a geometry, without points where it only touches."""
+    parts = shapely.get_parts(geometry)
+    return shapely.multilinestrings(parts[shapely.get_type_id(parts) == shapely.GeometryType.LINESTRING])
