@@ -203,7 +203,7 @@ class BlockRequest(SmoothingKeys):
     stamp: str
     cells_per_line: int
     surface: str
-    tolerance: float
+    tolerance: float | None
 
 
 class SolidRequest(SmoothingKeys):

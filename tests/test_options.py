@@ -54,6 +54,7 @@ OUT_OF_RANGE = {
         "--fidelity": "-1 nan",
         "--interface": "-1 nan",
         "--alpha": "-1 9 nan",
+        "--tolerance": "-1 9 nan",
         "--max-memory": "-1G 0 nan",
         "--set": "cell=-1 cell=nan angle=1000",
     },
@@ -91,7 +92,14 @@ OUT_OF_RANGE = {
 }
 # Words that an option cannot read, in addition to what is out of range above.
 UNREAD = {
-    "make": {"--stamp": "foo", "--size": "1x2x3 x", "--cells": "2.5", "--set": "cell cell=foo", "--max-memory": "1Q"},
+    "make": {
+        "--stamp": "foo",
+        "--surface": "foo",
+        "--size": "1x2x3 x",
+        "--cells": "2.5",
+        "--set": "cell cell=foo",
+        "--max-memory": "1Q",
+    },
     "smooth": {
         "--smooth": "foo",
         "--as": "foo",

@@ -127,6 +127,7 @@ def make(
     surface: Annotated[
         Literal["prism", "grid"] | None,
         typer.Option(
+            metavar="prism|grid",
             help="prism: straight walls between flat faces; grid: the surface as it was computed, with rounded rims "
             "and six times the triangles. (default: prism; grid for a tolerance of 0)",
             autocompletion=surface_names,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 WINDOW = 144  # cells across a sample
 WINDOWS = 24
 MARGIN = 16  # cells at its edges that are computed and not counted: there the lines are cut off
+MOST_STEPS = 200  # a forecast takes no longer than this: walls are round by then, and hardly lose corners any more
 GOLDEN = (5**0.5 - 1) / 2
 ACROSS = 45.0  # line widths: the sample that walls are measured on
 
@@ -72,10 +74,9 @@ def expected_corners(
     no more cells than all windows is made as a whole.
     """
     found = length = 0.0
+    foreseen = replace(smoothing, steps=min(smoothing.steps, MOST_STEPS))
     for window in _windows(grid):
-        layer = layer_of(
-            _near(lines, window, width), window, stamp=stamp, cells=cells, width=width, smoothing=smoothing
-        )
+        layer = layer_of(_near(lines, window, width), window, stamp=stamp, cells=cells, width=width, smoothing=foreseen)
         if not (layer > 0).any():
             continue
         rings = straightened(contours(layer, tuple(window.cell_size.tolist()), origin=window.origin), tolerance)

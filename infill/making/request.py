@@ -261,7 +261,7 @@ def _surface_of(
     within("tolerance", tolerance, 0.0, math.inf, "mm")
     if surface == "grid" and tolerance > 0:
         raise UsageError(
-            f"surface and tolerance exclude each other: grid is the isosurface as it is, and cannot be {tolerance:g} mm "
+            f"surface and tolerance exclude each other: grid is the isosurface as it is, and not {tolerance:g} mm "
             "off; leave the tolerance out, or take prism"
         )
     if tolerance > COARSEST * line_width:
