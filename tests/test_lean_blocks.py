@@ -147,14 +147,14 @@ def test_a_prism_without_tolerance_has_the_whole_contour() -> None:
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        ({"surface": "round"}, "there is no surface 'round'; choose prism or grid"),
+        ({"surface": "round"}, "surface is 'round'; choose prism or grid"),
         ({"tolerance": -1}, "tolerance is -1"),
         ({"tolerance": math.nan}, "tolerance is nan"),
         ({"tolerance": "fine"}, "tolerance is 'fine'; it must be a number"),
         ({"tolerance": 0.05}, "at most a tenth of the line width, 0.045 mm"),
         (
             {"tolerance": 0.002, "surface": "grid"},
-            "its tolerance cannot be 0.002 mm; give 0, or take the surface prism",
+            "grid is the isosurface as it is, and not 0.002 mm off; leave the tolerance out, or take prism",
         ),
     ],
 )
