@@ -160,3 +160,14 @@ def test_both_forms_agree_on_real_files(data: Path) -> None:
     assert len(decided) > 40
     assert any(alike for alike, _ in decided)
     assert any(near for _, near in decided)
+
+
+def test_what_was_taken_out_as_a_crumb_is_measured() -> None:
+    """A crumb is gone from the surface and not from the field, whose signs therefore say nothing of it."""
+    solid = np.zeros((40, 30, 30), dtype=bool)
+    solid[3:20, 5:25, 5:25] = solid[21:27, 12:18, 12:18] = solid[20, 15, 15] = True
+    options: Any = {"smoothing": Smoothing(steps=1), "method": "plain", "allow_broken": True}
+    report: Any = smooth_volume(solid, crumbs=300.0, **options).report
+    assert report["verdict"]["crumbs"]["removed"] == 1
+    assert not report.pending("distance")
+    assert report["verdict"]["word"] == "lost"

@@ -129,7 +129,7 @@ def attempted(given: Given, request: Request) -> Attempt:
     with clock.stage("check", 0.5):
         flips = Flips.of(surfaced.found.against, surfaced.before.bits, surfaced.found.height, threads=request.threads)
         judged = _judged(surfaced, flips, data, request)
-        found = None if _near(flips, given, request) else _compared(full, given, field, request)
+        found = None if _near(flips, given, crumbs, request) else _compared(full, given, field, request)
     return Attempt(
         given=given,
         request=request,
@@ -159,9 +159,9 @@ def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) ->
     )
 
 
-def _near(flips: Flips, given: Given, request: Request) -> bool:
-    """Return whether the surface is sure to be near what was given, if that is the data."""
-    if given.mesh is not None or given.raw is not None:
+def _near(flips: Flips, given: Given, crumbs: Crumbs, request: Request) -> bool:
+    """Return whether the surface is sure to be near what was given: if that is the data, and nothing was taken out."""
+    if given.mesh is not None or given.raw is not None or crumbs.count:
         return False
     return near_each_other(flips, spacing=tuple(given.data.cell_size.tolist()), threads=request.threads)
 
