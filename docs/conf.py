@@ -56,9 +56,11 @@ python_maximum_signature_line_length = 88
 default_role = "code"  # single backquotes in docstrings are names of arguments as often as of functions
 
 # What public functions take or return and the packages do not export.
-NOT_EXPORTED = ("FeatureMotion", "MakeStages", "Named", "Options", "SmoothStages", "Stages")
+NOT_EXPORTED = ("FeatureMotion", "Named", "Options", "Progress", "StampMethod", "SurfaceMethod", "Told")
+NOT_EXPORTED += ("ComponentStages", "LabelStages", "MakeStages", "SmoothStages", "Stages")
+NOT_EXPORTED += ("ComponentsReport", "LabelsReport", "MakeReport", "SmoothReport")
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
-OTHERS = ("collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
+OTHERS = ("Image", "collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
 OTHERS += ("shapely", "trimesh", "typing")
 SHORT = (
     "Any",
