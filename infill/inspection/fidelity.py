@@ -92,6 +92,8 @@ class Fidelity:
         Area of what was given that is far from the result, but too thin to count, no face of a solid, or inside the
         solid, mm².
     cell : float, mm
+    exact : bool
+        Whether the distances of what is near are exact too, and not only known to be within `KEPT`.
     """
 
     there: Gap
@@ -102,6 +104,7 @@ class Fidelity:
     sheet: float
     hidden: float
     cell: float
+    exact: bool = True
 
     @property
     def word(self) -> Word:
@@ -142,6 +145,7 @@ def fidelity(
     cell: float,
     closed: Surface | None = None,
     kinds: Kinds = everything,
+    exact: bool = True,
     threads: int | None = None,
 ) -> Fidelity:
     """Compare a result with what was given.
@@ -156,16 +160,20 @@ def fidelity(
     kinds : callable, optional
         Tells which of the points (N, 3) on faces (N,) of what was given count: `COUNTS`, `THIN`, `SHEET` or `HIDDEN`.
         Asked only about those far away.
+    exact : bool
+        Whether to measure what is near: the word, the phrases and the places do not depend on it, which is several
+        times faster.
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
+    enough = 0.0 if exact else KEPT * cell
     points, _, area = sampled(result, PITCH * cell)
-    away, _ = Tree.of(given if closed is None else closed).nearest(points, threads=threads)
+    away, _ = Tree.of(given if closed is None else closed).nearest(points, enough=enough, threads=threads)
     there, added = _gap(points, away, area), _patches(points, away, area, cell)
     points, faces, area = sampled(given, PITCH * cell)
-    away, _ = Tree.of(result).nearest(points, threads=threads)
+    away, _ = Tree.of(result).nearest(points, enough=enough, threads=threads)
     far = np.flatnonzero(away > KEPT * cell)
-    kind = kinds(points[far], faces[far])
+    kind = kinds(points[far], faces[far]) if len(far) else np.empty(0, dtype=np.int64)
     thin, sheet, hidden = (float(area[far[kind == each]].sum()) for each in (THIN, SHEET, HIDDEN))
     kept = np.ones(len(points), dtype=bool)
     kept[far[kind != COUNTS]] = False
@@ -181,6 +189,7 @@ def fidelity(
         sheet=sheet,
         hidden=hidden,
         cell=cell,
+        exact=exact,
     )
 
 
@@ -228,12 +237,13 @@ def _gap(points: Floats, away: Floats, area: Floats) -> Gap:
     order = np.argsort(away)
     summed = np.cumsum(whole[order])
     p95 = away[order[np.searchsorted(summed, 0.95 * summed[-1]).clip(0, len(order) - 1)]]
-    x, y, z = points[order[-1]].tolist()
+    worst = int(away.argmax())
+    x, y, z = points[worst].tolist()
     return Gap(
         mean=float(np.average(away, weights=whole)),
         rms=float(np.sqrt(np.average(away**2, weights=whole))),
         p95=float(p95),
-        max=float(away[order[-1]]),
+        max=float(away[worst]),
         at=(x, y, z),
     )
 

@@ -55,7 +55,10 @@ class Profile:
         >>> REFINED.phase(np.array([-1, 0, 1], dtype=np.float32)).tolist()
         [-1.0, 0.0, 1.0]
         """
-        return np.where(np.abs(distance) < 1, np.tanh(distance * np.float32(self.scale)), np.sign(distance))
+        found: Field = np.sign(distance)
+        near = np.abs(distance) < 1  # few cells of a grid
+        found[near] = np.tanh(distance[near] * np.float32(self.scale))
+        return found
 
     def distance(self, values: Field, *, out: Field | None = None, threads: int | None = None) -> Field:
         """Return the distance for phi (...) float32, its last three axes bricks; in `out`, which may be `values`."""

@@ -205,11 +205,7 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
             "tried": [],
         },
     )
-    measured = partial(_distance, found, surface, given, best.field, request)
-    if found is None:
-        report = Sections(report, {"distance": measured})
-    else:
-        report["distance"] = measured()
+    report = Sections(report, {"distance": partial(_distance, surface, given, best.field, request)})
     stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
     return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), told
 
@@ -219,14 +215,15 @@ def _raw(given: Given, field: SparseField, request: Request) -> Surface:
     return given.raw or raw_surface(field, given.data, request.threads)
 
 
-def _compared(surface: Surface, given: Given, field: SparseField, request: Request) -> Fidelity:
-    """Return how far a surface lies from what was given, both ways."""
+def _compared(surface: Surface, given: Given, field: SparseField, request: Request, *, exact: bool = False) -> Fidelity:
+    """Return how far a surface lies from what was given, both ways; by default, only where that is far."""
     return fidelity(
         _raw(given, field, request) if given.mesh is None else given.mesh,
         surface,
         cell=given.cell or float(given.data.cell_size.max()),
         closed=given.reference,
         kinds=kinds_of_places(given, field, threads=request.threads),
+        exact=exact,
         threads=request.threads,
     )
 
@@ -277,11 +274,9 @@ def _walls(judged: Verdict, surfaced: Surfaced, data: Volume) -> dict[str, Any]:
     return {"thinnest": {"data": before, "result": after}, "lost": lost}
 
 
-def _distance(
-    found: Fidelity | None, surface: Surface, given: Given, field: SparseField, request: Request
-) -> dict[str, Any]:
+def _distance(surface: Surface, given: Given, field: SparseField, request: Request) -> dict[str, Any]:
     """Return how far the result lies from what was given, both ways, and the voxels from a mesh, for the report."""
-    found = found or _compared(surface, given, field, request)
+    found = _compared(surface, given, field, request, exact=True)
     facts: dict[str, Any] = {
         "from": "voxels" if given.mesh is None else "mesh",
         "result": found.there.facts(),

@@ -64,12 +64,12 @@ def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = N
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
         return bounding
-    bits = data_bits(field, threads=threads)
     cells = THICK_IN_NOISE if given.facts.get("noise", 0.0) > NOISY else THICK
-    solid, empty = (sturdy(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
     data, turn = given.data, np.asarray(given.data.direction)
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
+        bits = data_bits(field, threads=threads)
+        solid, empty = (sturdy(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
         place_of = (points - np.array(data.origin)) @ turn / data.cell_size
         wall, gap = np.zeros((2, len(points)), dtype=bool)
         for step in np.ndindex(2, 2, 2):
