@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.surface import Surface
-from infill.surfaces.distance import Tree
+from infill.surfaces.distance import Tree, along_curve
 
 Word = Literal["kept", "changed a little", "lost"]
 Floats = NDArray[np.float64]
@@ -168,10 +168,10 @@ def fidelity(
     """
     enough = 0.0 if exact else KEPT * cell
     points, _, area = sampled(result, PITCH * cell)
-    away, _ = Tree.of(given if closed is None else closed).nearest(points, enough=enough, threads=threads)
+    away = _away(points, given if closed is None else closed, enough, threads)
     there, added = _gap(points, away, area), _patches(points, away, area, cell)
     points, faces, area = sampled(given, PITCH * cell)
-    away, _ = Tree.of(result).nearest(points, enough=enough, threads=threads)
+    away = _away(points, result, enough, threads)
     far = np.flatnonzero(away > KEPT * cell)
     kind = kinds(points[far], faces[far]) if len(far) else np.empty(0, dtype=np.int64)
     thin, sheet, hidden = (float(area[far[kind == each]].sum()) for each in (THIN, SHEET, HIDDEN))
@@ -191,6 +191,14 @@ def fidelity(
         cell=cell,
         exact=exact,
     )
+
+
+def _away(points: Floats, surface: Surface, enough: float, threads: int | None) -> Floats:
+    """Return how far points lie from a surface, those first that are near the one before: see `Tree.nearest`."""
+    order = along_curve(points)
+    away = np.empty(len(points))
+    away[order], _ = Tree.of(surface).nearest(points[order], enough=enough, threads=threads)
+    return away
 
 
 def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], Floats]:

@@ -44,7 +44,7 @@ class Tree:
         Neighbours on the curve of Morton (1966), which interleaves the bits of the coordinates, are near in space.
         """
         corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
-        order = np.argsort(_interleaved(corners.mean(axis=1)), kind="stable")
+        order = along_curve(corners.mean(axis=1))
         corners = np.ascontiguousarray(corners[order])
         leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
         low, high = np.full((leaves * LEAF, 3), np.inf), np.full((leaves * LEAF, 3), -np.inf)
@@ -98,6 +98,15 @@ def distances(points: NDArray[np.floating], surface: Surface, *, threads: int | 
     [1.154701]
     """
     return Tree.of(surface).nearest(points, threads=threads)[0]
+
+
+def along_curve(points: Floats) -> NDArray[np.int64]:
+    """Return the order of points (N, 3) on the curve of Morton (1966): those that follow one another are mostly near.
+
+    >>> along_curve(np.array([[0.0, 0, 0], [9, 9, 9], [0, 0, 1]])).tolist()
+    [0, 2, 1]
+    """
+    return np.argsort(_interleaved(points), kind="stable")
 
 
 def _interleaved(points: Floats) -> NDArray[np.uint64]:
