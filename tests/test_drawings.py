@@ -287,7 +287,7 @@ BROKEN = {
     "wkt with NaN": ("tile.wkt", "LINESTRING (0 0, 1 nan)", "nan mm"),
     "wkt far away": ("tile.wkt", "LINESTRING (0 0, 1e300 1)", "1e+300 mm"),
     "wkt in bytes": ("tile.wkt", b"\xff\xfe\x00\x80", "broken"),
-    "dxf empty": ("tile.dxf", "", "not a DXF file"),
+    "dxf empty": ("tile.dxf", "", "is empty"),
     "dxf of words": ("tile.dxf", "hello", "not a DXF file"),
     "png of words": ("tile.png", "hello", "not a picture"),
     "no such format": ("tile.pdf", "hello", "use one of .svg"),
@@ -377,7 +377,7 @@ def test_pictures_without_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def test_dxf_without_ezdxf_names_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ezdxf", None)
     with pytest.raises(FormatError, match=r"pip install 'phasefill\[drawings\]'"):
-        read_drawing(written(tmp_path, "", "tile.dxf"))
+        read_drawing(written(tmp_path, "0\nEOF\n", "tile.dxf"))
 
 
 def test_a_missing_file_is_told(tmp_path: Path) -> None:
