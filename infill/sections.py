@@ -92,7 +92,7 @@ class Sections(dict[str, Any]):
         return super().popitem()
 
     def copy(self) -> dict[str, Any]:
-        """Return a plain dict."""
+        """Return a plain dict, all of it computed: nothing holds on any more to what that took."""
         return dict(self.items())
 
     def __reduce__(self) -> tuple[type[dict[str, Any]], tuple[dict[str, Any]]]:

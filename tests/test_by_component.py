@@ -7,6 +7,7 @@ import math
 import re
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -250,3 +251,12 @@ def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     np.save("ball.npy", np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0) < 64)
     one_line_error(run("smooth", "ball.npy", "--by-component", "-o", "y.stl"), "by-component is for mesh")
     assert math.isfinite(report["seconds"]["total"])
+
+
+def test_reports_of_components_hold_on_to_nothing() -> None:
+    """What is measured only when somebody asks needs the field, which for many components is much memory."""
+    both = trimesh.util.concatenate([trimesh.creation.icosphere(radius=5), trimesh.creation.box((4, 4, 4))])
+    both.vertices[-8:] += [20, 0, 0]
+    report: Any = smooth_mesh(both, voxel=0.5, by_component=True).report
+    assert [type(each["report"]) for each in report["components"]] == [dict, dict]
+    assert all(each["report"]["distance"]["result"]["max"] < 1 for each in report["components"])

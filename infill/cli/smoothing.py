@@ -347,7 +347,7 @@ def smooth(
     if not (outputs or preview or as_json or dry_run):
         check_outputs((), text=save_config, overwrite=force, as_json=as_json)
         written = deliver_all(saved)
-        if not quiet:
+        if not quiet and written != ["-"]:
             say(f"wrote {', '.join(written)}")
         return
     if wants_each(outputs, each_label=settings.each_label, labels=settings.labels, keep_going=settings.keep_going):

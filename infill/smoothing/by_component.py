@@ -125,7 +125,9 @@ def by_components(
                 continue
             except InfillError as error:
                 raise type(error)(f"{name}: {error}") from error
-            surfaces[name], reports[name] = result.surface, result.report
+            surfaces[name] = result.surface
+            # Whole by now: what is measured later would hold on to the field of every one.
+            reports[name] = result.report.copy()
     if not surfaces:
         raise GeometryError(f"no component can be smoothed; component_1: {failed['component_1']}")
     return Result(

@@ -151,7 +151,9 @@ def smooth_labels(
                 if len(failed) == len(pieces):
                     raise type(error)(f"no label can be smoothed; {said}") from error
                 continue
-            surfaces[piece.name], reports[piece.name] = result.surface, result.report
+            surfaces[piece.name] = result.surface
+            # Whole by now: what is measured later would hold on to the field of every one.
+            reports[piece.name] = result.report.copy()
     done, broken = ([piece for piece in pieces if piece.name in some] for some in (surfaces, failed))
     return Result(
         surfaces=surfaces,
