@@ -7,6 +7,7 @@ from typing import Any
 import numba
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy import ndimage
@@ -28,7 +29,7 @@ from infill.kernels.sparse import (
     emit,
     repeat_edges,
 )
-from infill.kernels.sparse_marching import place, volumes
+from infill.kernels.sparse_marching import BLOCK, place, sum_volumes, volumes
 from infill.kernels.threads import MOST, VARIABLE, in_threads, thread_count
 from infill.kernels.transfer import gather
 from infill.phasefield.sparse import SparseField, smooth_bricks, states_of
@@ -312,21 +313,26 @@ def test_gates_open_by_the_means_around_a_cell(size: int, field: SparseField) ->
 
 
 def test_volumes_and_slopes_of_faces() -> None:
-    """Against the determinant, and against moving every vertex by a little of its rate."""
+    """Against the determinant, and, of all faces together, against moving every vertex by a little of its rate."""
     rng = np.random.default_rng(12)
-    vertices, rate = rng.uniform(-1, 1, (2, 30, 3))
-    faces = rng.permutation(30).reshape(10, 3).astype(np.int32)
+    sphere = trimesh.creation.icosphere(subdivisions=1)
+    vertices = sphere.vertices * rng.uniform(0.5, 1.5, (len(sphere.vertices), 1))
+    rate, faces = rng.uniform(-1, 1, vertices.shape), sphere.faces.astype(np.int32)
     middle = np.array([0.2, -0.4, 0.1])
 
     def exact(step: float) -> np.ndarray:
         return np.linalg.det((vertices + step * rate - middle)[faces]) / 6
 
+    slope = (exact(1e-5).sum() - exact(-1e-5).sum()) / 2e-5  # a cubic: error 1e-10
     for threads in (1, 3):
-        own, change = np.full((2, 10), np.nan)
+        own, change = np.full((2, len(faces)), np.nan)
+        sums = np.full((-(-len(faces) // BLOCK), 2), np.nan)
         for thread in range(threads):
             volumes(vertices, rate, faces, middle, own, change, thread, threads)
+            sum_volumes(vertices, rate, faces, middle, sums, thread, threads)
         assert own == pytest.approx(exact(0), abs=1e-14)
-        assert change == pytest.approx((exact(1e-5) - exact(-1e-5)) / 2e-5, abs=1e-9)  # a cubic: error 1e-10
+        assert change.sum() == pytest.approx(slope, abs=1e-8)
+        assert sums.sum(axis=0) / 6 == pytest.approx([own.sum(), change.sum()], abs=1e-12)
 
 
 @pytest.mark.parametrize("threads", [1, 2, 5])

@@ -26,8 +26,9 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
+from infill.kernels.masks import lowest, ones
 from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK
-from infill.kernels.sparse_marching import FULL, ROWS, lowest, ones, within
+from infill.kernels.sparse_marching import FULL, ROWS, within
 
 
 @njit(cache=True)

@@ -1,5 +1,5 @@
 """A majority vote among neighbours, compiled: see `infill.voxels.noise`."""
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def, assignment"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
@@ -41,29 +41,27 @@ def votes(solid, rows, planes, found):
 
 
 @njit(nogil=True, cache=True)
-def count_overruled(slab, counts):
-    """Add how many 1s and how many 0s a majority overrules, and how many cells are at the surface that is left then."""
+def count_overruled(slab, room, counts):
+    """Add how many 1s and how many 0s a majority overrules, and how many cells are at the surface that is left then.
+
+    `room` is for three slabs and a layer, (4, n0, n1, n2) uint8, so that many slabs share it.
+    """
     n0, n1, n2 = slab.shape
-    rows = np.empty((n1, n2), dtype=np.uint8)
-    planes, most, again = (
-        np.empty(slab.shape, dtype=np.uint8),
-        np.empty(slab.shape, dtype=np.uint8),
-        np.empty(slab.shape, dtype=np.uint8),
-    )
+    rows, planes, most, again = room[0, 0], room[1], room[2], room[3]
     votes(slab, rows, planes, most)
-    for i in range(n0):
-        for j in range(n1):
-            for k in range(n2):
-                most[i, j, k] = most[i, j, k] > VOTERS // 2
+    every = most.reshape(-1)
+    for t in range(len(every)):
+        every[t] = every[t] > VOTERS // 2
     votes(most, rows, planes, again)
     first, last = (EDGE, n0 - EDGE) if n0 > 2 * EDGE else (0, n0)
     taken = given = surface = 0
     for i in range(first, last):
-        for j in range(n1):
+        for j in range(n1):  # row by row: vector code
+            own, kept, beside = slab[i, j], most[i, j], again[i, j]
             for k in range(n2):
-                taken += slab[i, j, k] > most[i, j, k]
-                given += slab[i, j, k] < most[i, j, k]
-                surface += (again[i, j, k] > 0) & (again[i, j, k] < VOTERS)
+                taken += own[k] > kept[k]
+                given += own[k] < kept[k]
+                surface += np.uint8(beside[k] - np.uint8(1)) < np.uint8(VOTERS - 1)
     counts[0] += taken
     counts[1] += given
     counts[2] += surface

@@ -19,24 +19,23 @@ There are two passes: `count` says how much every brick will write, cumulative s
 writes. A cube's eight signs choose its triangles from a table of 256 (`infill.surfaces.sparse_marching.cube_table`);
 where signs do not decide (`UNDECIDED`: a face with a saddle, or opposite corners), its corner values are returned.
 """
-# mypy: disable-error-code="no-untyped-def, call-arg"
+# mypy: disable-error-code="no-untyped-def, call-arg, var-annotated"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic
 
 from infill.kernels.compiling import njit
+from infill.kernels.masks import above, lowest, ones
 from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1
-TRUE = ir.Constant(ir.IntType(1), 1)
 UNDECIDED = -128  # in a table of triangles: the signs do not decide; the least int8, which no count comes near
 FULL = (1 << B2) - 1  # all bits of a row
+EDGES = 12  # of a cube
+BLOCK = 4096  # faces whose volumes make one sum
 
 
 @njit(nogil=True, cache=True)
@@ -45,10 +44,8 @@ def bits_above(values, where, level, shape, bits, thread, threads):
     for s in range(thread, len(values), threads):
         brick = values[s]
         for row in range(ROWS):
-            found = 0
-            for k in range(B2):
-                found |= (brick[row * B2 + k] > level) << k
-            bits[s, row] = np.uint16(found) & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            found = above(brick, row * B2, level)
+            bits[s, row] = found & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
 
 
 @njit(inline="always", cache=True)
@@ -67,50 +64,40 @@ def within(p, q, r, row, shape):
 
 
 @njit(inline="always", cache=True)
-def row_of(slots, p, q, r, row, bits, shape):
-    """Return which cells of a row of any brick are solid."""
+def slot_at(slots, p, q, r):
+    """Return what the lattice holds at a place, which may be beyond its upper end."""
     if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
-        return np.uint32(0)
-    slot = slots[p, q, r]
-    if slot >= 0:
-        return np.uint32(bits[slot, row])
-    return np.uint32(within(p, q, r, row, shape)) if slot == SOLID_BRICK else np.uint32(0)
+        return OUTSIDE
+    return slots[p, q, r]
 
 
 @njit(cache=True)
 def rows_around(slots, p, q, r, bits, shape, rows):
-    """Set the rows of a brick and the first ones after it, 17 cells each: (9, 9)."""
-    for i in range(B0 + 1):
-        a, x = (p, i) if i < B0 else (p + 1, 0)
-        for j in range(B1 + 1):
-            b, y = (q, j) if j < B1 else (q + 1, 0)
-            own = row_of(slots, a, b, r, x * B1 + y, bits, shape)
-            after = row_of(slots, a, b, r + 1, x * B1 + y, bits, shape)
-            rows[i, j] = own | ((after & np.uint32(1)) << np.uint32(B2))
+    """Set the rows of a brick and the first ones after it, 17 cells each, (9, 9); return whether any two cells differ.
 
-
-@intrinsic
-def counted(context, bits):  # noqa: ARG001
-    """Count the set bits, by the machine instruction for it."""
-    return types.int64(types.int64), lambda _, builder, __, arguments: builder.ctpop(arguments[0])
-
-
-@intrinsic
-def trailing(context, bits):  # noqa: ARG001
-    """Count the bits below the lowest set bit."""
-    return types.int64(types.int64), lambda _, builder, __, arguments: builder.cttz(arguments[0], TRUE)
-
-
-@njit(inline="always", cache=True)
-def ones(bits):
-    """Count the set bits of a non-negative number."""
-    return counted(np.int64(bits))
-
-
-@njit(inline="always", cache=True)
-def lowest(bits):
-    """Return the position of the lowest set bit."""
-    return trailing(np.int64(bits))
+    What lies beyond the lattice is void.
+    """
+    some, every = np.uint32(0), np.uint32(2 * FULL + 1)
+    for side in range(4):
+        up, right = side & 1, side >> 1
+        a, b = p + up, q + right
+        here, after = slot_at(slots, a, b, r), slot_at(slots, a, b, r + 1)
+        for x in range(1 if up else B0):
+            for y in range(1 if right else B1):
+                row = x * B1 + y
+                found = np.uint32(0)
+                if here >= 0:
+                    found = np.uint32(bits[here, row])
+                elif here == SOLID_BRICK:
+                    found = np.uint32(within(a, b, r, row, shape))
+                if after >= 0:
+                    found |= (np.uint32(bits[after, row]) & np.uint32(1)) << np.uint32(B2)
+                elif after == SOLID_BRICK:
+                    found |= (np.uint32(within(a, b, r + 1, row, shape)) & np.uint32(1)) << np.uint32(B2)
+                rows[x + B0 * up, y + B1 * right] = found
+                some |= found
+                every &= found
+    return some != 0 and every != np.uint32(2 * FULL + 1)
 
 
 @njit(inline="always", cache=True)
@@ -138,7 +125,8 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
     """Set the crossed edges of every row along i, j, k, where its vertices begin, and how much each brick will hold."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
-        rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
+        if not rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows):
+            continue  # nobody asks for the vertices of a brick that has none
         vertices, faces, undecided = 0, 0, 0
         for i in range(B0):
             for j in range(B1):
@@ -165,27 +153,37 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
 def values_around(slots, p, q, r, values, shape, numbers, around):
     """Set the values minus the level for a brick and the first cells after it: (9, 9, 17)."""
     level, clearance, tie = numbers
+    low, high = 1 - r * B2, shape[2] - r * B2  # the cells of the grid
     for i in range(B0 + 1):
         a, x = (p, i) if i < B0 else (p + 1, 0)
         for j in range(B1 + 1):
             b, y = (q, j) if j < B1 else (q + 1, 0)
             inside = 1 <= a * B0 + x <= shape[0] and 1 <= b * B1 + y <= shape[1]
-            line = around[i, j]
-            for part in range(2):
-                c, first, last = r + part, part * B2, B2 + part
-                slot = slots[a, b, c] if inside and c < slots.shape[2] else OUTSIDE
-                if slot >= 0:
-                    brick, at = values[slot], (x * B1 + y) * B2 - first
-                    for k in range(first, last):
-                        line[k] = brick[at + k]
-                else:
-                    value = np.float32(1) if slot == SOLID_BRICK else np.float32(-1)
-                    for k in range(first, last):
-                        line[k] = value
-            low, high = 1 - r * B2, shape[2] - r * B2  # the cells of the grid
-            for k in range(B2 + 1):
-                v = line[k] - level if low <= k <= high else -1 - level
-                line[k] = max(v, clearance) * tie if v > 0 else min(v, -clearance)
+            here, after = OUTSIDE, OUTSIDE
+            if inside:
+                here, after = slot_at(slots, a, b, r), slot_at(slots, a, b, r + 1)
+            line, at = around[i, j], (x * B1 + y) * B2
+            if here >= 0:
+                brick = values[here]
+                for k in range(B2):
+                    line[k] = apart(brick[at + k] - level, clearance, tie)
+            else:
+                value = apart((np.float32(1) if here == SOLID_BRICK else np.float32(-1)) - level, clearance, tie)
+                for k in range(B2):
+                    line[k] = value
+            value = np.float32(1) if after == SOLID_BRICK else np.float32(-1)
+            line[B2] = apart((values[after, at] if after >= 0 else value) - level, clearance, tie)
+            for k in range(max(low, 0)):
+                line[k] = apart(np.float32(-1) - level, clearance, tie)
+            for k in range(max(high + 1, 0), B2 + 1):
+                line[k] = apart(np.float32(-1) - level, clearance, tie)
+
+
+@njit(inline="always", cache=True)
+def apart(value, clearance, tie):
+    """Return a value that is no nearer to 0 than allowed."""
+    above_it, below_it = max(value, clearance) * tie, min(value, -clearance)
+    return above_it if value > 0 else below_it
 
 
 @njit(inline="always", cache=True)
@@ -212,6 +210,7 @@ def write(
     numbers,
     many,
     triangles,
+    crossings,
     masks,
     starts,
     offsets,
@@ -228,6 +227,7 @@ def write(
     """Write vertices in cells from the first cell's centre, triangles, and what is known about undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
+    numbered = np.empty(EDGES, dtype=np.int32)
     for n in range(thread, len(places), threads):
         done, todo = offsets[n], offsets[n + 1]
         if done[0] == todo[0] and done[1] == todo[1] and done[2] == todo[2]:
@@ -259,23 +259,14 @@ def write(
                     left &= left - 1
                     signs = signs_of(a, b, c, d, k)
                     if many[signs] != UNDECIDED:
+                        for m in range(crossings[signs, EDGES]):
+                            e = crossings[signs, m]
+                            axis, at = int(edges[e, 0]), int(edges[e, 1])
+                            x, y, z = i + (at & 1), j + (at >> 1 & 1), k + (at >> 2)
+                            numbered[e] = vertex_number(index, p, q, r, x, y, z, axis, masks, starts, offsets)
                         for t in range(many[signs]):
                             for corner in range(3):
-                                e = triangles[signs, t, corner]
-                                axis, at = int(edges[e, 0]), int(edges[e, 1])
-                                faces[f, corner] = vertex_number(
-                                    index,
-                                    p,
-                                    q,
-                                    r,
-                                    i + (at & 1),
-                                    j + (at >> 1 & 1),
-                                    k + (at >> 2),
-                                    axis,
-                                    masks,
-                                    starts,
-                                    offsets,
-                                )
+                                faces[f, corner] = numbered[triangles[signs, t, corner]]
                             f += 1
                         continue
                     places_of[u, 0], places_of[u, 1], places_of[u, 2] = p * B0 + i - 1, q * B1 + j - 1, r * B2 + k - 1
@@ -322,31 +313,48 @@ def volumes(vertices, rate, faces, middle, own, change, thread, threads):
         change[f] = more / 6
 
 
-@njit(cache=True)
+@njit(nogil=True, cache=True)
+def sum_volumes(vertices, rate, faces, middle, sums, thread, threads):
+    """Set six times the volume between a block of faces and the central point, and its change with the level, (n, 2).
+
+    Sums do not depend on the number of threads.
+    """
+    for block in range(thread, len(sums), threads):
+        volume, slope = 0.0, 0.0
+        for f in range(block * BLOCK, min(len(faces), (block + 1) * BLOCK)):
+            own, change = sixfold(vertices, rate, faces[f], middle)
+            volume += own
+            slope += change
+        sums[block, 0], sums[block, 1] = volume, slope
+
+
+@njit(inline="always", cache=True)
 def sixfold(vertices, rate, face, middle):
-    """Return six times the volume between a face and the central point, and its change when the level rises by one."""
-    i, j, k = face
-    ax, ay, az = vertices[i, 0] - middle[0], vertices[i, 1] - middle[1], vertices[i, 2] - middle[2]
-    bx, by, bz = vertices[j, 0] - middle[0], vertices[j, 1] - middle[1], vertices[j, 2] - middle[2]
-    cx, cy, cz = vertices[k, 0] - middle[0], vertices[k, 1] - middle[1], vertices[k, 2] - middle[2]
+    """Return six times the volume between a face and the central point, and its change when the level rises by one.
+
+    The change is that of all faces together: in a closed surface, what the three products of two corners add to the
+    face's own normal cancels out around every vertex.
+    """
+    i, j, k = face[0], face[1], face[2]
+    ax, ay, az = vertices[i, 0], vertices[i, 1], vertices[i, 2]
+    bx, by, bz = vertices[j, 0] - ax, vertices[j, 1] - ay, vertices[j, 2] - az
+    cx, cy, cz = vertices[k, 0] - ax, vertices[k, 1] - ay, vertices[k, 2] - az
     nx, ny, nz = by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx
-    volume = ax * nx + ay * ny + az * nz
-    slope = rate[i, 0] * nx + rate[i, 1] * ny + rate[i, 2] * nz
-    nx, ny, nz = cy * az - cz * ay, cz * ax - cx * az, cx * ay - cy * ax
-    slope += rate[j, 0] * nx + rate[j, 1] * ny + rate[j, 2] * nz
-    nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-    slope += rate[k, 0] * nx + rate[k, 1] * ny + rate[k, 2] * nz
+    volume = (ax - middle[0]) * nx + (ay - middle[1]) * ny + (az - middle[2]) * nz
+    slope = (
+        (rate[i, 0] + rate[j, 0] + rate[k, 0]) * nx
+        + (rate[i, 1] + rate[j, 1] + rate[k, 1]) * ny
+        + (rate[i, 2] + rate[j, 2] + rate[k, 2]) * nz
+    )
     return volume, slope
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def measure(
-    slots, places, bits, values, shape, numbers, many, triangles, edges, spacing, middle, order, thread, threads
-):
-    """Return six times the volume of the surface, its slope over the level, and the number of undecided cubes."""
+def measure(slots, places, bits, values, shape, numbers, many, triangles, crossings, edges, middle, thread, threads):
+    """Return six times the volume of the surface, cells, its slope over the level, and how many cubes are undecided."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
-    corners, points, moves = np.empty(8), np.empty((3, 3)), np.empty((3, 3), dtype=np.float32)
+    points, moves = np.empty((EDGES, 3)), np.empty(EDGES)
     volume, slope, undecided = 0.0, 0.0, 0
     for n in range(thread, len(places), threads):
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
@@ -359,6 +367,7 @@ def measure(
                 if left and not seen:
                     values_around(slots, p, q, r, values, shape, numbers, around)
                     seen = True
+                x, y = p * B0 + i - 0.5 - middle[0], q * B1 + j - 0.5 - middle[1]
                 while left:
                     k = lowest(left)
                     left &= left - 1
@@ -366,21 +375,25 @@ def measure(
                     if many[signs] == UNDECIDED:
                         undecided += 1
                         continue
-                    for corner in range(8):
-                        di, dj, dk = corner & 1, corner >> 1 & 1, corner >> 2
-                        corners[corner] = around[i + di, j + dj, k + dk]
+                    z = r * B2 + k - 0.5 - middle[2]
+                    for m in range(crossings[signs, EDGES]):
+                        e = crossings[signs, m]
+                        axis, at = int(edges[e, 0]), int(edges[e, 1])
+                        to = at | 1 << axis
+                        di, dj, dk = at & 1, at >> 1 & 1, at >> 2
+                        here = np.float64(around[i + di, j + dj, k + dk])
+                        there = np.float64(around[i + (to & 1), j + (to >> 1 & 1), k + (to >> 2)])
+                        move = 1 / (there - here)
+                        moves[e] = move
+                        points[e, 0], points[e, 1], points[e, 2] = x + di, y + dj, z + dk
+                        points[e, axis] -= here * move
                     for t in range(many[signs]):
-                        for corner in range(3):
-                            e = triangles[signs, t, corner]
-                            axis, at = int(edges[e, 0]), int(edges[e, 1])
-                            here, there = corners[at], corners[at | 1 << axis]
-                            points[corner, 0] = (p * B0 + i - 0.5 + (at & 1)) * spacing[0]
-                            points[corner, 1] = (q * B1 + j - 0.5 + (at >> 1 & 1)) * spacing[1]
-                            points[corner, 2] = (r * B2 + k - 0.5 + (at >> 2)) * spacing[2]
-                            points[corner, axis] += here / (here - there) * spacing[axis]
-                            moves[corner, 0] = moves[corner, 1] = moves[corner, 2] = 0.0
-                            moves[corner, axis] = spacing[axis] / (there - here)
-                        own, change = sixfold(points, moves, order, middle)
-                        volume += own
-                        slope += change
+                        one, two, three = triangles[signs, t, 0], triangles[signs, t, 1], triangles[signs, t, 2]
+                        ax, ay, az = points[one, 0], points[one, 1], points[one, 2]
+                        bx, by, bz = points[two, 0] - ax, points[two, 1] - ay, points[two, 2] - az
+                        cx, cy, cz = points[three, 0] - ax, points[three, 1] - ay, points[three, 2] - az
+                        nx, ny, nz = by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx
+                        volume += ax * nx + ay * ny + az * nz
+                        for e in (one, two, three):
+                            slope += moves[e] * (nx if e < 4 else (ny if e < 8 else nz))
     return volume, slope, undecided

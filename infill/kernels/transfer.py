@@ -10,7 +10,7 @@ one cell before the grid, so that there is void (or a repetition of the edge) fo
 row of bricks are collected for all k at once, which is vector code, and then cut into sixteens. Only mixed bricks,
 and those next to one of the other phase, are gathered; `spread` is the way back, a row of bricks at a time.
 """
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
@@ -19,7 +19,22 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
+from infill.kernels.masks import above, ones
 from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BRICK
+
+
+@njit(nogil=True, cache=True)
+def count_solid(cells, thread, threads):
+    """Return how many of a thread's share of int8 cells, flat, are above 0."""
+    size = -(-len(cells) // (threads * B2)) * B2
+    first, last = min(thread * size, len(cells)), min((thread + 1) * size, len(cells))
+    found, limit = 0, np.int8(0)
+    whole = first + (last - first) // B2 * B2
+    for t in range(first, whole, B2):
+        found += ones(above(cells, t, limit))
+    for t in range(whole, last):
+        found += cells[t] > 0
+    return found
 
 
 @njit(nogil=True, cache=True)

@@ -22,6 +22,7 @@ from infill.inspection.fidelity import Fidelity, fidelity
 from infill.inspection.flips import Flips, near_each_other
 from infill.inspection.thickness import thinnest_walls
 from infill.kernels.compiling import told_of_compiling
+from infill.kernels.threads import thread_count, together
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.report import report_of
@@ -61,6 +62,8 @@ class Attempt:
     crumbs, specks : Crumbs, int
         What was taken out afterwards and beforehand.
     judged : Verdict
+    thinnest : (float or None, float or None), mm
+        The thinnest walls, in the data and smoothed: see `infill.inspection.thickness.thinnest_walls`.
     found : Fidelity or None
         How far it lies from what was given; None if it is sure to be near everywhere, and nobody measured it.
     told : Differences
@@ -76,6 +79,7 @@ class Attempt:
     crumbs: Crumbs
     specks: int
     judged: Verdict
+    thinnest: tuple[float | None, float | None]
     found: Fidelity | None
     told: Differences
     full: Surface
@@ -122,14 +126,16 @@ def attempted(given: Given, request: Request) -> Attempt:
         given = replace(given, data=data)
         field = _smoothed(given, request, clock)
     with clock.stage("surface", 0.4):
-        surfaced, crumbs = without_crumbs(levelled(field, given, request), given, request)
-        full = with_measures(placed(surfaced.found.surface, data), threads=request.threads)
-        if not full.closed:
-            raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
+        raised = levelled(field, given, request)
     with clock.stage("check", 0.5):
-        flips = Flips.of(surfaced.found.against, surfaced.before.bits, surfaced.found.height, threads=request.threads)
-        judged = _judged(surfaced, flips, data, request)
-        found = None if _near(flips, given, crumbs, request) else _compared(full, given, field, request)
+        threads = thread_count(request.threads)
+        (surfaced, crumbs, full), (flips, near) = together(
+            partial(_whole, raised, given, request), partial(_changed, raised, given, request), threads=threads
+        )
+        judged, thinnest = together(
+            partial(_judged, surfaced, flips, data, request), partial(_thinnest, surfaced, data), threads=threads
+        )
+        found = None if near and not crumbs.count else _compared(full, given, field, request)
     return Attempt(
         given=given,
         request=request,
@@ -138,6 +144,7 @@ def attempted(given: Given, request: Request) -> Attempt:
         crumbs=crumbs,
         specks=specks,
         judged=judged,
+        thinnest=thinnest,
         found=found,
         told=differences(judged, found, given, off=off_by(surfaced, given, request)),
         full=full,
@@ -159,11 +166,27 @@ def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) ->
     )
 
 
-def _near(flips: Flips, given: Given, crumbs: Crumbs, request: Request) -> bool:
-    """Return whether the surface is sure to be near what was given: if that is the data, and nothing was taken out."""
-    if given.mesh is not None or given.raw is not None or crumbs.count:
-        return False
-    return near_each_other(flips, spacing=tuple(given.data.cell_size.tolist()), threads=request.threads)
+def _whole(raised: Surfaced, given: Given, request: Request) -> tuple[Surfaced, Crumbs, Surface]:
+    """Return the surface without crumbs, what they were, and the surface in its place, closed and measured."""
+    surfaced, crumbs = without_crumbs(raised, given, request)
+    full = with_measures(placed(surfaced.found.surface, given.data), threads=request.threads)
+    if not full.closed:
+        raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
+    return surfaced, crumbs, full
+
+
+def _changed(raised: Surfaced, given: Given, request: Request) -> tuple[Flips, bool]:
+    """Return the cells that changed sign, and whether the surface is sure to be near what was given: the data."""
+    found, spacing = raised.found, tuple(given.data.cell_size.tolist())
+    flips = Flips.of(found.against, raised.before.bits, found.height, threads=request.threads)
+    of_data = given.mesh is None and given.raw is None
+    return flips, of_data and near_each_other(flips, spacing=spacing, threads=request.threads)
+
+
+def _thinnest(surfaced: Surfaced, data: Volume) -> tuple[float | None, float | None]:
+    """Return how thin the walls are, in the data and smoothed, mm."""
+    found = surfaced.found
+    return thinnest_walls(found.against, found.surface, tuple(data.cell_size.tolist()), found.height)
 
 
 def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
@@ -175,7 +198,6 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
         if surface is not best.full:
             found = _compared(surface, given, best.field, request)
             told = differences(judged, found, given, off=off_by(surfaced, given, request))
-        walls = _walls(judged, surfaced, data)
     report = report_of(
         product="smooth",
         surface=surface,
@@ -190,7 +212,7 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
         data=judged.data,
         result=judged.result,
         changes=judged.changes,
-        walls=walls,
+        walls=_walls(best, data),
         problems=[*told.losses, *told.problems],
         seconds=clock.seconds,
         simplified=simplified,
@@ -266,11 +288,10 @@ def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
     }
 
 
-def _walls(judged: Verdict, surfaced: Surfaced, data: Volume) -> dict[str, Any]:
+def _walls(best: Attempt, data: Volume) -> dict[str, Any]:
     """Return how thin the walls are, and which were lost, for the report."""
-    found, spacing = surfaced.found, tuple(data.cell_size.tolist())
-    before, after = thinnest_walls(found.against, found.surface, spacing, found.height)
-    lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in judged.lost]
+    before, after = best.thinnest
+    lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in best.judged.lost]
     return {"thinnest": {"data": before, "result": after}, "lost": lost}
 
 

@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.kernels import components as components_kernels
+from infill.kernels import sparse_marching as marching_kernels
 from infill.kernels.sparse import BRICK, CELLS
 from infill.kernels.threads import in_threads, thread_count, together
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
-from infill.surfaces.components import Components, Shells, components, data_bits, face_sums, shells
+from infill.surfaces.components import Components, Shells, components, data_bits, shells
 from infill.surfaces.sparse_marching import Level, extract_level, measured
 
 # Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to find, while a
@@ -90,8 +91,12 @@ def straightened(
 
 def volume_of(found: Level, threads: int) -> tuple[float, float]:
     """Return the volume a surface encloses, mm³, and how much it changes when the level rises by one."""
-    own, change = face_sums(found.surface, found.rate, threads=threads)
-    return float(own.sum()), float(change.sum())
+    surface = found.surface
+    sums = np.empty((-(-len(surface.faces) // marching_kernels.BLOCK), 2))
+    middle = surface.vertices[len(surface.vertices) // 2]
+    in_threads(marching_kernels.sum_volumes, surface.vertices, found.rate, surface.faces, middle, sums, threads=threads)
+    sixfold, slope = sums.sum(axis=0).tolist()
+    return sixfold / 6, slope / 6
 
 
 def counted(

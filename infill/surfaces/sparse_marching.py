@@ -8,6 +8,7 @@ derived here; the few others are left to scikit-image, so that saddles are decid
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -39,10 +40,16 @@ class Cubes:
         The edges that the corners of each triangle lie on, as `EDGES` numbers them.
     counts : (256,) int8
         Number of triangles; `UNDECIDED` where the signs do not determine it.
+    crossings : (256, 13) int8
+        The edges whose ends have different signs, and last their number.
+    edges : (12, 2) int8
+        Axis and lower corner of each edge.
     """
 
     triangles: NDArray[np.int8]
     counts: NDArray[np.int8]
+    crossings: NDArray[np.int8]
+    edges: NDArray[np.int8]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,10 +127,11 @@ def extract_level(
         numbers,
         cubes.counts,
         cubes.triangles,
+        cubes.crossings,
         masks,
         starts,
         offsets,
-        np.array(EDGES, dtype=np.int8),
+        cubes.edges,
         vertices,
         rate,
         faces,
@@ -163,14 +171,14 @@ def measured(
         numbers,
         cubes.counts,
         cubes.triangles,
-        np.array(EDGES, dtype=np.int8),
-        np.array(spacing, dtype=np.float64),
-        np.array(field.shape) * spacing / 2,
-        np.arange(3, dtype=np.int32),
+        cubes.crossings,
+        cubes.edges,
+        np.array(field.shape) / 2,
         threads=count,
     )
     volume, slope, undecided = (sum(part[n] for part in parts) for n in range(3))
-    return None if undecided else (volume / 6, slope / 6)
+    sixth = math.prod(spacing) / 6
+    return None if undecided else (volume * sixth, slope * sixth)
 
 
 def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
@@ -209,8 +217,11 @@ def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[n
 def cube_table() -> Cubes:
     """Return the triangles of every cube whose signs decide them, derived by tracing around its faces."""
     triangles, counts = np.zeros((256, 5, 3), dtype=np.int8), np.zeros(256, dtype=np.int8)
+    crossings = np.zeros((256, len(EDGES) + 1), dtype=np.int8)
     number = {edge: n for n, edge in enumerate(EDGES)}
     for signs in range(256):
+        crossed = [n for n, (axis, at) in enumerate(EDGES) if (signs >> at ^ signs >> (at | 1 << axis)) & 1]
+        crossings[signs, : len(crossed)], crossings[signs, -1] = crossed, len(crossed)
         follows: dict[int, int] = {}
         decided = signs not in _OPPOSITE
         for axis in range(3):
@@ -242,7 +253,8 @@ def cube_table() -> Cubes:
             found += [(loop[0], loop[n], loop[n + 1]) for n in range(1, len(loop) - 1)]
         counts[signs] = len(found)
         triangles[signs, : len(found)] = found or 0
-    return Cubes(triangles=triangles, counts=counts)
+    edges = np.array(EDGES, dtype=np.int8)
+    return Cubes(triangles=triangles, counts=counts, crossings=crossings, edges=edges)
 
 
 @cache

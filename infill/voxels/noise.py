@@ -15,6 +15,7 @@ SLABS = 12  # stretches of layers that are looked at
 LAYERS = 8  # in each
 FEWEST = 500  # cells at the surface
 VOTERS = 27  # a cell and its neighbours
+ROOM = 4  # slabs
 
 
 def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
@@ -40,10 +41,19 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     from infill.kernels.noise import count_overruled
 
     starts = np.unique(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int))
-    counts = np.zeros((len(starts), 3), dtype=np.int64)
-    slabs = (np.ascontiguousarray(solid[start : start + LAYERS] > 0).view(np.uint8) for start in starts)
-    works = (partial(count_overruled, slab, found) for slab, found in zip(slabs, counts, strict=True))
-    together(*works, threads=thread_count(threads))
+    count = min(thread_count(threads), len(starts))
+
+    def look(thread: int) -> NDArray[np.int64]:
+        found = np.zeros(3, dtype=np.int64)
+        room = np.empty((ROOM, *solid[:LAYERS].shape), dtype=np.uint8)
+        for start in starts[thread::count]:
+            slab = solid[start : start + LAYERS]
+            slab = np.ascontiguousarray(slab if slab.dtype == bool else slab > 0).view(np.uint8)
+            slab.flags.writeable = False  # compiled once, whether or not the array is writable
+            count_overruled(slab, room, found)
+        return found
+
+    counts = np.array(together(*(partial(look, thread) for thread in range(count)), threads=count))
     taken, given, surface = counts.sum(axis=0).tolist()
     return 2 * min(taken, given) / surface if surface >= FEWEST else 0.0
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from infill.checks import positive, within
 from infill.errors import ParameterError, UsageError
+from infill.kernels.threads import in_threads, thread_count
 from infill.volume import Volume
 
 SIGNS = (-1, 1)  # void and solid, as in a phase field
@@ -97,6 +98,12 @@ def threshold(
 
 def solid_cells(solid: NDArray[Any]) -> int:
     """Return how many cells are solid, by what `threshold` returns."""
+    if solid.dtype.itemsize == 1 and solid.flags.c_contiguous and solid.size > SLAB:
+        from infill.kernels.transfer import count_solid
+
+        cells = solid.view(np.int8).reshape(-1)
+        cells.flags.writeable = False  # compiled once, whether or not the array is writable
+        return sum(in_threads(count_solid, cells, threads=thread_count()))
     if solid.dtype == bool:
         return int(np.count_nonzero(solid))
     return sum(int(np.count_nonzero(part > 0)) for part in _slabs(solid))
