@@ -18,12 +18,15 @@ from infill.kernels import components as parts
 from infill.kernels import refining
 from infill.kernels.compiling import njit
 from infill.kernels.sparse import (
+    ALL,
     B2,
     BRICK,
     CELLS,
     FACES,
+    MASKS,
     MIXED,
     OUTER,
+    ROWS,
     SOLID_BRICK,
     VOID_BRICK,
     emit,
@@ -223,13 +226,19 @@ def test_faces_are_copied_and_flat_ones_are_noted(value: float | None) -> None:
         axis, last = side // 2, side % 2
         if value is not None:
             np.moveaxis(brick, axis, 0)[-last] = value
-        faces, flat = np.empty(FACES, dtype=np.float32), np.full(6, 9, dtype=np.int8)
-        emit(brick.reshape(-1), faces, flat)
+        faces, flat = np.full(FACES, np.nan, dtype=np.float32), np.full(6, 9, dtype=np.int8)
+        rows = np.zeros(MASKS, dtype=np.uint64)
+        emit(brick.reshape(-1), faces, flat, rows, ALL)
         cuts = [np.moveaxis(brick, a, 0)[end].reshape(-1) for a in range(3) for end in (0, -1)]
-        assert np.array_equal(faces, np.concatenate(cuts))
         expected = [0] * 6
         expected[side] = int(value) if value in (1.0, -1.0) else 0
         assert flat.tolist() == expected
+        sizes = np.cumsum([len(cut) for cut in cuts])[:-1]
+        for copied, cut, one in zip(np.split(faces, sizes), cuts, expected, strict=True):
+            assert one or np.array_equal(copied, cut)  # nobody reads a flat face
+        cells = (brick.reshape(ROWS, -1), brick.reshape(ROWS, -1)[:, :1], brick.reshape(ROWS, -1)[:, -1:])
+        noted = [(part == sign).all(axis=1) for part in cells for sign in (1, -1)]
+        assert [int(each) for each in rows] == [sum(1 << int(n) for n in np.flatnonzero(each)) for each in noted]
 
 
 @pytest.mark.parametrize("where", [(0, 0, 0), (1, 0, 2), (2, 1, 3), (1, 1, 1)])

@@ -26,9 +26,11 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.masks import lowest, ones
+from infill.kernels.lanes import lowest, ones
 from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK
 from infill.kernels.sparse_marching import FULL, ROWS, within
+
+BEYOND = -9  # what lies outside the lattice: neither solid nor void
 
 
 @njit(cache=True)
@@ -318,39 +320,48 @@ def lower_to_levels(
             out[s, t] = value - (levels[component] if component >= 0 else common)
 
 
-@njit(cache=True)
-def any_row(slots, p, q, r, row, bits, kind):
-    """Return a row of any brick of the lattice; a brick of one value is full if it is of the given `kind`."""
+@njit(inline="always", cache=True)
+def slot_in(slots, p, q, r):
+    """Return what the lattice holds at a place, which may be beyond its ends: nothing, of either kind."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
-        return np.int64(0)
-    slot = slots[p, q, r]
+        return BEYOND
+    return slots[p, q, r]
+
+
+@njit(inline="always", cache=True)
+def any_row(slot, row, bits, kind):
+    """Return a row of what the lattice holds; a brick of one value is full if it is of the given `kind`."""
     if slot >= 0:
-        return np.int64(bits[slot, row])
-    return np.int64(FULL) if slot == kind or (slot == OUTSIDE and kind == VOID_BRICK) else np.int64(0)
+        return np.uint32(bits[slot, row])
+    full = slot == kind or (slot == OUTSIDE and kind == VOID_BRICK)
+    return np.uint32(FULL) if full else np.uint32(0)
 
 
 @njit(nogil=True, cache=True)
 def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):
     """Set cells where all (`meet`) or any of 2 x 2 x 2 cells are set: from the cell on (`way` 1), or up to it (-1)."""
+    pairs = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)  # of cells along k, of the brick's rows and the next ones
+    one, last = np.uint32(1), np.uint32(B2 - 1)
+    behind = 1 if way < 0 else 0
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
-        for row in range(ROWS):
-            found = np.int64(FULL) if meet else np.int64(0)
-            for di in range(2):
-                for dj in range(2):
-                    i, j, a, b = row // B1 + way * di, row % B1 + way * dj, p, q
-                    if i < 0 or i == B0:
-                        a, i = a + way, i - way * B0
-                    if j < 0 or j == B1:
-                        b, j = b + way, j - way * B1
-                    own = any_row(slots, a, b, r, i * B1 + j, bits, kind)
-                    other = any_row(slots, a, b, r + way, i * B1 + j, bits, kind)
-                    beside = own >> 1 | (other & 1) << (B2 - 1) if way > 0 else own << 1 | other >> (B2 - 1)
-                    if meet:
-                        found &= own & beside
-                    else:
-                        found |= own | beside
-            out[s, row] = np.uint16(found & FULL)
+        for side in range(4):
+            up, right = side & 1, side >> 1
+            here = slot_in(slots, p + way * up, q + way * right, r)
+            beside = slot_in(slots, p + way * up, q + way * right, r + way)
+            for x in range(1 if up else B0):
+                i = (B0 - 1) * behind if up else x
+                u = B0 * (1 - behind) if up else x + behind
+                for y in range(1 if right else B1):
+                    j = (B1 - 1) * behind if right else y
+                    v = B1 * (1 - behind) if right else y + behind
+                    own, other = any_row(here, i * B1 + j, bits, kind), any_row(beside, i * B1 + j, bits, kind)
+                    next_to = own << one | other >> last if behind else own >> one | (other & one) << last
+                    pairs[u, v] = own & next_to if meet else own | next_to
+        for i in range(B0):
+            for j in range(B1):
+                a, b, c, d = pairs[i, j], pairs[i + 1, j], pairs[i, j + 1], pairs[i + 1, j + 1]
+                out[s, i * B1 + j] = np.uint16((a & b & c & d if meet else a | b | c | d) & np.uint32(FULL))
 
 
 @njit(nogil=True, cache=True)

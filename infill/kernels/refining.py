@@ -27,7 +27,24 @@ import math
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.sparse import B0, B1, B2, CELLS, PLANE, emit, repeat_edges, surround, unmoved
+from infill.kernels.sparse import (
+    ALL,
+    B0,
+    B1,
+    B2,
+    CELLS,
+    NONE,
+    ORIGIN,
+    WIDE,
+    WIDE_I,
+    WIDE_J,
+    at_edge,
+    bit,
+    emit,
+    moving,
+    repeat_edges,
+    surround,
+)
 
 SUMS = 3  # w, w r, w r²
 # Twice (3, 10, 3) / 16. Together with the coarse cell's own width, size²/12, and that of the interpolation,
@@ -43,7 +60,8 @@ def step(
     next_faces,
     flat,
     next_flat,
-    uniform,
+    rows,
+    next_rows,
     beside,
     where,
     count,
@@ -55,29 +73,33 @@ def step(
 ):
     """Do one step of all bricks in place, as `infill.kernels.sparse.step` does, leaving the old values in `before`."""
     w0, w1, w2, decay, rest, _ = numbers
-    tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
-    left, right, back, after = (
-        np.empty(CELLS, dtype=np.float32),
-        np.empty(CELLS, dtype=np.float32),
-        np.empty(CELLS, dtype=np.float32),
-        np.empty(CELLS, dtype=np.float32),
-    )
+    wide = np.zeros(WIDE, dtype=np.float32)
     for s in range(thread, count, threads):
-        if uniform[s] != 0:
-            if unmoved(uniform[s], beside[s], flat):
-                continue
-            uniform[s] = 0
+        edge = at_edge(where[s], shape)
+        # What was noted two steps ago, and is about to be replaced, is what is known of the field before the last step.
+        changing = ALL if edge else moving(s, rows, next_rows, beside[s])
+        next_rows[s] = rows[s]
+        if changing == NONE:
+            next_flat[s] = flat[s]
+            continue
         own, old = phi[s], before[s]
-        surround(own, faces, flat, beside[s], tall, left, right, back, after)
-        for t in range(CELLS):
-            c = tall[t + PLANE]
-            a, b, d, e, g, h = tall[t], tall[t + 2 * PLANE], left[t], right[t], back[t], after[t]
-            change = w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c))
-            v = c + (momentum * (c - old[t]) + change)
-            own[t] = v / math.sqrt(decay + rest * (v * v))
-            old[t] = c
-        repeat_edges(own, where[s], shape)
-        emit(own, next_faces[s], next_flat[s])
+        surround(own, faces, flat, beside[s], wide)
+        for i in range(B0):
+            for j in range(B1):
+                if not changing & bit(i * B1 + j):
+                    continue
+                at, m = (i * B1 + j) * B2, ORIGIN + i * WIDE_I + j * WIDE_J
+                for k in range(B2):
+                    c = wide[m + k]
+                    a, b, d, e = wide[m - WIDE_I + k], wide[m + WIDE_I + k], wide[m - WIDE_J + k], wide[m + WIDE_J + k]
+                    g, h = wide[m - 1 + k], wide[m + 1 + k]
+                    change = w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c))
+                    v = c + (momentum * (c - old[at + k]) + change)
+                    own[at + k] = v / math.sqrt(decay + rest * (v * v))
+                    old[at + k] = c
+        if edge:
+            repeat_edges(own, where[s], shape)
+        emit(own, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
 @njit(nogil=True, cache=True)

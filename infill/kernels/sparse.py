@@ -20,14 +20,20 @@ the faces after it go to a second copy (`next_faces`). The two are swapped when 
 
 How one brick is stepped:
 
-    surround    fills six arrays of equal length, in which cell t finds its neighbours at t: the brick between the
-                planes of its neighbours along i (`tall`), and four copies shifted by a row or a cell (`left`,
-                `right`, `before`, `after`) with the neighbours' faces inserted at their ends
-    advanced    is one loop over 1024 cells without a branch: vector code
-    emit        copies the six faces, and notes for each whether it is +1 or -1 throughout (`flat`)
+    moving      which of its 64 rows may change, as a number of 64 bits
+    surround    copies the brick and its neighbours' faces to where every cell finds its six neighbours (`wide`)
+    advanced    is a loop over the sixteen cells of a row that may change: vector code
+    emit        copies the six faces, and notes which rows and faces are +1 or -1 throughout (`rows`, `flat`)
 
-A brick of one value (`uniform`) between neighbours of that value is a fixed point and is left out. A brick that is not
-kept starts to be kept when a flat face next to it has a different value (`wanted`).
+A row of one value (+1 or -1, in the data as well) among rows of that value is a fixed point to the last bit: it is
+left out, and so is a brick of which that holds for all rows. Faces of one value are not copied, as nobody reads them.
+A brick that is not kept starts to be kept when a flat face next to it has a different value (`wanted`).
+
+    rows        (n, 6) uint64: the rows that are +1 throughout, those that are -1 throughout; of the low face along k,
+                a cell of each row, those that are +1 and those that are -1; the same of the high face. Bit i 8 + j.
+
+    wide        i: 10 planes of 240      j: 10 rows of 24      k: 7 unused, one before, 16 cells, and the one after,
+                                                                  which is the first unused one of the next row
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
@@ -39,6 +45,7 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.dense import advanced
+from infill.kernels.lanes import copy, equal, spread
 
 BRICK = (8, 8, 16)  # cells; the last axis is contiguous
 B0, B1, B2 = BRICK
@@ -52,46 +59,86 @@ FACES = THIRD + 2 * FACE_K
 # What the lattice holds for a brick that is not kept.
 VOID_BRICK, SOLID_BRICK, OUTSIDE = -1, -2, -3
 CHUNK = 32  # bricks that a thread takes at a time, mostly neighbours; with their data, 160 to 256 KiB
+ROWS = B0 * B1
+MASKS = 6
+ALL, NONE = np.uint64(2**64 - 1), np.uint64(0)  # rows
+FIRST_I, FIRST_J = np.uint64(0xFF), np.uint64(0x0101010101010101)
+LAST_I, LAST_J = np.uint64(0xFF << 56), np.uint64(0x8080808080808080)
+STEP_I, STEP_J = np.uint64(B1), np.uint64(1)  # bits from a row to the next one along i and along j
+BACK_I, BACK_J = np.uint64(56), np.uint64(7)  # and from the last one to the first
+FULL_ROW = np.uint16(0xFFFF)
+WIDE_J, WIDE_I = 24, 240
+ORIGIN = WIDE_I + WIDE_J + 8  # where the first cell of a brick lies in `wide`
+WIDE = (B0 + 2) * WIDE_I + 8
 MIXED, OUTER = 0, -3  # states of a brick: containing both phases, and without a cell of the grid
 
 
 @njit(inline="always", cache=True)
-def uniform_value(face, bits, at, size):
-    """Return +1 or -1 if all values of a face are equal to it, else 0; `bits` are the values viewed as integers."""
-    first = bits[at]
-    others = np.int32(0)
-    for t in range(size):
-        others |= bits[at + t] ^ first
-    if others != 0 or abs(face[at]) != 1:
-        return 0
-    return 1 if face[at] > 0 else -1
+def bit(row):
+    """Return the number in which one row is set."""
+    return np.uint64(1) << np.uint64(row)
 
 
 @njit(cache=True)
-def emit(brick, faces, flat):
-    """Copy the six faces of a brick, and note which of them are +1 or -1 throughout."""
-    bits = faces.view(np.int32)
+def note_rows(brick, moving, rows):
+    """Set which of the rows in `moving` are +1 or -1 throughout."""
+    plus, minus = rows[0] & ~moving, rows[1] & ~moving
+    for row in range(ROWS):
+        if moving & bit(row):
+            first = brick[row * B2]
+            if abs(first) == 1 and equal(brick, row * B2, first) == FULL_ROW:
+                if first > 0:
+                    plus |= bit(row)
+                else:
+                    minus |= bit(row)
+    rows[0], rows[1] = plus, minus
+
+
+@njit(inline="always", cache=True)
+def value_of(plus, minus, part):
+    """Return +1 or -1 if the rows of a part are that throughout, else 0."""
+    if plus & part == part:
+        return 1
+    return -1 if minus & part == part else 0
+
+
+@njit(cache=True)
+def emit(brick, faces, flat, rows, moving):
+    """Note what became of the rows in `moving`, and which faces are +1 or -1 throughout; copy those that are not."""
+    note_rows(brick, moving, rows)
     for up in range(2):
-        at, to = (CELLS - PLANE) * up, FACE_I * up
-        for t in range(FACE_I):
-            faces[to + t] = brick[at + t]
-        flat[up] = uniform_value(faces, bits, to, FACE_I)
-        at, to = (PLANE - B2) * up, SECOND + FACE_J * up
-        for i in range(B0):
-            for k in range(B2):
-                faces[to + i * B2 + k] = brick[at + i * PLANE + k]
-        flat[2 + up] = uniform_value(faces, bits, to, FACE_J)
-        at, to = (B2 - 1) * up, THIRD + FACE_K * up
-        for t in range(FACE_K):
-            faces[to + t] = brick[at + t * B2]
-        flat[4 + up] = uniform_value(faces, bits, to, FACE_K)
+        flat[up] = value_of(rows[0], rows[1], LAST_I if up else FIRST_I)
+        if flat[up] == 0:
+            at, to = (CELLS - PLANE) * up, FACE_I * up
+            for j in range(B1):
+                copy(faces, to + j * B2, brick, at + j * B2)
+        flat[2 + up] = value_of(rows[0], rows[1], LAST_J if up else FIRST_J)
+        if flat[2 + up] == 0:
+            at, to = (PLANE - B2) * up, SECOND + FACE_J * up
+            for i in range(B0):
+                copy(faces, to + i * B2, brick, at + i * PLANE)
+        if rows[0] == ALL or rows[1] == ALL:
+            rows[2 + 2 * up], rows[3 + 2 * up] = rows[0], rows[1]
+        else:
+            at, to = (B2 - 1) * up, THIRD + FACE_K * up
+            for t in range(FACE_K):
+                faces[to + t] = brick[at + t * B2]
+            plus, minus = NONE, NONE
+            for part in range(FACE_K // B2):
+                shift = np.uint64(part * B2)
+                plus |= np.uint64(equal(faces, to + part * B2, np.float32(1))) << shift
+                minus |= np.uint64(equal(faces, to + part * B2, np.float32(-1))) << shift
+            rows[2 + 2 * up], rows[3 + 2 * up] = plus, minus
+        flat[4 + up] = value_of(rows[2 + 2 * up], rows[3 + 2 * up], ALL)
 
 
 @njit(nogil=True, cache=True)
-def emit_all(bricks, faces, flat, count, thread, threads):
-    """Copy the faces of all bricks."""
+def emit_all(bricks, data, faces, flat, rows, next_rows, still, count, thread, threads):
+    """Copy the faces of all bricks, and note which of their rows, and of the rows of their data, have one value."""
     for s in range(thread, count, threads):
-        emit(bricks[s], faces[s], flat[s])
+        emit(bricks[s], faces[s], flat[s], rows[s], ALL)
+        next_rows[s] = rows[s]
+        note_rows(data[s], ALL, still[s])
 
 
 @njit(cache=True)
@@ -139,29 +186,46 @@ def wanted(slots, where, beside, flat, count, found):
 
 
 @njit(nogil=True, cache=True)
-def fill(phi, held, flat, next_flat, uniform, first, count, thread, threads):
-    """Set the bricks from `first` on to the value they are uniform in; nobody reads faces that are flat."""
+def fill(phi, held, flat, next_flat, rows, next_rows, still, values, first, count, thread, threads):
+    """Set the bricks from `first` on to the value they have throughout; nobody reads faces that are flat."""
     for s in range(first + thread, count, threads):
-        value = uniform[s]
+        value = values[s - first]
         for t in range(CELLS):
             phi[s, t] = value
             held[s, t] = value
         for side in range(6):
             flat[s, side] = value
             next_flat[s, side] = value
+            rows[s, side] = next_rows[s, side] = ALL if (value > 0) == (side % 2 == 0) else NONE
+        still[s, 0], still[s, 1] = rows[s, 0], rows[s, 1]
 
 
 @njit(inline="always", cache=True)
-def unmoved(value, beside, flat):
-    """Return whether a brick of one value has only neighbours of that value."""
-    for side in range(6):
-        other = beside[side]
-        if other >= 0:
-            if flat[other, side ^ 1] != value:
-                return False
-        elif other != OUTSIDE and value != (1 if other == SOLID_BRICK else -1):
-            return False
-    return True
+def rows_beside(other, rows, column):
+    """Return a column of what is known about the rows next to a brick, +1 or -1 by turns; beyond the grid, all."""
+    if other >= 0:
+        return rows[other, column]
+    if other == OUTSIDE:
+        return ALL
+    return ALL if (other == SOLID_BRICK) == (column % 2 == 0) else NONE
+
+
+@njit(cache=True)
+def moving(s, rows, still, beside):
+    """Return which rows of a brick may change: not those of one value, still so far, among cells of that value."""
+    found = ALL
+    for sign in range(2):
+        own = rows[s, sign]
+        same = own & still[s, sign]
+        if same == NONE:
+            continue
+        same &= (own << STEP_I) | (rows_beside(beside[0], rows, sign) >> BACK_I)
+        same &= (own >> STEP_I) | (rows_beside(beside[1], rows, sign) << BACK_I)
+        same &= ((own << STEP_J) & ~FIRST_J) | ((rows_beside(beside[2], rows, sign) >> BACK_J) & FIRST_J)
+        same &= ((own >> STEP_J) & ~LAST_J) | ((rows_beside(beside[3], rows, sign) << BACK_J) & LAST_J)
+        same &= rows_beside(beside[4], rows, 4 + sign) & rows_beside(beside[5], rows, 2 + sign)
+        found &= ~same
+    return found
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -172,7 +236,9 @@ def step(
     next_faces,
     flat,
     next_flat,
-    uniform,
+    rows,
+    next_rows,
+    still,
     beside,
     where,
     domain,
@@ -183,84 +249,77 @@ def step(
     threads,
 ):
     """Do one step of all bricks in place; read neighbours' faces from `faces`, write the new ones to `next_faces`."""
-    tall = np.empty(CELLS + 2 * PLANE, dtype=np.float32)
-    left, right, before, after = (
-        np.empty(CELLS, dtype=np.float32),
-        np.empty(CELLS, dtype=np.float32),
-        np.empty(CELLS, dtype=np.float32),
-        np.empty(CELLS, dtype=np.float32),
-    )
+    wide = np.zeros(WIDE, dtype=np.float32)
     for chunk in range(thread * CHUNK, count, threads * CHUNK):
         for s in range(chunk, min(chunk + CHUNK, count)):
-            if uniform[s] != 0:
-                if unmoved(uniform[s], beside[s], flat):
-                    continue
-                uniform[s] = 0
+            edge = at_edge(where[s], shape)
+            changing = ALL if edge else moving(s, rows, still, beside[s])
+            next_rows[s] = rows[s]
+            if changing == NONE:
+                next_flat[s] = flat[s]
+                continue
             own, data = phi[s], held[s]
-            surround(own, faces, flat, beside[s], tall, left, right, before, after)
+            surround(own, faces, flat, beside[s], wide)
             if domain is not None:  # decided at compile time
-                step_masked(own, data, tall, left, right, before, after, domain, where[s], numbers)
+                step_masked(own, data, wide, domain, where[s], numbers)
+                changing = ALL
             else:
-                for t in range(CELLS):
-                    own[t] = advanced(
-                        tall[t + PLANE],
-                        tall[t],
-                        tall[t + 2 * PLANE],
-                        left[t],
-                        right[t],
-                        before[t],
-                        after[t],
-                        np.float32(data[t]),
-                        numbers,
-                    )
-            repeat_edges(own, where[s], shape)
-            emit(own, next_faces[s], next_flat[s])
+                for i in range(B0):
+                    for j in range(B1):
+                        if not changing & bit(i * B1 + j):
+                            continue
+                        at, c = (i * B1 + j) * B2, ORIGIN + i * WIDE_I + j * WIDE_J
+                        for k in range(B2):
+                            own[at + k] = advanced(
+                                wide[c + k],
+                                wide[c - WIDE_I + k],
+                                wide[c + WIDE_I + k],
+                                wide[c - WIDE_J + k],
+                                wide[c + WIDE_J + k],
+                                wide[c - 1 + k],
+                                wide[c + 1 + k],
+                                np.float32(data[at + k]),
+                                numbers,
+                            )
+            if edge:
+                repeat_edges(own, where[s], shape)
+            emit(own, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
 @njit(cache=True)
-def surround(own, faces, flat, beside, tall, left, right, before, after):
-    """Set the six neighbours of every cell: the brick between two planes, and four shifted copies."""
-    for t in range(CELLS):
-        tall[t + PLANE] = own[t]
-    for t in range(CELLS - B2):
-        left[t + B2] = own[t]
-    for t in range(CELLS - B2):
-        right[t] = own[t + B2]
-    for t in range(CELLS - 1):
-        before[t + 1] = own[t]
-    for t in range(CELLS - 1):
-        after[t] = own[t + 1]
-    for up in range(2):
-        other = seen(beside[up], flat, up)
-        at, to, edge = FACE_I * (1 - up), (CELLS + PLANE) * up, (CELLS - PLANE) * up
-        if other >= 0:
-            face = faces[other]
-            for t in range(PLANE):
-                tall[to + t] = face[at + t]
+def surround(own, faces, flat, beside, wide):
+    """Copy a brick, and the faces of its neighbours around it, to `wide`."""
+    for i in range(B0):
+        for j in range(B1):
+            copy(wide, ORIGIN + i * WIDE_I + j * WIDE_J, own, (i * B1 + j) * B2)
+    for side in range(6):
+        other = seen(beside[side], flat, side)
+        up = side % 2
+        if side < 2:
+            put, step, many = ORIGIN - WIDE_I + (B0 + 1) * WIDE_I * up, WIDE_J, B1
+            at, edge, next_edge = FACE_I * (1 - up), (CELLS - PLANE) * up, B2
+        elif side < 4:
+            put, step, many = ORIGIN - WIDE_J + (B1 + 1) * WIDE_J * up, WIDE_I, B0
+            at, edge, next_edge = SECOND + FACE_J * (1 - up), (PLANE - B2) * up, PLANE
         else:
-            for t in range(PLANE):
-                tall[to + t] = beyond(other, own[edge + t])
-        other = seen(beside[2 + up], flat, 2 + up)
-        at, to = SECOND + FACE_J * (1 - up), (PLANE - B2) * up
-        shifted = right if up else left
-        for i in range(B0):
+            put, at, edge = ORIGIN - 1 + (B2 + 1) * up, THIRD + FACE_K * (1 - up), (B2 - 1) * up
             if other >= 0:
                 face = faces[other]
-                for k in range(B2):
-                    shifted[to + i * PLANE + k] = face[at + i * B2 + k]
+                for i in range(B0):
+                    for j in range(B1):
+                        wide[put + i * WIDE_I + j * WIDE_J] = face[at + i * B1 + j]
             else:
-                for k in range(B2):
-                    shifted[to + i * PLANE + k] = beyond(other, own[to + i * PLANE + k])
-        other = seen(beside[4 + up], flat, 4 + up)
-        at, to = THIRD + FACE_K * (1 - up), (B2 - 1) * up
-        shifted = after if up else before
-        if other >= 0:
-            face = faces[other]
-            for t in range(FACE_K):
-                shifted[to + t * B2] = face[at + t]
-        else:
-            for t in range(FACE_K):
-                shifted[to + t * B2] = beyond(other, own[to + t * B2])
+                for i in range(B0):
+                    for j in range(B1):
+                        wide[put + i * WIDE_I + j * WIDE_J] = beyond(other, own[edge + (i * B1 + j) * B2])
+            continue
+        for n in range(many):
+            if other >= 0:
+                copy(wide, put + n * step, faces[other], at + n * B2)
+            elif other == OUTSIDE:
+                copy(wide, put + n * step, own, edge + n * next_edge)
+            else:
+                spread(wide, put + n * step, beyond(other, np.float32(0)))
 
 
 @njit(inline="always", cache=True)
@@ -280,27 +339,36 @@ def beyond(other, own):
 
 
 @njit(cache=True, error_model="numpy")
-def step_masked(own, data, tall, left, right, before, after, domain, where, numbers):
+def step_masked(own, data, wide, domain, where, numbers):
     """Do one step of the cells in the domain; a neighbour outside it has the cell's own value."""
     n0, n1, n2 = domain.shape
     for t in range(CELLS):
-        x = where[0] * B0 - 1 + t // PLANE
-        y = where[1] * B1 - 1 + t // B2 % B1
-        z = where[2] * B2 - 1 + t % B2
+        i, j, k = t // PLANE, t // B2 % B1, t % B2
+        x, y, z = where[0] * B0 - 1 + i, where[1] * B1 - 1 + j, where[2] * B2 - 1 + k
         if x < 0 or y < 0 or z < 0 or x >= n0 or y >= n1 or z >= n2 or not domain[x, y, z]:
             continue
-        c = tall[t + PLANE]
+        at = ORIGIN + i * WIDE_I + j * WIDE_J + k
+        c = wide[at]
         own[t] = advanced(
             c,
-            tall[t] if domain[max(x - 1, 0), y, z] else c,
-            tall[t + 2 * PLANE] if domain[min(x + 1, n0 - 1), y, z] else c,
-            left[t] if domain[x, max(y - 1, 0), z] else c,
-            right[t] if domain[x, min(y + 1, n1 - 1), z] else c,
-            before[t] if domain[x, y, max(z - 1, 0)] else c,
-            after[t] if domain[x, y, min(z + 1, n2 - 1)] else c,
+            wide[at - WIDE_I] if domain[max(x - 1, 0), y, z] else c,
+            wide[at + WIDE_I] if domain[min(x + 1, n0 - 1), y, z] else c,
+            wide[at - WIDE_J] if domain[x, max(y - 1, 0), z] else c,
+            wide[at + WIDE_J] if domain[x, min(y + 1, n1 - 1), z] else c,
+            wide[at - 1] if domain[x, y, max(z - 1, 0)] else c,
+            wide[at + 1] if domain[x, y, min(z + 1, n2 - 1)] else c,
             np.float32(data[t]),
             numbers,
         )
+
+
+@njit(inline="always", cache=True)
+def at_edge(where, shape):
+    """Return whether a brick has cells beyond the grid."""
+    for axis in range(3):
+        if where[axis] == 0 or (where[axis] + 1) * BRICK[axis] > shape[axis] + 1:
+            return True
+    return False
 
 
 @njit(cache=True)

@@ -28,7 +28,7 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.masks import above, lowest, ones
+from infill.kernels.lanes import above, lowest, ones
 from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1

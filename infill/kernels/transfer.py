@@ -19,8 +19,9 @@ from __future__ import annotations
 import numpy as np
 
 from infill.kernels.compiling import njit
-from infill.kernels.masks import above, ones
-from infill.kernels.sparse import B0, B1, B2, CELLS, MIXED, OUTER, SOLID_BRICK
+from infill.kernels.lanes import above, copy, equal, ones
+from infill.kernels.lanes import spread as spread_out
+from infill.kernels.sparse import B0, B1, B2, CELLS, FULL_ROW, MIXED, OUTER, SOLID_BRICK
 
 
 @njit(nogil=True, cache=True)
@@ -157,19 +158,30 @@ def straighten(bricks, most, scale, out, thread, threads):
     log2 m = 2 / ln 2 (y + y³ / 3 + y⁵ / 5 + y⁷ / 7 + …), y = (m - 1) / (m + 1), |y| < 0.172: the terms left out are
     less than 5e-8. n is read off the bits of x, from which those of 1/sqrt 2, 0x3F3504F3, are subtracted first.
     """
-    ratio, power = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.int32)
+    value, ratio = np.empty(CELLS, dtype=np.float32), np.empty(CELLS, dtype=np.float32)
+    power, rows = np.empty(CELLS, dtype=np.int32), np.empty(CELLS // B2, dtype=np.int64)
     bits = ratio.view(np.int32)
     half = np.float32(0.34657359) / scale  # ln 2 / 2
     for s in range(thread, len(bricks), threads):
         brick, line = bricks[s], out[s]
-        for t in range(CELLS):
-            v = min(max(brick[t], -most), most)
+        count = 0  # of rows that are not +1 or -1 throughout: often a half
+        for row in range(CELLS // B2):
+            first = brick[row * B2]
+            if abs(first) == 1 and equal(brick, row * B2, first) == FULL_ROW:
+                spread_out(line, row * B2, first)
+            else:
+                copy(value, count * B2, brick, row * B2)
+                rows[count] = row * B2
+                count += 1
+        many = count * B2
+        for t in range(many):
+            v = min(max(value[t], -most), most)
             ratio[t] = (1 + v) / (1 - v)
-        for t in range(CELLS):  # the power of two, chosen so that the remainder lies around 1
+        for t in range(many):  # the power of two, chosen so that the remainder lies around 1
             power[t] = (bits[t] - 0x3F3504F3) >> 23
-        for t in range(CELLS):
+        for t in range(many):
             bits[t] -= power[t] << 23
-        for t in range(CELLS):  # log2 of the remainder by the artanh series
+        for t in range(many):  # log2 of the remainder by the artanh series
             x = (ratio[t] - 1) / (ratio[t] + 1)
             y = x * x
             log = x * (
@@ -177,4 +189,6 @@ def straighten(bricks, most, scale, out, thread, threads):
                 + y * (np.float32(0.96179669) + y * (np.float32(0.57707802) + y * np.float32(0.4121986)))
             )
             v = half * (np.float32(power[t]) + log)
-            line[t] = np.float32(1) if brick[t] >= most else (np.float32(-1) if brick[t] <= -most else v)
+            value[t] = np.float32(1) if value[t] >= most else (np.float32(-1) if value[t] <= -most else v)
+        for n in range(count):
+            copy(line, rows[n], value, n * B2)

@@ -303,7 +303,8 @@ def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> N
         bricks.next_faces,
         bricks.flat,
         bricks.next_flat,
-        bricks.uniform,
+        bricks.rows,
+        bricks.next_rows,
         bricks.beside,
         bricks.where,
         bricks.count,
@@ -312,8 +313,7 @@ def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> N
         bricks.shape,
         threads=bricks.threads,
     )
-    bricks.faces, bricks.next_faces = bricks.next_faces, bricks.faces
-    bricks.flat, bricks.next_flat = bricks.next_flat, bricks.flat
+    bricks.swap()
 
 
 def _averages(

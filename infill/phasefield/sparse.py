@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from infill.kernels import sparse as kernels
 from infill.kernels import transfer as transfer_kernels
 from infill.kernels.compiling import told_of_compiling
-from infill.kernels.sparse import BRICK, CELLS, FACES, MIXED, OUTER, OUTSIDE, SOLID_BRICK, VOID_BRICK
+from infill.kernels.sparse import BRICK, CELLS, FACES, MASKS, MIXED, OUTER, OUTSIDE, SOLID_BRICK, VOID_BRICK
 from infill.kernels.threads import in_threads, thread_count
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
@@ -161,10 +161,10 @@ class Bricks:
         self.held: Data = np.empty((0, CELLS), dtype=data.dtype)
         self.faces, self.next_faces = (np.empty((0, FACES), dtype=np.float32) for _ in range(2))
         self.flat, self.next_flat = (np.empty((0, 6), dtype=np.int8) for _ in range(2))
-        self.uniform = np.empty(0, dtype=np.int8)  # the value of a brick in which nothing has moved yet, else 0
+        self.rows, self.next_rows = (np.empty((0, MASKS), dtype=np.uint64) for _ in range(2))
+        self.still = np.empty((0, 2), dtype=np.uint64)  # the rows of the data that are +1, and -1, throughout
         self.beside = np.empty((0, 6), dtype=np.int32)
         self._grow(room)
-        self.uniform[: self.count] = 0
         kernels.find_neighbours(self.slots, self.where, self.beside, 0, self.count)
 
     @classmethod
@@ -193,7 +193,18 @@ class Bricks:
             self.phi[: self.count] = self.held[: self.count]
         else:
             self._take(start, self.phi)
-        in_threads(kernels.emit_all, self.phi, self.faces, self.flat, self.count, threads=self.threads)
+        in_threads(
+            kernels.emit_all,
+            self.phi,
+            self.held,
+            self.faces,
+            self.flat,
+            self.rows,
+            self.next_rows,
+            self.still,
+            self.count,
+            threads=self.threads,
+        )
 
     def _take(self, whole: Data, bricks: Data) -> None:
         level = 0 if whole.dtype == np.int8 else None
@@ -210,7 +221,6 @@ class Bricks:
             self._grow(int(MORE * self.count))
         self.where[first : self.count] = wanted
         values = np.where(self.slots[tuple(wanted.T)] == SOLID_BRICK, 1, -1).astype(np.int8)
-        self.uniform[first : self.count] = values
         self.slots[tuple(wanted.T)] = np.arange(first, self.count)
         kernels.find_neighbours(self.slots, self.where, self.beside, first, self.count)
         in_threads(
@@ -219,7 +229,10 @@ class Bricks:
             self.held,
             self.flat,
             self.next_flat,
-            self.uniform,
+            self.rows,
+            self.next_rows,
+            self.still,
+            values,
             first,
             self.count,
             threads=self.threads,
@@ -235,7 +248,9 @@ class Bricks:
             self.next_faces,
             self.flat,
             self.next_flat,
-            self.uniform,
+            self.rows,
+            self.next_rows,
+            self.still,
             self.beside,
             self.where,
             domain,
@@ -244,13 +259,18 @@ class Bricks:
             self.shape,
             threads=self.threads,
         )
+        self.swap()
+
+    def swap(self) -> None:
+        """Make what was noted after a step what is known before the next one."""
         self.faces, self.next_faces = self.next_faces, self.faces
         self.flat, self.next_flat = self.next_flat, self.flat
+        self.rows, self.next_rows = self.next_rows, self.rows
 
     def _grow(self, room: int) -> None:
         """Make room; the part that is not used costs no memory."""
-        names = ("phi", "held", "faces", "next_faces", "flat", "next_flat", "uniform", "beside", "where")
-        for name in names:
+        faces = ("faces", "next_faces", "flat", "next_flat", "rows", "next_rows")
+        for name in ("phi", "held", *faces, "still", "beside", "where"):
             old = getattr(self, name)
             new = np.empty((room, *old.shape[1:]), dtype=old.dtype)
             new[: min(len(old), self.count)] = old[: self.count]

@@ -169,7 +169,7 @@ def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) ->
 def _whole(raised: Surfaced, given: Given, request: Request) -> tuple[Surfaced, Crumbs, Surface]:
     """Return the surface without crumbs, what they were, and the surface in its place, closed and measured."""
     surfaced, crumbs = without_crumbs(raised, given, request)
-    full = with_measures(placed(surfaced.found.surface, given.data), threads=request.threads)
+    full = with_measures(placed(surfaced.found.surface, given.data), threads=1)  # the others look for changes
     if not full.closed:
         raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
     return surfaced, crumbs, full

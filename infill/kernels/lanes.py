@@ -1,0 +1,110 @@
+"""Sixteen cells at once: compared, copied and set by vector instructions.
+
+Loops over sixteen cells of two arrays are compiled to the same instructions, but ask each time whether the arrays
+overlap. What a comparison says is a number of sixteen bits; `ones` and `lowest` are about such numbers.
+"""
+# mypy: disable-error-code="no-untyped-def, no-untyped-call, call-arg"
+# ruff: noqa: ANN001, ANN201, ANN202, ARG001
+
+from __future__ import annotations
+
+import numpy as np
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+from infill.kernels.compiling import njit
+
+SIXTEEN = 16
+TRUE = ir.Constant(ir.IntType(1), 1)
+NUMBER = ir.IntType(32)
+
+
+@intrinsic
+def above(context, values, at, limit):
+    """Return which of sixteen numbers, from `at` on, are above the limit, the first one as the lowest bit."""
+    return _compared(">", values)
+
+
+@intrinsic
+def equal(context, values, at, limit):
+    """Return which of sixteen numbers, from `at` on, equal the limit, the first one as the lowest bit."""
+    return _compared("==", values)
+
+
+@intrinsic
+def copy(context, target, to, source, at):
+    """Copy sixteen numbers from one flat array to another of the same type."""
+
+    def code(context, builder, signature, arguments):
+        first, second = signature.args[0], signature.args[2]
+        out, align = _place(context, builder, first, arguments[0], arguments[1])
+        start, _ = _place(context, builder, second, arguments[2], arguments[3])
+        builder.store(builder.load(start, align=align), out, align=align)
+        return context.get_dummy_value()
+
+    return types.void(target, types.int64, source, types.int64), code
+
+
+@intrinsic
+def spread(context, target, to, value):
+    """Set sixteen numbers of a flat array to one value."""
+
+    def code(context, builder, signature, arguments):
+        out, align = _place(context, builder, signature.args[0], arguments[0], arguments[1])
+        builder.store(_everywhere(builder, arguments[2]), out, align=align)
+        return context.get_dummy_value()
+
+    return types.void(target, types.int64, target.dtype), code
+
+
+def _compared(how, values):
+    """Return the signature and the code of a comparison with a number of the array's own type."""
+    kind = values.dtype
+
+    def code(context, builder, signature, arguments):
+        start, align = _place(context, builder, signature.args[0], arguments[0], arguments[1])
+        compare = builder.fcmp_ordered if isinstance(kind, types.Float) else builder.icmp_signed
+        found = compare(how, builder.load(start, align=align), _everywhere(builder, arguments[2]))
+        return builder.bitcast(found, ir.IntType(SIXTEEN))
+
+    return types.uint16(values, types.int64, kind), code
+
+
+def _place(context, builder, kind, array, at):
+    """Return where sixteen numbers of an array begin, as a vector, and how they are aligned."""
+    vector = ir.VectorType(context.get_data_type(kind.dtype), SIXTEEN)
+    start = builder.gep(context.make_array(kind)(context, builder, array).data, [at])
+    return builder.bitcast(start, vector.as_pointer()), kind.dtype.bitwidth // 8
+
+
+def _everywhere(builder, value):
+    """Return a vector of one value."""
+    vector = ir.VectorType(value.type, SIXTEEN)
+    none = ir.Constant(vector, ir.Undefined)
+    first = builder.insert_element(none, value, NUMBER(0))
+    return builder.shuffle_vector(first, none, ir.Constant(ir.VectorType(NUMBER, SIXTEEN), [0] * SIXTEEN))
+
+
+@intrinsic
+def counted(context, bits):
+    """Count the set bits, by the machine instruction for it."""
+    return types.int64(types.int64), lambda _, builder, __, arguments: builder.ctpop(arguments[0])
+
+
+@intrinsic
+def trailing(context, bits):
+    """Count the bits below the lowest set bit."""
+    return types.int64(types.int64), lambda _, builder, __, arguments: builder.cttz(arguments[0], TRUE)
+
+
+@njit(inline="always", cache=True)
+def ones(bits):
+    """Count the set bits of a non-negative number."""
+    return counted(np.int64(bits))
+
+
+@njit(inline="always", cache=True)
+def lowest(bits):
+    """Return the position of the lowest set bit."""
+    return trailing(np.int64(bits))
