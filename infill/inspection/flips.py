@@ -94,8 +94,9 @@ def places_of(field: SparseField, bits: Bits) -> Places:
     brick, row = (each[bits[brick, row] != 0] for each in (brick, row))
     which, k = np.nonzero(bits[brick, row, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1)
     brick, row = brick[which], row[which]
-    found: Places = field.where[brick].astype(np.int64) * BRICK
-    return found + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
+    corner: Places = field.where[brick].astype(np.int64) * BRICK
+    found: Places = corner + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
+    return found
 
 
 def connected_alike(flips: Flips, before: Components, *, threads: int | None = None) -> bool:

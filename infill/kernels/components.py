@@ -17,7 +17,7 @@ each stretch where they do; along k, a run continues in the next brick if the la
 With `diagonal`, for void, rows one step away along two axes count too, as do bits one place aside: cells that touch at
 an edge. Solid is joined by faces only, so where two solid cells touch at an edge, void runs between them.
 """
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
@@ -27,7 +27,7 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 from infill.kernels.lanes import lowest, ones
-from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK
+from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK, place_beside
 from infill.kernels.sparse_marching import FULL, ROWS, within
 
 BEYOND = -9  # what lies outside the lattice: neither solid nor void
@@ -97,16 +97,67 @@ def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
     return np.int64(run_at(bits, bricks, starts, slot, row, k))
 
 
+@njit(inline="always", cache=True)
+def slot_in(slots, p, q, r):
+    """Return what the lattice holds at a place, which may be beyond its ends: nothing, of either kind."""
+    if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
+        return BEYOND
+    return slots[p, q, r]
+
+
+@njit(inline="always", cache=True)
+def is_full(rows):
+    """Return whether all cells of a brick are set."""
+    every = np.uint16(FULL)
+    for row in range(ROWS):
+        every &= rows[row]
+    return every == FULL
+
+
+@njit(inline="always", cache=True)
+def is_mixed(slots, full, p, q, r):
+    """Return whether a brick is kept and not set throughout."""
+    slot = slot_in(slots, p, q, r)
+    return slot >= 0 and not full[slot]
+
+
+@njit(nogil=True, cache=True)
+def join_full(slots, where, bricks, alone, parent, full):
+    """Join the runs of bricks that are set throughout, and those bricks with one another and with whole ones."""
+    for s in range(len(where)):
+        if not full[s]:
+            continue
+        for row in range(1, ROWS):
+            join(parent, bricks[s], bricks[s] + row)
+        for side in range(6):
+            p, q, r = place_beside(where[s], side)
+            slot = slot_in(slots, p, q, r)
+            if slot == BEYOND:
+                continue
+            if slot >= 0:
+                if full[slot]:
+                    join(parent, bricks[s], bricks[slot])
+            elif alone[p, q, r] >= 0:
+                join(parent, bricks[s], np.int64(alone[p, q, r]))
+
+
 @njit(nogil=True, cache=True)
 def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
     """Join whatever touches by a face, or by an edge if `diagonal`, in all kept bricks."""
     m0, m1, m2 = slots.shape
+    full = np.empty(len(where), dtype=np.bool_)
+    for s in range(len(where)):
+        full[s] = is_full(bits[s])
+    join_full(slots, where, bricks, alone, parent, full)
     for s in range(len(where)):
         p, q, r = where[s]
+        settled = full[s] and not diagonal
+        open_k = is_mixed(slots, full, p, q, r - 1) or is_mixed(slots, full, p, q, r + 1)
+        open_i, open_j = is_mixed(slots, full, p + 1, q, r), is_mixed(slots, full, p, q + 1, r)
         for row in range(ROWS):
             i, j = row // B1, row % B1
             own = bits[s, row]
-            if own == 0:
+            if own == 0 or (settled and not (open_k or (open_i and i == B0 - 1) or (open_j and j == B1 - 1))):
                 continue
             # Along k, runs end at the brick boundary.
             for step in range(-1, 2, 2):
@@ -318,14 +369,6 @@ def lower_to_levels(
             x, y, z = p * B0 + t // (B1 * B2), q * B1 + t // B2 % B1, r * B2 + t % B2
             component = nearest_component(slots, x, y, z, bits, bricks, starts, alone, names, reach)
             out[s, t] = value - (levels[component] if component >= 0 else common)
-
-
-@njit(inline="always", cache=True)
-def slot_in(slots, p, q, r):
-    """Return what the lattice holds at a place, which may be beyond its ends: nothing, of either kind."""
-    if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
-        return BEYOND
-    return slots[p, q, r]
 
 
 @njit(inline="always", cache=True)

@@ -35,7 +35,7 @@ A brick that is not kept starts to be kept when a flat face next to it has a dif
     wide        i: 10 planes of 240      j: 10 rows of 24      k: 7 unused, one before, 16 cells, and the one after,
                                                                   which is the first unused one of the next row
 """
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def, call-arg"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
@@ -365,10 +365,9 @@ def step_masked(own, data, wide, domain, where, numbers):
 @njit(inline="always", cache=True)
 def at_edge(where, shape):
     """Return whether a brick has cells beyond the grid."""
-    for axis in range(3):
-        if where[axis] == 0 or (where[axis] + 1) * BRICK[axis] > shape[axis] + 1:
-            return True
-    return False
+    low = where[0] == 0 or where[1] == 0 or where[2] == 0
+    beyond_i, beyond_j = (where[0] + 1) * B0 > shape[0] + 1, (where[1] + 1) * B1 > shape[1] + 1
+    return low or beyond_i or beyond_j or (where[2] + 1) * B2 > shape[2] + 1
 
 
 @njit(cache=True)
