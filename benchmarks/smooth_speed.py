@@ -61,8 +61,8 @@ def kernels(f: NDArray[np.bool_]) -> int:
 
 def kernels_volume(f: NDArray[np.bool_]) -> int:
     """Smooth and mesh at the level of the data's volume by kernels alone."""
-    data, field, guess = counted(smooth_bricks(f, SMOOTHING), spacing=UNIT)
-    found = at_volume(field, data, spacing=UNIT, targets=data.cells.astype(np.float64), guess=guess)
+    data, field, start = counted(smooth_bricks(f, SMOOTHING), spacing=UNIT)
+    found = at_volume(field, data, spacing=UNIT, targets=data.cells.astype(np.float64), start=start)
     return len(found.surface.faces)
 
 

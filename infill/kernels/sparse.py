@@ -133,9 +133,16 @@ def emit(brick, faces, flat, rows, moving):
 
 
 @njit(nogil=True, cache=True)
-def emit_all(bricks, data, faces, flat, rows, next_rows, still, count, thread, threads):
-    """Copy the faces of all bricks, and note which of their rows, and of the rows of their data, have one value."""
+def emit_all(bricks, data, copied, faces, flat, rows, next_rows, still, count, thread, threads):
+    """Copy the faces of all bricks, and note which of their rows, and of the rows of their data, have one value.
+
+    If they are `copied`, their values are those of their data.
+    """
     for s in range(thread, count, threads):
+        if copied:
+            brick, held = bricks[s], data[s]
+            for t in range(CELLS):
+                brick[t] = held[t]
         emit(bricks[s], faces[s], flat[s], rows[s], ALL)
         next_rows[s] = rows[s]
         note_rows(data[s], ALL, still[s])

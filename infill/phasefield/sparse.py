@@ -189,14 +189,13 @@ class Bricks:
     def gather(self, start: Data, data: Data) -> None:
         """Copy the cells of start and data, which may be the same array."""
         self._take(data, self.held)
-        if start is data:
-            self.phi[: self.count] = self.held[: self.count]
-        else:
+        if start is not data:
             self._take(start, self.phi)
         in_threads(
             kernels.emit_all,
             self.phi,
             self.held,
+            start is data,
             self.faces,
             self.flat,
             self.rows,

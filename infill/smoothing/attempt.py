@@ -129,9 +129,17 @@ def attempted(given: Given, request: Request) -> Attempt:
         raised = levelled(field, given, request)
     with clock.stage("check", 0.5):
         threads = thread_count(request.threads)
-        (surfaced, crumbs, full), (flips, near) = together(
-            partial(_whole, raised, given, request), partial(_changed, raised, given, request), threads=threads
+        full, (flips, near), _ = together(
+            partial(_whole, raised, data),
+            partial(_changed, raised, given, request),
+            partial(getattr, raised.found, "shells"),
+            threads=threads,
         )
+        surfaced, crumbs = without_crumbs(raised, given, request)
+        if surfaced.found.surface is not raised.found.surface:
+            full = _whole(surfaced, data)
+        if not full.closed:
+            raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
         judged, thinnest = together(
             partial(_judged, surfaced, flips, data, request), partial(_thinnest, surfaced, data), threads=threads
         )
@@ -166,13 +174,9 @@ def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) ->
     )
 
 
-def _whole(raised: Surfaced, given: Given, request: Request) -> tuple[Surfaced, Crumbs, Surface]:
-    """Return the surface without crumbs, what they were, and the surface in its place, closed and measured."""
-    surfaced, crumbs = without_crumbs(raised, given, request)
-    full = with_measures(placed(surfaced.found.surface, given.data), threads=1)  # the others look for changes
-    if not full.closed:
-        raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
-    return surfaced, crumbs, full
+def _whole(surfaced: Surfaced, data: Volume) -> Surface:
+    """Return the surface in its place, measured, on this thread: others see what has changed meanwhile."""
+    return with_measures(placed(surfaced.found.surface, data), threads=1)
 
 
 def _changed(raised: Surfaced, given: Given, request: Request) -> tuple[Flips, bool]:

@@ -60,9 +60,9 @@ def levelled(field: SparseField, given: Given, request: Request) -> Surfaced:
     """
     threads, level, spacing = request.threads, request.level, tuple(given.data.cell_size.tolist())
     if isinstance(level, str):
-        before, field, guess = counted(field, spacing=spacing, straighten=not request.refined, threads=threads)
+        before, field, start = counted(field, spacing=spacing, straighten=not request.refined, threads=threads)
         targets = _targets(field, before, given, threads)
-        found = at_volume(field, before, spacing=spacing, targets=targets, guess=guess, threads=threads)
+        found = at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
         said = request.profile.phase_level
         common, levels = said(found.common), np.array([said(float(each)) for each in found.levels])
     else:

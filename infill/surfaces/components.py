@@ -198,7 +198,7 @@ def components(
     count = kernels.name_sets(parent, names)
     cells = np.zeros(count, dtype=np.int64)
     kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
-    np.add.at(cells, names[alone[single]], _sides_within(np.argwhere(single), field.shape).prod(axis=1))
+    np.add.at(cells, names[alone[single]], sides_within(np.argwhere(single), field.shape).prod(axis=1))
     if not void:  # run 0 is whatever lies beyond the grid, which is not solid
         cells, names = cells[1:], names - 1
     every = Components(
@@ -215,12 +215,12 @@ def with_thickness(field: SparseField, every: Components, *, void: bool = False)
     kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
     places = np.argwhere(every.alone >= 0)
     if not void:  # a solid brick that the grid cuts off may be a sheet there; void continues beyond the grid
-        places = places[(_sides_within(places, field.shape) > 1).all(axis=1)]
+        places = places[(sides_within(places, field.shape) > 1).all(axis=1)]
     thick[every.names[every.alone[tuple(places.T)]]] = True
     return replace(every, thick=thick)
 
 
-def _sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
+def sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
     """Return how many cells of whole bricks lie on the grid along each axis, (n, 3)."""
     low = np.maximum(places * BRICK, 1)
     high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)

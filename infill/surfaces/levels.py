@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.kernels import components as components_kernels
 from infill.kernels import sparse_marching as marching_kernels
-from infill.kernels.sparse import BRICK, CELLS
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
 from infill.kernels.threads import in_threads, thread_count, together
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
-from infill.surfaces.components import Components, Shells, components, data_bits, shells
+from infill.surfaces.components import Components, Shells, components, data_bits, shells, sides_within
 from infill.surfaces.sparse_marching import Level, extract_level, measured
 
 # Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to find, while a
@@ -89,20 +89,57 @@ def straightened(
     return replace(field, values=STRAIGHT.distance(field.values, out=out, threads=threads))
 
 
-def volume_of(found: Level, threads: int) -> tuple[float, float]:
-    """Return the volume a surface encloses, mm³, and how much it changes when the level rises by one."""
+@dataclass(frozen=True, kw_only=True)
+class Tried:
+    """A surface at some level.
+
+    Parameters
+    ----------
+    level : float
+    found : Level
+    volume, slope : float
+        What it encloses, mm³, and how much that changes when the level rises by one.
+    """
+
+    level: float
+    found: Level
+    volume: float
+    slope: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """What is known before the search for a level begins.
+
+    Parameters
+    ----------
+    at_zero : (float, float) or None
+        Volume at level 0, mm³, and its slope over the level.
+    first : Tried or None
+        The surface at the level that these suggest for the volume of all cells.
+    """
+
+    at_zero: tuple[float, float] | None = None
+    first: Tried | None = None
+
+
+def tried(field: SparseField, level: float, *, spacing: tuple[float, ...], threads: int) -> Tried:
+    """Return the surface at a level, and what it encloses."""
+    found = extract_level(field, spacing=spacing, level=level, threads=threads)
     surface = found.surface
     sums = np.empty((-(-len(surface.faces) // marching_kernels.BLOCK), 2))
     middle = surface.vertices[len(surface.vertices) // 2]
-    in_threads(marching_kernels.sum_volumes, surface.vertices, found.rate, surface.faces, middle, sums, threads=threads)
+    in_threads(
+        marching_kernels.sum_volumes, surface.vertices, found.rate, surface.faces, middle, sums, threads=threads
+    )
     sixfold, slope = sums.sum(axis=0).tolist()
-    return sixfold / 6, slope / 6
+    return Tried(level=level, found=found, volume=sixfold / 6, slope=slope / 6)
 
 
 def counted(
     field: SparseField, *, spacing: tuple[float, ...], straighten: bool = True, threads: int | None = None
-) -> tuple[Components, SparseField, tuple[float, float] | None]:
-    """Return the components of the data, the field on a straight profile, and its volume and slope at level 0.
+) -> tuple[Components, SparseField, Start]:
+    """Return the components of the data, the field on a straight profile, and where to begin to look for its level.
 
     The components are found in parallel. A field that is straightened has its values overwritten.
     """
@@ -112,12 +149,26 @@ def counted(
     def looked_for() -> Components:
         return components(field, bits)
 
-    def straight_and_measured() -> tuple[SparseField, tuple[float, float] | None]:
+    def begun() -> tuple[SparseField, Start]:
         straight = straightened(field, out=field.values, threads=threads) if straighten else field
-        return straight, measured(straight, spacing=spacing, level=0.0, threads=threads)
+        known = measured(straight, spacing=spacing, level=0.0, threads=threads)
+        if known is None or known[1] >= 0 or field.data.dtype != np.int8:
+            return straight, Start(at_zero=known)
+        total = math.prod(spacing) * _cells(field, bits)
+        try:
+            first = tried(straight, _next_level(0.0, *known, total), spacing=spacing, threads=threads)
+        except GeometryError:  # nothing is left above this level
+            return straight, Start(at_zero=known)
+        return straight, Start(at_zero=known, first=first)
 
-    (straight, guess), found = together(straight_and_measured, looked_for, threads=threads)
-    return found, straight, guess
+    (straight, start), found = together(begun, looked_for, threads=threads)
+    return found, straight, start
+
+
+def _cells(field: SparseField, bits: NDArray[np.uint16]) -> int:
+    """Return how many cells of the grid are solid: in the kept bricks, those in `bits`."""
+    whole = np.argwhere(field.slots == SOLID_BRICK)
+    return int(np.bitwise_count(bits).sum()) + int(sides_within(whole, field.shape).prod(axis=1).sum())
 
 
 def volumes_of(
@@ -152,7 +203,7 @@ def at_volume(
     *,
     spacing: tuple[float, ...],
     targets: NDArray[np.float64],
-    guess: tuple[float, float] | None = None,
+    start: Start | None = None,
     threads: int | None = None,
 ) -> Levelled:
     """Return the surface at which every component has the volume it has in the data.
@@ -165,8 +216,8 @@ def at_volume(
     spacing : (hx, hy, hz), mm
     targets : (b,) float64
         Volume of each component, mm³.
-    guess : (float, float), optional
-        Volume at level 0 and its slope over the level, if known.
+    start : Start, optional
+        What is known already, by `counted`.
 
     Raises
     ------
@@ -175,40 +226,40 @@ def at_volume(
     """
     threads = thread_count(threads)
     total = float(targets.sum())
-    level, height, found, least, known = 0.0, 0.0, None, math.inf, (0.0, 0.0)
-    guess = guess or measured(field, spacing=spacing, level=level, threads=threads)
-    if guess is not None and guess[1] < 0:
-        level = _next_level(level, *guess, total)
-    for _ in range(ROUNDS):
+    start = start or Start()
+    at_zero = start.at_zero or measured(field, spacing=spacing, level=0.0, threads=threads)
+    level = _next_level(0.0, *at_zero, total) if at_zero is not None and at_zero[1] < 0 else 0.0
+    best: Tried | None = None
+    for turn in range(ROUNDS):
         try:
-            tried = extract_level(field, spacing=spacing, level=level, threads=threads)
+            now = start.first if turn == 0 else None
+            now = now or tried(field, level, spacing=spacing, threads=threads)
         except GeometryError:
             level = (level - LIMIT) / 2  # nothing is left above this level
             if level < -LIMIT + 1e-3:
                 break
             continue
-        volume, slope = volume_of(tried, threads)
-        if abs(volume - total) < least:
-            found, height, least, known = tried, level, abs(volume - total), (volume, slope)
-        if abs(volume - total) <= TOLERANCE * total or slope >= 0:
+        if best is None or abs(now.volume - total) < abs(best.volume - total):
+            best = now
+        if abs(now.volume - total) <= TOLERANCE * total or now.slope >= 0:
             break
-        level = _next_level(level, volume, slope, total)
-    if found is None:
+        level = _next_level(now.level, now.volume, now.slope, total)
+    if best is None:
         raise GeometryError(
             "nothing is left of the solid after smoothing; use finer voxels, fewer steps or more fidelity"
         )
     if data.count == 1:
         return Levelled(
             against=field,
-            height=height,
-            surface=found.surface,
-            rate=found.rate,
-            common=height,
-            levels=np.array([height]),
-            total=known,
+            height=best.level,
+            surface=best.found.surface,
+            rate=best.found.rate,
+            common=best.level,
+            levels=np.array([best.level]),
+            total=(best.volume, best.slope),
             threads=threads,
         )
-    return _each_component(field, data, spacing=spacing, targets=targets, common=height, threads=threads)
+    return _each_component(field, data, spacing=spacing, targets=targets, common=best.level, threads=threads)
 
 
 def _next_level(level: float, volume: float, slope: float, total: float) -> float:
