@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -466,6 +467,25 @@ def test_make_needs_neither_a_compiler_nor_trimesh(tmp_path: Path) -> None:
 def test_smoothing_without_a_choice_loads_no_compiler() -> None:
     code = "import numpy as np; from infill import smooth; smooth(np.ones((9, 9))); smooth(np.ones((5, 5, 5)))"
     assert not {"numba", "llvmlite", "scipy"} & modules_after(code)
+
+
+def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_path: Path) -> None:
+    """Kernels multiply no matrices; whoever asks for SciPy's linear algebra afterwards finds it."""
+    source, target = tmp_path / "box.npy", tmp_path / "box.stl"
+    np.save(source, np.pad(np.ones((20, 20, 20), dtype=bool), 4))
+    words = ["infill", "smooth", str(source), "-o", str(target), "--smooth", "plain", "--tolerance", "0"]
+    code = (
+        f"import sys, contextlib; sys.argv = {words!r}\nimport infill.cli\n"
+        "with contextlib.suppress(SystemExit), contextlib.redirect_stdout(sys.stderr): infill.cli.main()"
+    )
+    assert "scipy.linalg" not in modules_after(code)
+    assert "scipy.linalg.cython_blas" in modules_after(f"{code}\nimport scipy.linalg.cython_blas")
+
+
+def test_a_library_leaves_numba_as_it_is() -> None:
+    """Somebody else's compiled functions may multiply matrices."""
+    code = "import infill.kernels.sparse, numba, numpy as np; numba.njit(lambda a: a @ a)(np.eye(2))"
+    assert "scipy.linalg.cython_blas" in modules_after(code)
 
 
 def test_every_public_name_is_found() -> None:

@@ -53,7 +53,9 @@ def _run() -> None:
 
     from infill.cli.app import build
     from infill.cli.console import warn
+    from infill.kernels.compiling import OURS
 
+    OURS.set()
     warnings.showwarning = warn
     try:
         build("".join(sys.argv[1:2]))()

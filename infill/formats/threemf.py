@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import html
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import BinaryIO
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,7 +127,7 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
             model.write(HEAD.encode())
             model.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
             for number, part in enumerate(parts):
-                name = f" name={quoteattr(names[number])}" if names[number] else ""
+                name = f" name={_quoted(names[number])}" if names[number] else ""
                 at = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
                 model.write(f'<object id="{number + 1}" type="model"{name}{at}><mesh><vertices>\n'.encode())
                 write_rows(model, '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.surface.vertices)
@@ -143,8 +143,16 @@ def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
     if not coloured:
         return ""
     bases = "".join(
-        f'<base name={quoteattr(name or "part")} displaycolor="{hexadecimal(part.colour)}"/>'
+        f'<base name={_quoted(name or "part")} displaycolor="{hexadecimal(part.colour)}"/>'
         for name, part in coloured
         if part.colour is not None
     )
     return f'<basematerials id="{number}">{bases}</basematerials>\n'
+
+
+def _quoted(text: str) -> str:
+    """Return a text as the value of an attribute, whose line breaks and tabs stay what they are."""
+    escaped = html.escape(text)
+    for sign in "\n\r\t":
+        escaped = escaped.replace(sign, f"&#{ord(sign)};")
+    return f'"{escaped}"'
