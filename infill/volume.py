@@ -83,8 +83,12 @@ class Volume:
         return bool(np.linalg.det(np.asarray(self.direction)) < 0)
 
     def place(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Return where points (N, 3) lie in space, given in mm along the grid's axes from its lower corner."""
-        turn = np.asarray(self.direction)
-        turned = points if (turn == np.eye(AXES)).all() else points @ turn.T
-        placed: NDArray[np.float64] = turned + np.array(self.origin)
+        """Return where points (N, 3) lie in space, given in mm along the grid's axes from its lower corner.
+
+        Where the grid lies at the origin, these are the points themselves, not a copy.
+        """
+        turn, origin = np.asarray(self.direction), np.array(self.origin)
+        if (turn == np.eye(AXES)).all():
+            return points + origin if origin.any() else np.asarray(points, dtype=np.float64)
+        placed: NDArray[np.float64] = points @ turn.T + origin
         return placed

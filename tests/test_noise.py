@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill.kernels.noise import count_overruled
-from infill.voxels.noise import NOISY, ROOM, noise_share, overruled
+from infill.voxels.noise import NOISY, noise_share, overruled, room_for
 
 
 @given(
@@ -19,7 +19,7 @@ from infill.voxels.noise import NOISY, ROOM, noise_share, overruled
 def test_the_kernel_counts_what_the_specification_counts(shape: tuple[int, int, int], share: float, seed: int) -> None:
     slab = np.random.default_rng(seed).random(shape) < share
     counts = np.zeros(3, dtype=np.int64)
-    count_overruled(slab.view(np.uint8), np.empty((ROOM, *slab.shape), dtype=np.uint8), counts)
+    count_overruled(slab.view(np.uint8), np.empty(room_for(slab), dtype=np.uint8), counts)
     assert tuple(counts) == overruled(slab)
 
 

@@ -44,10 +44,10 @@ def votes(solid, rows, planes, found):
 def count_overruled(slab, room, counts):
     """Add how many 1s and how many 0s a majority overrules, and how many cells are at the surface that is left then.
 
-    `room` is for three slabs and a layer, (4, n0, n1, n2) uint8, so that many slabs share it.
+    `room` is for three slabs and a layer, (3 n0 + 1, n1, n2) uint8, so that many slabs share it.
     """
     n0, n1, n2 = slab.shape
-    rows, planes, most, again = room[0, 0], room[1], room[2], room[3]
+    planes, most, again, rows = room[:n0], room[n0 : 2 * n0], room[2 * n0 : 3 * n0], room[3 * n0]
     votes(slab, rows, planes, most)
     every = most.reshape(-1)
     for t in range(len(every)):

@@ -121,12 +121,19 @@ def signs_of(a, b, c, d, k):
 
 
 @njit(nogil=True, cache=True)
+def differing(slots, places, bits, shape, found, thread, threads):
+    """Set in which bricks, or between which and the next ones, any two cells differ."""
+    rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
+    for n in range(thread, len(places), threads):
+        found[n] = rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
+
+
+@njit(nogil=True, cache=True)
 def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):
     """Set the crossed edges of every row along i, j, k, where its vertices begin, and how much each brick will hold."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
-        if not rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows):
-            continue  # nobody asks for the vertices of a brick that has none
+        rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
         vertices, faces, undecided = 0, 0, 0
         for i in range(B0):
             for j in range(B1):
@@ -186,17 +193,42 @@ def apart(value, clearance, tie):
     return above_it if value > 0 else below_it
 
 
+@njit(cache=True)
+def numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
+    """Set, for the rows of a brick and the first ones after it, where the numbers of their vertices begin.
+
+    Parameters
+    ----------
+    begin : (9, 9, 3)
+        Of those on edges along i, j, k in the brick itself.
+    behind : (9, 9, 3)
+        Of those in the next brick along k.
+    crossing : (9, 9, 3)
+        Which edges of a row have one.
+    """
+    for side in range(4):
+        up, right = side & 1, side >> 1
+        if p + up >= slots.shape[0] or q + right >= slots.shape[1]:
+            continue  # void: no edge there has a vertex
+        own = index[p + up, q + right, r]
+        other = index[p + up, q + right, r + 1] if r + 1 < slots.shape[2] else np.int32(-1)
+        for x in range(1 if up else B0):
+            for y in range(1 if right else B1):
+                row, i, j = x * B1 + y, x + B0 * up, y + B1 * right
+                for axis in range(3):
+                    if own >= 0:
+                        begin[i, j, axis] = offsets[own, 0] + starts[own, row, axis]
+                        crossing[i, j, axis] = masks[own, row, axis]
+                    if other >= 0:
+                        behind[i, j, axis] = offsets[other, 0] + starts[other, row, axis]
+
+
 @njit(inline="always", cache=True)
-def vertex_number(index, p, q, r, i, j, k, axis, masks, starts, offsets):
+def vertex_number(i, j, k, axis, begin, behind, crossing):
     """Return the number of the vertex on an edge that begins in a brick or in the first cells after it."""
-    if i == B0:
-        p, i = p + 1, 0
-    if j == B1:
-        q, j = q + 1, 0
     if k == B2:
-        r, k = r + 1, 0
-    n, row = index[p, q, r], i * B1 + j
-    return offsets[n, 0] + starts[n, row, axis] + ones(masks[n, row, axis] & ((1 << k) - 1))
+        return behind[i, j, axis]
+    return begin[i, j, axis] + ones(crossing[i, j, axis] & ((1 << k) - 1))
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -228,6 +260,8 @@ def write(
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     numbered = np.empty(EDGES, dtype=np.int32)
+    begin, behind = np.zeros((B0 + 1, B1 + 1, 3), dtype=np.int32), np.zeros((B0 + 1, B1 + 1, 3), dtype=np.int32)
+    crossing = np.zeros((B0 + 1, B1 + 1, 3), dtype=np.int64)
     for n in range(thread, len(places), threads):
         done, todo = offsets[n], offsets[n + 1]
         if done[0] == todo[0] and done[1] == todo[1] and done[2] == todo[2]:
@@ -235,6 +269,7 @@ def write(
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)
         values_around(slots, p, q, r, values, shape, numbers, around)
+        numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing)
         v, f, u = offsets[n, 0], offsets[n, 1], offsets[n, 2]
         for i in range(B0):
             for j in range(B1):
@@ -263,7 +298,7 @@ def write(
                             e = crossings[signs, m]
                             axis, at = int(edges[e, 0]), int(edges[e, 1])
                             x, y, z = i + (at & 1), j + (at >> 1 & 1), k + (at >> 2)
-                            numbered[e] = vertex_number(index, p, q, r, x, y, z, axis, masks, starts, offsets)
+                            numbered[e] = vertex_number(x, y, z, axis, begin, behind, crossing)
                         for t in range(many[signs]):
                             for corner in range(3):
                                 faces[f, corner] = numbered[triangles[signs, t, corner]]
@@ -277,19 +312,8 @@ def write(
                         other = at | 1 << axis
                         corner_edges[u, e] = -1
                         if (signs >> at & 1) != (signs >> other & 1):
-                            corner_edges[u, e] = vertex_number(
-                                index,
-                                p,
-                                q,
-                                r,
-                                i + (at & 1),
-                                j + (at >> 1 & 1),
-                                k + (at >> 2),
-                                axis,
-                                masks,
-                                starts,
-                                offsets,
-                            )
+                            x, y, z = i + (at & 1), j + (at >> 1 & 1), k + (at >> 2)
+                            corner_edges[u, e] = vertex_number(x, y, z, axis, begin, behind, crossing)
                     u += 1
 
 

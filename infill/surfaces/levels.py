@@ -129,9 +129,7 @@ def tried(field: SparseField, level: float, *, spacing: tuple[float, ...], threa
     surface = found.surface
     sums = np.empty((-(-len(surface.faces) // marching_kernels.BLOCK), 2))
     middle = surface.vertices[len(surface.vertices) // 2]
-    in_threads(
-        marching_kernels.sum_volumes, surface.vertices, found.rate, surface.faces, middle, sums, threads=threads
-    )
+    in_threads(marching_kernels.sum_volumes, surface.vertices, found.rate, surface.faces, middle, sums, threads=threads)
     sixfold, slope = sums.sum(axis=0).tolist()
     return Tried(level=level, found=found, volume=sixfold / 6, slope=slope / 6)
 

@@ -98,7 +98,7 @@ def extract_level(
     cubes = cube_table()
     values = field.values.reshape(-1, CELLS)
     numbers, bits = _numbers(level), rows_above(field, field.values, level, threads=threads)
-    places = _crossed(field.slots, field.shape)
+    places = _crossed(field, bits, threads)
     index = np.full(field.slots.shape, -1, dtype=np.int32)
     index[tuple(places.T)] = np.arange(len(places))
     masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
@@ -164,7 +164,7 @@ def measured(
     parts = in_threads(
         kernels.measure,
         field.slots,
-        _crossed(field.slots, field.shape),
+        _crossed(field, bits, count),
         bits,
         values,
         field.shape,
@@ -195,7 +195,15 @@ def rows_above(
     return bits
 
 
-def _crossed(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
+def _crossed(field: SparseField, bits: NDArray[np.uint16], threads: int | None) -> NDArray[np.int32]:
+    """Return the bricks in which, or between which and the next ones, the surface around the cells in `bits` runs."""
+    places = _near_surface(field.slots, field.shape)
+    found = np.empty(len(places), dtype=bool)
+    in_threads(kernels.differing, field.slots, places, bits, field.shape, found, threads=thread_count(threads))
+    return places[found]
+
+
+def _near_surface(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
     """Return the bricks in which, or between which and the next ones, the surface may run: (n, 3)."""
     kind = (slots == SOLID_BRICK).astype(np.int8)
     kind[slots >= 0] = 2
@@ -272,7 +280,7 @@ def raw_counts() -> NDArray[np.int8]:
 
 def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
     """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
-    return _euler_number(_counts(field, bits, _crossed(field.slots, field.shape), raw_counts(), threads))
+    return _euler_number(_counts(field, bits, _crossed(field, bits, threads), raw_counts(), threads))
 
 
 def doubt_and_euler_number(
@@ -282,7 +290,7 @@ def doubt_and_euler_number(
 
     That is known if there are no such bricks.
     """
-    places = _crossed(field.slots, field.shape)
+    places = _crossed(field, bits, threads)
     counts = _counts(field, bits, places, cube_table().counts, threads)
     doubt = places[counts[:, 2] > 0]
     return doubt, None if len(doubt) else _euler_number(counts)

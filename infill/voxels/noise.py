@@ -15,7 +15,6 @@ SLABS = 12  # stretches of layers that are looked at
 LAYERS = 8  # in each
 FEWEST = 500  # cells at the surface
 VOTERS = 27  # a cell and its neighbours
-ROOM = 4  # slabs
 
 
 def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
@@ -45,7 +44,7 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
 
     def look(thread: int) -> NDArray[np.int64]:
         found = np.zeros(3, dtype=np.int64)
-        room = np.empty((ROOM, *solid[:LAYERS].shape), dtype=np.uint8)
+        room = np.empty(room_for(solid[:LAYERS]), dtype=np.uint8)
         for start in starts[thread::count]:
             slab = solid[start : start + LAYERS]
             slab = np.ascontiguousarray(slab if slab.dtype == bool else slab > 0).view(np.uint8)
@@ -56,6 +55,11 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     counts = np.array(together(*(partial(look, thread) for thread in range(count)), threads=count))
     taken, given, surface = counts.sum(axis=0).tolist()
     return 2 * min(taken, given) / surface if surface >= FEWEST else 0.0
+
+
+def room_for(slab: NDArray[Any]) -> tuple[int, int, int]:
+    """Return the shape of the room that counting in a slab takes."""
+    return 3 * len(slab) + 1, slab.shape[1], slab.shape[2]
 
 
 def overruled(slab: NDArray[np.bool_]) -> tuple[int, int, int]:
