@@ -4,13 +4,16 @@ Loops over sixteen cells of two arrays are compiled to the same instructions, bu
 overlap. What a comparison says is a number of sixteen bits; `ones` and `lowest` are about such numbers.
 """
 # mypy: disable-error-code="no-untyped-def, no-untyped-call, call-arg"
-# ruff: noqa: ANN001, ANN201, ANN202, ARG001
+# ruff: noqa: ANN001, ANN201, ANN202, ANN204, ARG001
 
 from __future__ import annotations
+
+from types import FunctionType, SimpleNamespace
 
 import numpy as np
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.extending import intrinsic
 
 from infill.kernels.compiling import njit
@@ -56,6 +59,57 @@ def spread(context, target, to, value):
         return context.get_dummy_value()
 
     return types.void(target, types.int64, target.dtype), code
+
+
+class Lanes:
+    """Sixteen numbers of single precision in a function that is being compiled: its operators build instructions."""
+
+    def __init__(self, builder, value):
+        self.builder, self.value = builder, value
+
+    def __add__(self, other):
+        return Lanes(self.builder, self.builder.fadd(self.value, other.value))
+
+    def __sub__(self, other):
+        return Lanes(self.builder, self.builder.fsub(self.value, other.value))
+
+    def __mul__(self, other):
+        return Lanes(self.builder, self.builder.fmul(self.value, other.value))
+
+    def __truediv__(self, other):
+        return Lanes(self.builder, self.builder.fdiv(self.value, other.value))
+
+    def root(self):
+        """Return the square roots."""
+        kind = ir.FunctionType(self.value.type, [self.value.type])
+        root = cgutils.get_or_insert_function(self.builder.module, kind, f"llvm.sqrt.v{SIXTEEN}f32")
+        return Lanes(self.builder, self.builder.call(root, [self.value]))
+
+
+def lanes_of(formula):
+    """Return a function of numbers, compiled or not, as one of `Lanes`; of mathematics, it may use `math.sqrt`."""
+    plain = getattr(formula, "py_func", formula)
+    return FunctionType(plain.__code__, {"math": SimpleNamespace(sqrt=Lanes.root)})
+
+
+def load_lanes(context, builder, kind, array, at):
+    """Return sixteen numbers of an array, of single precision or whole, from `at` on."""
+    start, align = _place(context, builder, kind, array, at)
+    value = builder.load(start, align=align)
+    if not isinstance(kind.dtype, types.Float):
+        value = builder.sitofp(value, ir.VectorType(ir.FloatType(), SIXTEEN))
+    return Lanes(builder, value)
+
+
+def store_lanes(context, builder, kind, array, at, lanes):
+    """Set sixteen numbers of an array, from `at` on."""
+    start, align = _place(context, builder, kind, array, at)
+    builder.store(lanes.value, start, align=align)
+
+
+def same_lanes(builder, number):
+    """Return a number sixteen times."""
+    return Lanes(builder, _everywhere(builder, number))
 
 
 def _compared(how, values):

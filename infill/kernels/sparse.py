@@ -35,17 +35,20 @@ A brick that is not kept starts to be kept when a flat face next to it has a dif
     wide        i: 10 planes of 240      j: 10 rows of 24      k: 7 unused, one before, 16 cells, and the one after,
                                                                   which is the first unused one of the next row
 """
-# mypy: disable-error-code="no-untyped-def, call-arg"
+# mypy: disable-error-code="no-untyped-def, no-untyped-call, call-arg"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
 
 from __future__ import annotations
 
 import numpy as np
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
 
 from infill.kernels.compiling import njit
 from infill.kernels.dense import advanced
-from infill.kernels.lanes import copy, equal, spread
+from infill.kernels.lanes import copy, equal, lanes_of, load_lanes, same_lanes, spread, store_lanes
 
 BRICK = (8, 8, 16)  # cells; the last axis is contiguous
 B0, B1, B2 = BRICK
@@ -235,6 +238,27 @@ def moving(s, rows, still, beside):
     return found
 
 
+@intrinsic
+def advance_row(context, own, data, at, wide, c, numbers):  # noqa: ARG001
+    """Set sixteen cells of a brick to what `advanced` says; cell `c` of `wide` is the first of them."""
+    formula = lanes_of(advanced)
+
+    def code(context, builder, signature, arguments):  # noqa: ANN202
+        own_kind, data_kind, _, wide_kind, *_ = signature.args
+        out, held, first, around, middle, given = arguments
+
+        def cells(step):  # noqa: ANN202
+            return load_lanes(context, builder, wide_kind, around, builder.add(middle, middle.type(step)))
+
+        row = [cells(step) for step in (0, -WIDE_I, WIDE_I, -WIDE_J, WIDE_J, -1, 1)]
+        row.append(load_lanes(context, builder, data_kind, held, first))
+        weights = [same_lanes(builder, each) for each in cgutils.unpack_tuple(builder, given)]
+        store_lanes(context, builder, own_kind, out, first, formula(*row, weights))
+        return context.get_dummy_value()
+
+    return types.void(own, data, types.int64, wide, types.int64, numbers), code
+
+
 @njit(nogil=True, cache=True, error_model="numpy")
 def step(
     phi,
@@ -276,18 +300,7 @@ def step(
                         if not changing & bit(i * B1 + j):
                             continue
                         at, c = (i * B1 + j) * B2, ORIGIN + i * WIDE_I + j * WIDE_J
-                        for k in range(B2):
-                            own[at + k] = advanced(
-                                wide[c + k],
-                                wide[c - WIDE_I + k],
-                                wide[c + WIDE_I + k],
-                                wide[c - WIDE_J + k],
-                                wide[c + WIDE_J + k],
-                                wide[c - 1 + k],
-                                wide[c + 1 + k],
-                                np.float32(data[at + k]),
-                                numbers,
-                            )
+                        advance_row(own, data, at, wide, c, numbers)
             if edge:
                 repeat_edges(own, where[s], shape)
             emit(own, next_faces[s], next_flat[s], next_rows[s], changing)
