@@ -26,7 +26,13 @@ from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import Components, cores, grown, opened
 from infill.surfaces.distance import Tree
-from infill.surfaces.sparse_marching import doubt_and_euler_number, euler_number_of_bits, extract_level, rows_above
+from infill.surfaces.sparse_marching import (
+    Signs,
+    doubt_and_euler_number,
+    euler_number_of_bits,
+    extract_level,
+    rows_above,
+)
 from infill.surfaces.watching import between
 
 Bits = NDArray[np.uint16]
@@ -71,18 +77,24 @@ class Flips:
     euler_number: int
 
     @classmethod
-    def of(cls, field: SparseField, data: Bits, level: float, *, threads: int | None = None) -> Flips:
-        """Return the cells that changed sign between the data, whose bits are known, and the field."""
-        result = rows_above(field, field.values, level, threads=threads)
+    def of(
+        cls, field: SparseField, data: Bits, level: float, *, signs: Signs | None = None, threads: int | None = None
+    ) -> Flips:
+        """Return the cells that changed sign between the data, whose bits are known, and the field.
+
+        Its `signs` at the level are looked at if they are not known.
+        """
+        if signs is None:
+            bits = rows_above(field, field.values, level, threads=threads)
+            signs = Signs(bits=bits, doubt=doubt_and_euler_number(field, bits, threads=threads)[0])
         before, euler = doubt_and_euler_number(field, data, threads=threads)
-        after, _ = doubt_and_euler_number(field, result, threads=threads)
         return cls(
             field=field,
             level=level,
             data=data,
-            result=result,
-            places=places_of(field, data ^ result),
-            doubt=np.unique(np.concatenate([before, after]).astype(np.int64), axis=0),
+            result=signs.bits,
+            places=places_of(field, data ^ signs.bits),
+            doubt=np.unique(np.concatenate([before, signs.doubt]).astype(np.int64), axis=0),
             euler_number=euler_number_of_bits(field, data, threads=threads) if euler is None else euler,
         )
 

@@ -164,6 +164,8 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                 c = r + step
                 edge = B2 - 1 if step > 0 else 0
                 if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
+                    if step < 0 and slots[p, q, c] >= 0:
+                        continue  # that brick looks ahead at this one
                     other = node_at(alone, slots, p, q, c, row, B2 - 1 - edge, bits, bricks, starts)
                     if other >= 0:
                         join(parent, run_at(bits, bricks, starts, s, row, edge), other)

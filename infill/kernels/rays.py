@@ -16,10 +16,11 @@ def follow(slots, values, shape, start, direction, distance, size, level, out):
     """Set out[ray, place] to 1 where `values` of the bricks are above a level, else to -1; beyond the grid is void."""
     n0, n1, n2 = shape
     for ray in range(len(start)):
+        x, y, z = start[ray, 0] / size[0], start[ray, 1] / size[1], start[ray, 2] / size[2]
+        dx, dy, dz = direction[ray, 0] / size[0], direction[ray, 1] / size[1], direction[ray, 2] / size[2]
         for place in range(len(distance)):
-            i = math.floor((start[ray, 0] + distance[place] * direction[ray, 0]) / size[0])
-            j = math.floor((start[ray, 1] + distance[place] * direction[ray, 1]) / size[1])
-            k = math.floor((start[ray, 2] + distance[place] * direction[ray, 2]) / size[2])
+            far = distance[place]
+            i, j, k = math.floor(x + far * dx), math.floor(y + far * dy), math.floor(z + far * dz)
             out[ray, place] = -1.0
             if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
                 continue

@@ -182,7 +182,7 @@ def _whole(surfaced: Surfaced, data: Volume) -> Surface:
 def _changed(raised: Surfaced, given: Given, request: Request) -> tuple[Flips, bool]:
     """Return the cells that changed sign, and whether the surface is sure to be near what was given: the data."""
     found, spacing = raised.found, tuple(given.data.cell_size.tolist())
-    flips = Flips.of(found.against, raised.before.bits, found.height, threads=request.threads)
+    flips = Flips.of(found.against, raised.before.bits, found.height, signs=found.signs, threads=request.threads)
     of_data = given.mesh is None and given.raw is None
     return flips, of_data and near_each_other(flips, spacing=spacing, threads=request.threads)
 

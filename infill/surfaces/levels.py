@@ -23,7 +23,7 @@ from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
 from infill.surfaces.components import Components, Shells, components, data_bits, shells, sides_within
-from infill.surfaces.sparse_marching import Level, extract_level, measured
+from infill.surfaces.sparse_marching import Level, Signs, extract_level, measured
 
 # Levels lie between minus and plus this: at +-1 the distance is cut off and there is no surface to find, while a
 # surface this close to it still has cells on both sides that are not cut off.
@@ -55,6 +55,8 @@ class Levelled:
     surface : Surface
     rate : (V, 3) float32
         How far its vertices move when the level rises by one, mm.
+    signs : Signs
+        Of the cells that the surface lies between.
     height : float
         The level of the surface in that field.
     common : float
@@ -70,6 +72,7 @@ class Levelled:
     against: SparseField
     surface: Surface
     rate: NDArray[np.float32]
+    signs: Signs
     height: float
     common: float
     levels: NDArray[np.float64]
@@ -189,6 +192,7 @@ def at_level(
         height=level,
         surface=found.surface,
         rate=found.rate,
+        signs=found.signs,
         common=level,
         levels=np.full(data.count, level),
         threads=threads,
@@ -252,6 +256,7 @@ def at_volume(
             height=best.level,
             surface=best.found.surface,
             rate=best.found.rate,
+            signs=best.found.signs,
             common=best.level,
             levels=np.array([best.level]),
             total=(best.volume, best.slope),
@@ -302,6 +307,7 @@ def _each_component(
                 height=0.0,
                 surface=found.surface,
                 rate=found.rate,
+                signs=found.signs,
                 common=common,
                 levels=levels,
                 threads=threads,

@@ -53,6 +53,22 @@ class Cubes:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Signs:
+    """Which cells are above a level, and where that does not say how the surface runs.
+
+    Parameters
+    ----------
+    bits : (n, 64) uint16
+        The cells of the kept bricks, a number per row.
+    doubt : (m, 3) int32
+        Bricks with cubes whose triangles depend on values, not on signs alone.
+    """
+
+    bits: NDArray[np.uint16]
+    doubt: NDArray[np.int32]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Level:
     """A surface and how it responds to its level.
 
@@ -61,10 +77,13 @@ class Level:
     surface : Surface, mm
     rate : (V, 3) float32
         How far each vertex moves when the level rises by one, mm.
+    signs : Signs
+        Of the cells it lies between.
     """
 
     surface: Surface
     rate: NDArray[np.float32]
+    signs: Signs
 
 
 def extract_bricks(
@@ -145,7 +164,8 @@ def extract_level(
         vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, more])
         rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
     in_threads(kernels.place, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
-    return Level(surface=Surface(vertices=vertices, faces=faces), rate=rate)
+    signs = Signs(bits=bits, doubt=places[counts[1:, 2] > 0])
+    return Level(surface=Surface(vertices=vertices, faces=faces), rate=rate, signs=signs)
 
 
 def measured(
