@@ -134,13 +134,16 @@ def seconds(work: Callable[[NDArray[np.bool_]], int], f: NDArray[np.bool_]) -> f
 
 
 def in_turn(works: list[Callable[[NDArray[np.bool_]], int]], f: NDArray[np.bool_], runs: int) -> list[list[float]]:
-    """Return the times of each, taken in turn, after one round that does not count."""
+    """Return the times of each, taken in turn.
+
+    Before each, the same is run once and does not count: so none pays for getting back from the system what memory
+    another one has given back, which takes longer than what it is compared with.
+    """
     times: list[list[float]] = [[] for _ in works]
-    for turn in range(runs + 1):
+    for _ in range(runs):
         for n, work in enumerate(works):
-            taken = seconds(work, f)
-            if turn:
-                times[n].append(taken)
+            work(f)
+            times[n].append(seconds(work, f))
     return times
 
 

@@ -14,59 +14,61 @@ AHEAD, BACK = 1, 2  # which faces along an edge were seen: one from its lower ve
 
 
 @njit(nogil=True, cache=True)
-def count_sides(faces, counts):
-    """Count the sides of faces by their lower vertex; return whether all have two different ones."""
+def begin_edges(faces, first):
+    """Set where the edges of each vertex begin that lead to higher ones, if each has two faces: (V + 1,), zeros so far.
+
+    Return whether they may: no face has a vertex twice, and no vertex an odd number of sides.
+    """
     for f in range(len(faces)):
         a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
         if a == b or b == c or c == a:
             return False
-        counts[min(a, b)] += 1
-        counts[min(b, c)] += 1
-        counts[min(c, a)] += 1
+        first[min(a, b) + 1] += 1
+        first[min(b, c) + 1] += 1
+        first[min(c, a) + 1] += 1
+    count = 0
+    for v in range(1, len(first)):
+        if first[v] % 2:
+            return False
+        count += first[v] // 2
+        first[v] = count
     return True
 
 
 @njit(nogil=True, cache=True)
-def match_sides(faces, first, higher, seen, used, thread, threads):
+def match_sides(faces, first, higher, thread, threads):
     """Return whether the edges of a share of the vertices have one face that runs along them each way.
 
     Parameters
     ----------
     faces : (F, 3) int
-    first : (V + 1,) int64
-        Where the edges of each vertex begin that lead to higher ones, if each has two faces.
-    higher : (E,) int32
-        Room for their other vertices.
-    seen : (E,) int8
-        Room for which of their faces were seen: zeros.
-    used : (V,) int32
-        Room for how many edges of each vertex were found: zeros.
+    first : (V + 1,) int
+        See `begin_edges`.
+    higher : (E,) int
+        Room for their other vertices, times four, and which of their faces were seen: -1 so far.
     """
-    size = (len(used) + threads - 1) // threads
-    low, high = thread * size, min(len(used), (thread + 1) * size)
+    size = (len(first) - 1 + threads - 1) // threads
+    low, high = thread * size, min(len(first) - 1, (thread + 1) * size)
     for f in range(len(faces)):
         for k in range(3):
-            a, b = faces[f, k], faces[f, (k + 1) % 3]
-            way = AHEAD
-            if a > b:
-                a, b, way = b, a, BACK
+            start, end = faces[f, k], faces[f, (k + 1) % 3]
+            a, b, way = min(start, end), max(start, end), AHEAD + (start > end)
             if a < low or a >= high:
                 continue
-            begin, at = first[a], first[a]
-            end = begin + used[a]
-            while at < end and higher[at] != b:
+            at, last = first[a], first[a + 1]
+            while at < last and higher[at] >= 0 and higher[at] >> 2 != b:
                 at += 1
-            if at == end:
-                if end == first[a + 1]:
-                    return False
-                higher[at] = b
-                used[a] += 1
-            if seen[at] & way:
+            if at == last:
                 return False
-            seen[at] |= way
+            if higher[at] < 0:
+                higher[at] = b << 2 | way
+            elif higher[at] & way:
+                return False
+            else:
+                higher[at] |= way
     for a in range(low, high):
         for at in range(first[a], first[a + 1]):
-            if seen[at] != AHEAD | BACK:
+            if higher[at] & 3 != AHEAD | BACK:
                 return False
     return True
 

@@ -7,6 +7,8 @@ import numpy as np
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 
+FEW = 2**29  # vertices, whose numbers and two bits more fit into 32
+
 
 def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
     """Return the surface, which knows by now whether it is closed, its volume and its area.
@@ -36,16 +38,14 @@ def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
 
 def _is_closed(surface: Surface, threads: int) -> bool:
     """Return whether every edge has two faces that run along it in opposite directions."""
-    from infill.kernels.measures import count_sides, match_sides
+    from infill.kernels.measures import begin_edges, match_sides
 
     faces, count = surface.faces, len(surface.vertices)
     if not len(faces):
         return False
-    sides = np.zeros(count, dtype=np.int32)
-    if not count_sides(faces, sides) or (sides & 1).any():
+    kind = np.int32 if count < FEW else np.int64
+    first = np.zeros(count + 1, dtype=kind)
+    if not begin_edges(faces, first):
         return False
-    first = np.zeros(count + 1, dtype=np.int64)
-    np.cumsum(sides >> 1, out=first[1:])
-    higher, seen = np.empty(int(first[-1]), dtype=np.int32), np.zeros(int(first[-1]), dtype=np.int8)
-    used = np.zeros(count, dtype=np.int32)
-    return all(in_threads(match_sides, faces, first, higher, seen, used, threads=threads))
+    higher = np.full(int(first[-1]), -1, dtype=kind)
+    return all(in_threads(match_sides, faces, first, higher, threads=threads))
