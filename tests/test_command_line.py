@@ -102,7 +102,7 @@ def test_the_version_is_the_packages() -> None:
 
 def test_both_names_are_the_same_program() -> None:
     scripts = {entry.name: entry.value for entry in entry_points(group="console_scripts")}
-    assert scripts["infill"] == scripts["phasefill"] == "infill.cli:main"
+    assert scripts["infill"] == scripts["phasefill"] == "infill.cli:program"
 
 
 def test_completion_is_there() -> None:

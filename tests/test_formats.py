@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import io
 import math
 import os
 import re
@@ -17,6 +18,7 @@ import trimesh
 from shapes import assert_printable, smooth_noise
 
 from infill import FormatError, OutputError, Surface, isosurface, make, read_mesh, save
+from infill.formats import stl
 from infill.formats.mesh_files import READERS, WRITERS
 from infill.formats.whole_files import check_target, whole_file, whole_files
 
@@ -409,3 +411,23 @@ def test_merging_minds_minus_zero(tmp_path: Path) -> None:
     assert len(mesh.vertices) == 8
     assert mesh.closed
     assert math.isclose(mesh.volume, 1)
+
+
+def test_stl_by_the_kernel_is_stl_by_numpy_to_the_last_bit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also with triangles without an area."""
+    from infill.kernels import facets  # numba is loaded by now
+
+    rng = np.random.default_rng(0)
+    vertices, faces = rng.normal(size=(500, 3)) * [1, 1e-3, 1e4], rng.integers(0, 500, (3000, 3))
+    faces[::7, 1] = faces[::7, 0]
+    called, kernel = [], facets.write_facets
+    monkeypatch.setattr(facets, "write_facets", lambda *each: called.append(len(each)) or kernel(*each))
+    written = []
+    for most in (100, 10_000):  # the kernel is for surfaces of more than one block
+        monkeypatch.setattr(stl, "AT_ONCE", most)
+        file = io.BytesIO()
+        stl.write_stl(Surface(vertices=vertices, faces=faces), file)
+        written.append(file.getvalue())
+    assert called
+    assert written[0] == written[1]
+    assert len(written[0]) == 84 + 50 * len(faces)

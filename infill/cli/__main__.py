@@ -1,5 +1,5 @@
 """``python -m infill.cli``, for places where the script is not on the path."""
 
-from infill.cli import main
+from infill.cli import program
 
-main()
+program()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
@@ -13,6 +14,8 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.rows import AT_ONCE
+from infill.kernels.compiling import told_of_compiling
+from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 from infill.version import __version__
 
@@ -60,27 +63,42 @@ def write_stl(surface: Surface, file: BinaryIO) -> None:
     space = f" SPACE={surface.space}" if surface.space else ""  # as 3D Slicer writes and reads it
     file.write(f"phasefill {__version__} UNITS=mm{space}".encode().ljust(80))
     file.write(np.uint32(len(surface.faces)).astype("<u4").tobytes())
-    for corners in _corners(surface):
+    compiled = "numba" in sys.modules and len(surface.faces) > AT_ONCE  # else loading it takes longer
+    for normals, corners in _by_kernel(surface) if compiled else _facets(surface):
         record = np.zeros(len(corners), dtype=RECORD)
         record["corners"] = corners
-        record["normal"] = _normals(corners)
-        file.write(record.tobytes())
+        record["normal"] = normals
+        file.write(record.view(np.uint8).data)
 
 
 def write_stl_ascii(surface: Surface, file: BinaryIO) -> None:
     """Write STL as text."""
     file.write(b"solid phasefill\n")
-    for corners in _corners(surface):
-        numbers = np.concatenate([_normals(corners)[:, None], corners], axis=1)
+    for normals, corners in _facets(surface):
+        numbers = np.concatenate([normals[:, None], corners], axis=1)
         file.write((FACET * len(corners) % tuple(numbers.ravel().tolist())).encode())
     file.write(b"endsolid phasefill\n")
 
 
-def _corners(surface: Surface) -> Iterator[NDArray[np.float32]]:
-    """Yield the corners of the triangles, (n, 3, 3) float32, some at a time."""
+def _facets(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:
+    """Yield the unit normals of the triangles, (n, 3), and their corners, (n, 3, 3), some at a time."""
     vertices = surface.vertices.astype(np.float32)
     for low in range(0, len(surface.faces), AT_ONCE):
-        yield vertices[surface.faces[low : low + AT_ONCE]]
+        corners = vertices[surface.faces[low : low + AT_ONCE]]
+        yield _normals(corners), corners
+
+
+def _by_kernel(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:
+    """Yield what `_facets` yields, to the last bit."""
+    from infill.kernels.facets import write_facets
+
+    vertices = surface.vertices.astype(np.float32)
+    for low in range(0, len(surface.faces), AT_ONCE):
+        faces = np.ascontiguousarray(surface.faces[low : low + AT_ONCE], dtype=np.int32)
+        facets = np.empty((len(faces), 12), dtype=np.float32)
+        with told_of_compiling("the writer of STL"):
+            in_threads(write_facets, vertices, faces, facets, threads=thread_count())
+        yield facets[:, :3], facets[:, 3:].reshape(-1, 3, 3)
 
 
 def _normals(corners: NDArray[np.float32]) -> NDArray[np.float32]:
