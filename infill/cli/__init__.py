@@ -21,6 +21,8 @@ def program() -> None:
 
     What it has loaded is not taken apart, object by object, only to end: with a compiler, that takes 0.3 s.
     """
+    # The parser of options looks for plugins in every package that is installed; none has a say here.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     codes = [1]  # what an error that nobody expects ends with
     atexit.register(lambda: _leave(codes[-1]))  # the first to be registered, so the last to be done
     try:

@@ -94,9 +94,15 @@ class Flips:
             data=data,
             result=signs.bits,
             places=places_of(field, data ^ signs.bits),
-            doubt=np.unique(np.concatenate([before, signs.doubt]).astype(np.int64), axis=0),
+            doubt=_each_once(before, signs.doubt),
             euler_number=euler_number_of_bits(field, data, threads=threads) if euler is None else euler,
         )
+
+
+def _each_once(one: NDArray[np.int32], other: NDArray[np.int32]) -> Places:
+    """Return the places of two lists, each once."""
+    found: Places = np.concatenate([one, other]).astype(np.int64)
+    return np.unique(found, axis=0) if len(found) else found
 
 
 def places_of(field: SparseField, bits: Bits) -> Places:

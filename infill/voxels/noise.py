@@ -39,7 +39,7 @@ def noise_share(solid: NDArray[Any], *, threads: int | None = None) -> float:
     """
     from infill.kernels.noise import count_overruled
 
-    starts = np.unique(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int))
+    starts = sorted(set(np.linspace(0, max(0, len(solid) - LAYERS), SLABS).astype(int).tolist()))
     count = min(thread_count(threads), len(starts))
 
     def look(thread: int) -> NDArray[np.int64]:
