@@ -473,10 +473,10 @@ def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_
     """Kernels multiply no matrices; whoever asks for SciPy's linear algebra afterwards finds it."""
     source, target = tmp_path / "box.npy", tmp_path / "box.stl"
     np.save(source, np.pad(np.ones((20, 20, 20), dtype=bool), 4))
-    words = ["infill", "smooth", str(source), "-o", str(target), "--smooth", "plain", "--tolerance", "0"]
+    words = ["infill", "smooth", str(source), "-o", str(target), "--force", "--smooth", "plain", "--tolerance", "0"]
     code = (
         f"import sys, contextlib; sys.argv = {words!r}\nimport infill.cli\n"
-        "with contextlib.suppress(SystemExit), contextlib.redirect_stdout(sys.stderr): infill.cli.main()"
+        "with contextlib.suppress(SystemExit), contextlib.redirect_stdout(sys.stderr): infill.cli.program()"
     )
     assert "scipy.linalg" not in modules_after(code)
     assert "scipy.linalg.cython_blas" in modules_after(f"{code}\nimport scipy.linalg.cython_blas")
@@ -484,8 +484,12 @@ def test_the_command_smooths_without_linear_algebra_and_leaves_it_to_others(tmp_
 
 def test_a_library_leaves_numba_as_it_is() -> None:
     """Somebody else's compiled functions may multiply matrices."""
-    code = "import infill.kernels.sparse, numba, numpy as np; numba.njit(lambda a: a @ a)(np.eye(2))"
-    assert "scipy.linalg.cython_blas" in modules_after(code)
+    product = "import infill.kernels.sparse, numba, numpy as np; numba.njit(lambda a: a @ a)(np.eye(2))"
+    called = (
+        "import sys, contextlib, infill.cli; sys.argv = ['infill', '--version']\nwith contextlib.suppress(SystemExit), "
+    )
+    for code in (product, f"{called}contextlib.redirect_stdout(sys.stderr): infill.cli.main()\n{product}"):
+        assert "scipy.linalg.cython_blas" in modules_after(code)
 
 
 def test_every_public_name_is_found() -> None:

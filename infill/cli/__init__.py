@@ -21,20 +21,21 @@ def program() -> None:
 
     What it has loaded is not taken apart, object by object, only to end: with a compiler, that takes 0.3 s.
     """
-    # The parser of options looks for plugins in every package that is installed; none has a say here.
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     codes = [1]  # what an error that nobody expects ends with
     atexit.register(lambda: _leave(codes[-1]))  # the first to be registered, so the last to be done
     try:
-        main()
+        main(alone=True)
         codes.append(0)
     except SystemExit as end:
         codes.append(end.code if isinstance(end.code, int) else int(end.code is not None))
         raise
 
 
-def main() -> None:
-    """Run the command line: exit 0 on success, 1 for our errors, 2 for usage errors, 130 when interrupted."""
+def main(*, alone: bool = False) -> None:
+    """Run the command line: exit 0 on success, 1 for our errors, 2 for usage errors, 130 when interrupted.
+
+    If it is `alone` in the process, what nobody else will ask for is not loaded.
+    """
     for name in ("SIGTERM", "SIGHUP"):
         with contextlib.suppress(AttributeError, ValueError):  # no such signal here, or not the main thread
             signal.signal(getattr(signal, name), _terminate)
@@ -42,7 +43,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):  # a name that the console cannot show is no reason to fail
             stream.reconfigure(errors="backslashreplace")
     try:
-        _run()
+        _run(alone=alone)
         sys.stdout.flush()
     except KeyboardInterrupt:
         _leave(INTERRUPTED)
@@ -66,14 +67,15 @@ def _leave(code: int) -> None:
     os._exit(code)
 
 
-def _run() -> None:
+def _run(*, alone: bool) -> None:
     import warnings
 
     from infill.cli.app import build
     from infill.cli.console import warn
     from infill.kernels.compiling import OURS
 
-    OURS.set()
+    if alone:
+        OURS.set()
     warnings.showwarning = warn
     try:
         build("".join(sys.argv[1:2]))()

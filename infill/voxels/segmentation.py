@@ -98,7 +98,7 @@ def threshold(
 
 def solid_cells(solid: NDArray[Any]) -> int:
     """Return how many cells are solid, by what `threshold` returns."""
-    if solid.dtype.itemsize == 1 and solid.flags.c_contiguous and solid.size > SLAB:
+    if solid.dtype in (bool, np.int8) and solid.flags.c_contiguous and solid.size > SLAB:
         from infill.kernels.transfer import count_solid
 
         cells = solid.view(np.int8).reshape(-1)
