@@ -12,7 +12,7 @@ ISSUE_FORMS = $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml)
 SOURCES = $(shell find infill patterns -name '*.py')
 
 ## make demo      the three designs of the paper as STL, with a picture of each (the default)
-## make test      the whole suite
+## make test      the suite without its longest cases, in 6 minutes
 ## make coverage  the whole suite, with the share of lines that it reaches
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
@@ -47,10 +47,11 @@ $(DEMO)/%.stl $(DEMO)/%.png: .venv/demo $(SOURCES)
 	@mkdir -p $(DEMO)
 	@$(BIN)/infill make $* -o $(DEMO)/$*.stl --preview $(DEMO)/$*.png --force
 
+# Without the longest cases (see tests/conftest.py).
 test: .venv/test
-	@$(BIN)/python -m pytest -q -n 2 -p no:cov
+	@$(BIN)/python -m pytest -q -n 2 -m "not long" -p no:cov
 
-# The same, counting the lines that it reaches: a third slower.
+# Everything, counting the lines that it reaches.
 coverage: .venv/test
 	@$(BIN)/python -m pytest -q -n 2 --cov --cov-report=term:skip-covered --cov-fail-under=97
 

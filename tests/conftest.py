@@ -20,8 +20,14 @@ settings.register_profile(
 settings.load_profile("suite")
 
 
-# What `make quick` leaves out, by the beginning of a test's name: tools/slow_tests.py chose it from the times of a run.
-SLOW = tuple((Path(__file__).parent / "slow.txt").read_text(encoding="utf-8").split())
+def _names(file: str) -> tuple[str, ...]:
+    return tuple((Path(__file__).parent / file).read_text(encoding="utf-8").splitlines())
+
+
+# What `make quick` leaves out, by the beginning of a test's name, and what `make test` leaves out, case by case:
+# tools/slow_tests.py chose both from the times of a run.
+SLOW = _names("slow.txt")
+LONG = frozenset(_names("long.txt"))
 
 ROOT = Path(__file__).resolve().parents[1]
 HOMES = (ROOT / "data", ROOT.parent / "shared" / "data")
@@ -41,6 +47,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
         if item.nodeid.startswith(SLOW):
             item.add_marker("slow")
+        if item.nodeid in LONG:
+            item.add_marker("long")
 
 
 def known_data() -> set[str]:

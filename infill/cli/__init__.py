@@ -11,9 +11,11 @@ import io
 import os
 import signal
 import sys
+import time
 from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
+READ = 0.3  # seconds in which a slicer reads what its script said: once that has ended, it stops reading
 
 
 def program() -> None:
@@ -22,7 +24,7 @@ def program() -> None:
     What it has loaded is not taken apart, object by object, only to end: with a compiler, that takes 0.3 s.
     """
     codes = [1]  # what an error that nobody expects ends with
-    atexit.register(lambda: _leave(codes[-1]))  # the first to be registered, so the last to be done
+    atexit.register(lambda: _end(codes[-1]))  # the first to be registered, so the last to be done
     try:
         main(alone=True)
         codes.append(0)
@@ -57,6 +59,15 @@ def main(*, alone: bool = False) -> None:
         # Whatever is still buffered for stdout would fail again when Python exits.
         sys.stdout = None
         sys.exit(1)
+
+
+def _end(code: int) -> None:
+    """Exit; after an error told to a slicer of PrusaSlicer's family, not before it was read."""
+    if code and "SLIC3R_PP_OUTPUT_NAME" in os.environ:
+        with contextlib.suppress(OSError, ValueError, AttributeError):
+            sys.stderr.flush()
+        time.sleep(READ)
+    _leave(code)
 
 
 def _leave(code: int) -> None:
