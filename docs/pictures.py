@@ -8,9 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+import trimesh
 from PIL import Image
 
-from infill import make, refill, smooth_volume
+from infill import fill, make, refill, smooth_volume
 from infill.inspection.layer_speeds import layer_speeds
 from infill.pictures.render import render
 from infill.pictures.speeds import write_speeds
@@ -19,11 +20,11 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path(__file__).parent / "pictures"
 sys.path.insert(0, str(ROOT))
 
-from tests import prints, slicers  # noqa: E402 - the folder beside this one
+from tests import made_shapes, prints, slicers  # noqa: E402 - the folder beside this one
 
 
 def main() -> None:
-    """Write the four stages of a design, the mesh of each, both stamps, a solid and two prints before and after."""
+    """Write the four stages of a design, the mesh of each, both stamps, two solids and two prints before and after."""
     FOLDER.mkdir(exist_ok=True)
     make("honeycomb").save(FOLDER / "honeycomb.png")
     for name in ("honeycomb", "zigzag", "concentric-heart"):
@@ -36,6 +37,7 @@ def main() -> None:
         both.paste(Image.fromarray(render(block.surface, width=480, height=400)), (left, 0))
     both.save(FOLDER / "stamps.png", optimize=True)
     smooth_volume(gyroid(), spacing=0.5).save(FOLDER / "smooth.png")
+    fill(bracket(), density=0.2).save(FOLDER / "fill.png")
     if not slicers.missing_prusa():
         save_refill(prints.prusa_print, {"fill_pattern": "honeycomb"}, FOLDER / "refill.png")
     if not slicers.missing_cura():
@@ -55,6 +57,13 @@ def save_refill(slice_it: Callable[..., Path], settings: dict[str, object], path
             write_speeds(both, file)
     with Image.open(path) as picture:
         picture.quantize(64).save(path, optimize=True)
+
+
+def bracket() -> trimesh.Trimesh:
+    """Return an angle with two holes, 60 mm long."""
+    box, rod = made_shapes.box, made_shapes.rod
+    angle = made_shapes.union(box(60, 40, 12, (0, 0, 6)), box(16, 40, 40, (-22, 0, 20)))
+    return made_shapes.less(angle, *(rod(4, 40, (16, y, 6)) for y in (-10, 10)))
 
 
 def gyroid() -> np.ndarray:

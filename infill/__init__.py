@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         UsageError,
     )
     from infill.filling.refilling import RefillResult, refill
+    from infill.filling.solids.filled import fill
     from infill.formats.label_tables import Segment, read_labels
     from infill.formats.mesh_files import read_mesh, save
     from infill.formats.point_files import read_points
@@ -58,6 +59,7 @@ _HOMES = {
         "UsageError",
     ),
     "filling.refilling": ("RefillResult", "refill"),
+    "filling.solids.filled": ("fill",),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
@@ -101,6 +103,7 @@ __all__ = [
     "WallWidth",
     "check",
     "extrude",
+    "fill",
     "isosurface",
     "make",
     "motion",

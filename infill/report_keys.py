@@ -460,3 +460,105 @@ class ComponentsReport(TypedDict):
     failed: list[FailedComponent]
     sheets: int
     seconds: ComponentSeconds
+
+
+class FillMesh(TypedDict):
+    """The mesh that is handed over."""
+
+    vertices: int
+    manifold: str
+    skin: str
+    tolerance: float | None
+
+
+class FillSizes(TypedDict):
+    """Of the infill, mm."""
+
+    cell: float
+    line_width: float
+    radius: float
+
+
+class FillPart(TypedDict):
+    """The part that was filled."""
+
+    triangles: int
+    volume: float
+    inside: float
+    components: int
+    turned: int
+    holes: int
+
+
+class FillVoids(TypedDict):
+    """What was taken out of it."""
+
+    count: int
+    volume: float
+    triangles: int
+    specks: int
+    islands: int
+
+
+class FillWalls(TypedDict):
+    """The shell, mm."""
+
+    requested: float
+    least: float
+    at: Vector
+
+
+class FillRequest(TypedDict):
+    """What was asked for."""
+
+    pattern: str
+    parameters: dict[str, Any]
+    density: float | None
+    cell: float | None
+    line_width: float | None
+    wall: float
+    angle: float
+    phase: Vector
+    align: str
+    form: str
+    overlap: float
+    smooth_radius: float | None
+    tolerance: float
+    voxel: float | None
+    max_triangles: int | None
+
+
+class FillSeconds(TypedDict):
+    """How long it took."""
+
+    density: float
+    depth: float
+    voids: float
+    simplify: float
+    check: float
+    total: float
+
+
+class FillReport(TypedDict):
+    """The report of `infill.fill`."""
+
+    form: int
+    version: str
+    product: str
+    files: NotRequired[list[str]]
+    triangles: int
+    closed: bool
+    area: float
+    extents: Vector
+    bounds: list[Vector]
+    volume: float
+    density: float
+    problems: list[str]
+    request: FillRequest
+    grid: GridKeys
+    mesh: FillMesh
+    infill: FillSizes
+    part: FillPart
+    voids: FillVoids
+    walls: FillWalls
+    seconds: FillSeconds

@@ -162,7 +162,7 @@ def told_between(progress: Progress | None, begin: float, end: float) -> Progres
 
 
 class Clock:
-    """Seconds per stage."""
+    """Seconds per stage; those of a stage that is passed again add up."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.seconds: dict[str, float] = {}
@@ -174,7 +174,7 @@ class Clock:
         self.tell(name, share)
         begin = time.perf_counter()
         yield
-        self.seconds[name] = time.perf_counter() - begin
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - begin
 
     def tell(self, name: str, share: float) -> None:
         """Report to any listener how much of the whole is done."""

@@ -43,7 +43,7 @@ KEPT = {
     "rich": "infill.cli",
 }
 PATTERNS_TAKE = {"numpy", "shapely"}
-ANNOUNCED = {"fill"}  # public functions that are to come
+ANNOUNCED: set[str] = set()  # public functions that are to come
 # Of os, of named tuples and of notebooks: documented, so public.
 UNDERSCORED = {"_exit", "_replace", "_asdict", "_fields", "_make", "_repr_png_"}
 HEAVY = {"trimesh", "skimage", "scipy", "manifold3d", "numba", "PIL", "shapely", "numpy", "rich.progress"}

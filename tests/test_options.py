@@ -32,6 +32,8 @@ WORKING = {
     "smooth mesh": "box.stl -o a.stl",
     "smooth points": "cloud.xyz --voxel 1 -o a.stl",
     "smooth labels": "grey.npy -o a.stl",
+    "fill": "box.stl -o a.stl",
+    "fill honeycomb": "box.stl -o a.stl --pattern honeycomb",
     "refill": "print.gcode -o a.gcode",
     "refill gyroid": "print.gcode -o a.gcode --pattern gyroid",
     "motion": "print.gcode",
@@ -78,6 +80,22 @@ OUT_OF_RANGE = {
     "smooth labels": {"--range": "5,1 3000,4000 nan,5", "--label": "99", "--frame": "7"},
     "smooth mesh": {"--resolution": "0 -1"},
     "smooth points": {"--shell": "-1 0 nan"},
+    "fill": {
+        "--density": "-5% 0.5% 95% nan%",
+        "--cell": "-1 0 nan",
+        "--line-width": "-1 0 nan",
+        "--wall": "-1 0 nan 9",
+        "--angle": "1000 nan",
+        "--phase": "1e9_0_0 nan_0_0",
+        "--smooth-radius": "-1 nan",
+        "--overlap": "-1 9 nan",
+        "--tolerance": "-1 nan",
+        "--max-triangles": "0 -5 100",
+        "--voxel": "-1 0 nan 100",
+        "--threads": "0 -1",
+        "--max-memory": "-1G 0 nan",
+    },
+    "fill honeycomb": {"--set": "waves=3 cell=3"},
     "refill": {"--smooth-radius": "-1 nan", "--max-deviation": "-1 nan", "--layers": "9-2 0-3"},
     "refill gyroid": {"--density": "-5% 150% nan%", "--set": "cell=-1 angle=nan"},
     "motion": {
@@ -110,6 +128,7 @@ UNREAD = {
         "--label": "1.5",
     },
     "smooth labels": {"--range": "5 1,2,3"},
+    "fill": {"--align": "foo", "--as": "foo", "--units": "yard", "--max-triangles": "2.5"},
     "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5"},
     "motion": {"--model": "foo"},
 }
@@ -231,6 +250,8 @@ def test_an_unknown_option_is_wrong_usage(command: str) -> None:
         "smooth cloud.xyz --voxel 1 --resolution 9 -o a.stl",
         "smooth grey.npy --refine --fidelity 1 -o a.stl",
         "smooth grey.npy --labels a.txt -o a.stl",
+        "fill box.stl",
+        "fill box.stl --density 20% --cell 5 --line-width 0.4 -o a.stl",
         "refill print.gcode --preview a.png --dry-run",
         "refill print.gcode --pattern gyroid --set cell=5 --density 20% -o a.gcode",
         "refill print.gcode --density 20% -o a.gcode",
@@ -299,6 +320,7 @@ def test_python_callers_read_the_names_of_their_arguments(folder: Path) -> None:
 def test_the_choices_are_those_of_the_library() -> None:
     from typing import get_args
 
+    from infill.filling.solids.request import Align, Form
     from infill.formats.units import UNITS
     from infill.making.request import DEFAULT_CELLS
 
@@ -306,15 +328,19 @@ def test_the_choices_are_those_of_the_library() -> None:
     assert told["smooth", "--smooth"].split("|") == [*METHODS]
     assert told["smooth", "--as"].split("|") == [*KINDS]
     assert told["smooth", "--units"].split("|") == [*UNITS]
+    assert told["fill", "--as"].split("|") == [*get_args(Form)]
+    assert told["fill", "--align"].split("|") == [*get_args(Align)]
     assert told["make", "--stamp"].split("|") == [*DEFAULT_CELLS]
     assert set(told["motion", "--model"].split("|")) == {*MODELS}
-    from infill.cli import making, smoothing, timing
+    from infill.cli import filling, making, smoothing, timing
 
     for module, function, argument, wanted in (
         (making, "make", "stamp", DEFAULT_CELLS),
         (smoothing, "smooth", "method", METHODS),
         (smoothing, "smooth", "kind", KINDS),
         (smoothing, "smooth", "units", UNITS),
+        (filling, "fill", "kind", get_args(Form)),
+        (filling, "fill", "align", get_args(Align)),
         (timing, "motion", "model", MODELS),
     ):
         from typing import get_type_hints

@@ -24,7 +24,7 @@ from infill.filling.families.protocol import TOUCH, Family
 from infill.filling.families.turned import Turned
 from infill.filling.outlines import outline_of
 from infill.filling.placement import family_of, unplaced
-from infill.filling.settings import ENDLESS, parse_radius, parse_range, parse_share, resolve
+from infill.filling.settings import ENDLESS, parse_radius, parse_range, parse_share_or_same, resolve
 from patterns import PatternError
 from patterns.declared import parameters, wanted
 from patterns.given import assigned
@@ -246,7 +246,7 @@ def test_a_mistake_in_the_file_is_one_line(text: str, tmp_path: Path) -> None:
 @example("nan")
 @example(" ٣ - ٤ ")
 def test_whatever_is_given_is_read_or_refused_in_one_line(value: object) -> None:
-    for name, read in (("layers", parse_range), ("density", parse_share), ("smooth_radius", parse_radius)):
+    for name, read in (("layers", parse_range), ("density", parse_share_or_same), ("smooth_radius", parse_radius)):
         try:
             found = read(name, value)
         except ParameterError as error:

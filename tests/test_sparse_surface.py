@@ -77,6 +77,14 @@ def test_it_is_the_surface_of_the_whole_field(
     assert one.volume > 0
 
 
+def test_thousands_of_saddles_leave_no_gap(rng: np.random.Generator) -> None:
+    """Noise, in which a cube in ten has a saddle: each is decided as exactly as the first."""
+    field = smooth_bricks(rng.normal(0, 0.3, (60, 60, 60)).clip(-1, 1).astype(np.float32), Smoothing(steps=0))
+    surface = extract_bricks(field, spacing=UNIT)
+    assert surface.closed
+    assert np.linalg.norm(np.diff(surface.vertices[surface.faces[:, :2]], axis=1), axis=2).max() < 3**0.5 + 1e-6
+
+
 @pytest.mark.parametrize("shape", [(6, 6, 14), (7, 7, 15), (8, 8, 16), (14, 30, 31), (15, 31, 47), (16, 32, 48)])
 def test_solid_up_to_the_edge_is_closed_there(shape: tuple[int, int, int]) -> None:
     """Grids that end one cell before, at and behind the end of a brick."""

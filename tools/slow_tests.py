@@ -2,7 +2,8 @@
 
     python -m pytest -q -n 2 -p no:cov --durations=0 --durations-min=0.003 > LOG
 
-`make quick` leaves out the tests that took longest, all their parameters added up, until what is left fits: tests/slow.txt.
+`make quick` leaves out the tests that took longest, all their parameters added up, until what is left fits:
+tests/slow.txt.
 `make test` leaves out the longest cases, but of every test with parameters the shortest one stays: tests/long.txt.
 `make coverage` leaves out nothing.
 """
@@ -31,6 +32,7 @@ def timed(log: str) -> Counter[str]:
 
 
 def without_parameters(name: str) -> str:
+    """Return the name of a test without those of its cases."""
     return "::".join(part.split("[")[0] for part in name.split("::"))
 
 

@@ -12,6 +12,7 @@ import typer
 
 from infill.cli.checking import check
 from infill.cli.commands import Command, Group
+from infill.cli.filling import fill
 from infill.cli.listing import list_patterns
 from infill.cli.making import make
 from infill.cli.refilling import refill
@@ -23,6 +24,7 @@ from infill.version import __version__
 COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
     "make": (make, "infill make zigzag --size 60x40 --cell 5 -o zigzag.3mf"),
     "smooth": (smooth, "infill smooth scan.nrrd --threshold 226 -o bone.stl"),
+    "fill": (fill, "infill fill part.stl --density 20% -o filled.stl"),
     "refill": (refill, "infill refill print.gcode -o smooth.gcode"),
     "list": (list_patterns, "infill list honeycomb --preview honeycomb.png"),
     "check": (check, "infill check part.stl smooth.stl --json"),

@@ -34,6 +34,22 @@ def pattern_names(incomplete: str) -> list[tuple[str, str]]:
     return [(name, kind.summary) for name, kind in PATTERNS.items() if name.startswith(incomplete)]
 
 
+def fill_names(incomplete: str) -> list[tuple[str, str]]:
+    """Return the patterns that a part can be filled with, each with its summary."""
+    from patterns.cellular import CELLULAR
+
+    in_space = [(name, each.summary) for name, each in CELLULAR.items() if name.startswith(incomplete)]
+    return [*in_space, *pattern_names(incomplete)]
+
+
+def fill_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
+    """Return ``name=`` for the parameters of the pattern that a part is filled with."""
+    from patterns import PATTERNS, parameters
+
+    pattern = str(context.params.get("pattern"))
+    return _assignments(parameters(PATTERNS[pattern]), incomplete) if pattern in PATTERNS else []
+
+
 def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
     """Return ``name=`` for the parameters of the pattern typed, then ``name=value`` for a flag among them."""
     from patterns import PATTERNS, parameters

@@ -18,9 +18,9 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from infill.errors import ParameterError, UsageError
+from infill.errors import UsageError
 from infill.filling.request import AUTO, KEEP, SAME
-from infill.formats.options import parse_number, parse_word
+from infill.formats.options import parse_number, parse_share, parse_word
 
 ENDLESS = 10**9  # layers
 
@@ -80,24 +80,13 @@ def parse_radius(name: str, value: object) -> str | float:
         raise UsageError(f"{name} is {value!r}; give auto, or a number in mm") from None
 
 
-def parse_share(name: str, value: object) -> str | float:
+def parse_share_or_same(name: str, value: object) -> str | float:
     """Return "same", or the share in ``20%`` or 0.2, or raise ParameterError.
 
-    >>> parse_share("density", "20%"), parse_share("density", "same")
+    >>> parse_share_or_same("density", "20%"), parse_share_or_same("density", "same")
     (0.2, 'same')
     """
-    if value == SAME:
-        return SAME
-    if isinstance(value, str):
-        found = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
-        if not found:
-            raise UsageError(f"{name} is {value!r}; give same, or a share such as 20%")
-        share = float(found[1]) / (100 if found[2] else 1)
-    else:
-        share = parse_number(name, value)
-    if not 0 < share <= 1:
-        raise ParameterError(f"{name} is {value!r}; give same, or a share such as 20%, up to 100%")
-    return share
+    return SAME if value == SAME else parse_share(name, value, "give same, or a share such as 20%")
 
 
 def parse_range(name: str, value: object) -> tuple[int, int]:
@@ -119,7 +108,7 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
 
 READERS: Mapping[str, Callable[[str, object], Any]] = {
     "pattern": parse_word,
-    "density": parse_share,
+    "density": parse_share_or_same,
     "smooth_radius": parse_radius,
     "max_deviation": parse_number,
     "layers": parse_range,

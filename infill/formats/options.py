@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
@@ -17,6 +18,24 @@ def parse_word(name: str, value: object) -> str:
     if not isinstance(value, str) or not value.strip():
         raise UsageError(f"{name} is {value!r}; it must be a word")
     return value
+
+
+def parse_share(name: str, value: object, advice: str = "give a share such as 20%") -> float:
+    """Return the share in ``20%`` or 0.2, up to 1; raise UsageError, or ParameterError if it is out of range.
+
+    >>> parse_share("density", "20%"), parse_share("density", 0.2)
+    (0.2, 0.2)
+    """
+    if isinstance(value, str):
+        found = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
+        if not found:
+            raise UsageError(f"{name} is {value!r}; {advice}")
+        share = float(found[1]) / (100 if found[2] else 1)
+    else:
+        share = parse_number(name, value)
+    if not 0 < share <= 1:
+        raise ParameterError(f"{name} is {value!r}; {advice}, up to 100%")
+    return share
 
 
 def parse_flag(name: str, value: object) -> bool:

@@ -14,6 +14,7 @@ from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
 from infill.formats.units import STATED, guess_unit
 from infill.surface import Edges, Surface
+from infill.surfaces import solids
 from infill.surfaces.intersections import self_intersections
 from infill.surfaces.merging import closed_or_merged, merged, surface_of
 from infill.surfaces.shells import vertex_components
@@ -106,7 +107,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     open_edges = int((Edges.of(surface.faces).faces != 2).sum())
     names, components = vertex_components(surface.faces, len(surface.vertices))
     outward = _outward(surface, names[surface.faces[:, 0]])
-    status = _manifold_status(surface)
+    status = solids.status(surface, single=True)
     degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
     extents = bounds[1] - bounds[0]
@@ -171,12 +172,3 @@ def _winding_number(point: NDArray[np.floating], corners: NDArray[np.floating]) 
     above = np.einsum("ij,ij->i", a, np.cross(b, c))
     dots = (np.einsum("ij,ij->i", p, q) * r for p, q, r in ((a, b, lc), (b, c, la), (c, a, lb)))
     return float(np.arctan2(above, la * lb * lc + sum(dots)).sum() / (2 * np.pi))
-
-
-def _manifold_status(surface: Surface) -> str:
-    import manifold3d
-
-    mesh = manifold3d.Mesh(
-        vert_properties=surface.vertices.astype(np.float32), tri_verts=surface.faces.astype(np.uint32)
-    )
-    return str(manifold3d.Manifold(mesh).status().name)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.surface import Surface
+
 Integers = NDArray[np.integer]
 Names = NDArray[np.int32]
 
@@ -36,6 +38,13 @@ def vertex_components(faces: Integers, vertices: int, *, compiled: bool = False)
     number[names[used]] = 1
     number = np.cumsum(number, dtype=np.int32)
     return np.where(used, number[names] - 1, np.int32(-1)), int(number[-1]) if count else 0
+
+
+def first_of_shells(surface: Surface) -> NDArray[np.int64]:
+    """Return the first vertex of every component, (N,), in their order."""
+    names, _ = vertex_components(surface.faces, len(surface.vertices), compiled=True)
+    found, first = np.unique(names, return_index=True)
+    return first[found >= 0]
 
 
 def _by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:

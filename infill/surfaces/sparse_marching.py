@@ -27,6 +27,7 @@ from infill.surfaces.marching import CLEARANCE, TIE
 # Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
 EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]
 CORNERS = 8
+IN_A_ROW = 500  # cubes
 LARGE = 2000  # bricks: fewer than this make a surface in a few milliseconds
 
 
@@ -346,7 +347,24 @@ def _undecided(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Return vertices inside cubes, and the triangles of cubes that signs do not decide, by scikit-image.
 
-    The cubes are lined up in a row, apart from each other, their axes permuted as in `infill.surface.extract`.
+    Some at a time: it has places in single precision, in which a vertex far along a row is on no edge any more.
+    """
+    points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int32)]
+    for low in range(0, len(corners), IN_A_ROW):
+        some = slice(low, low + IN_A_ROW)
+        inner, found = _undecided_row(corners[some], edges[some], lowest[some], count)
+        points.append(inner)
+        faces.append(found)
+        count += len(inner)
+    return np.concatenate(points), np.concatenate(faces)
+
+
+def _undecided_row(
+    corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return the same for a few cubes.
+
+    They are lined up in a row, apart from each other, their axes permuted as in `infill.surface.extract`.
     """
     from skimage.measure import marching_cubes
 

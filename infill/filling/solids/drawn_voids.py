@@ -1,0 +1,164 @@
+"""The voids between lines that are the same at every height: polygons, those of one field far from one another."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from infill.filling.solids.roots import root
+from infill.filling.solids.space import BAND, Space
+from infill.filling.solids.voids import FIELD
+from infill.kernels.threads import in_threads, thread_count
+from patterns.protocol import Pattern, lines_of
+
+APART = 3.0  # cells of the grid: voids that are nearer get fields of their own
+THINNER, WIDER_LINES = 0.8, 1.5  # lines for which the same fields will do, over those they were made for
+SAMPLE = 12.0  # cells of the pattern along a side of what is measured to tell how width and density go together
+NEAR, TRIES = 0.01, 12  # of the density of that: when it is near enough
+ROUND = 16  # segments in a quarter of a circle
+# Half a diagonal of what is filled, in which lines are drawn: hearts that are the largest to fit into that reach
+# beyond the part.
+WIDER = 1.7
+
+
+@dataclass(frozen=True, kw_only=True)
+class Drawn:
+    """The voids between the lines of a pattern.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Its cell does not matter.
+    anchor : (3,) float64
+        The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
+    threads : int, optional
+    """
+
+    pattern: Pattern
+    anchor: NDArray[np.float64]
+    threads: int | None = None
+    known: dict[tuple[Any, ...], _Faces] = field(default_factory=dict)
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:
+        """As many as colours are needed so that neighbours differ."""
+        return len(self._faces(space, cell, width).colours)
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """See `Voids`."""
+        from infill.kernels.cells import from_plane
+
+        plane = self._faces(space, cell, width).colours[which] - np.float32(width / 2 / space.size)
+        return float(sum(in_threads(from_plane, space.depth, plane, out, threads=thread_count(self.threads))))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`."""
+        side = SAMPLE / 2
+        region = shapely.box(-side, -side, side, side)
+        lines = self._lines(_square(WIDER * side * 2**0.5), 1.0)
+        lines = shapely.intersection(lines, region)
+
+        def off(times: float) -> float:
+            walls = shapely.buffer(lines, times * density / 4, quad_segs=1)
+            return math.log(shapely.intersection(walls, region).area / (density * region.area))
+
+        # Lines a cell apart in one direction would be as wide as the density; most run in two.
+        return density / 2 * root(off, NEAR, TRIES)
+
+    def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
+        changed: dict[str, Any] = {"cell": cell} if hasattr(self.pattern, "cell") else {}
+        if hasattr(self.pattern, "frame"):
+            changed["frame"] = False
+        return lines_of(dataclasses.replace(self.pattern, **changed), region)  # type: ignore[type-var]
+
+    def _faces(self, space: Space, cell: float, width: float) -> _Faces:
+        """Return what lies between the lines, whatever their width."""
+        reach, key = width / 2 / space.size + 2 * BAND, (id(space), cell)
+        if key not in self.known or not self.known[key].fits(reach, width):
+            self.known.clear()
+            self.known[key] = self._found(space, cell, width, WIDER_LINES * reach)
+        return self.known[key]
+
+    def _found(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
+        used = (space.depth > -BAND).any(axis=2)
+        first, last = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(used))
+        low = space.origin[:2] + np.array([first[0], last[0]]) * space.size - self.anchor[:2]
+        high = space.origin[:2] + np.array([first[1], last[1]]) * space.size - self.anchor[:2]
+        box = shapely.box(*low, *high)
+        region = box.buffer(cell, join_style="mitre")
+        lines = self._lines(_square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0)))), cell)
+        lines = shapely.intersection(lines, region)
+        polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
+        polygons = polygons[shapely.intersects(polygons, box)]
+        nx, ny, _ = space.depth.shape
+        x, y = (space.origin[i] + space.size * np.arange(n) - self.anchor[i] for i, n in enumerate((nx, ny)))
+        start = space.origin[:2] - self.anchor[:2]
+        away = _away(shapely.get_parts(lines), start, space.size, reach, (nx, ny))
+        planes = []
+        for colour in _coloured(polygons, max(0.0, APART * space.size - width)):
+            several = shapely.union_all(polygons[colour])
+            shapely.prepare(several)
+            inside = shapely.contains_xy(several, x[:, None], y[None, :])
+            beside = _away(shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny))
+            planes.append(np.where(inside, away, -beside))
+        return _Faces(colours=planes, reach=reach, width=width)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Faces:
+    """What lies between lines, in colours: how deep the points of a layer lie in it, in cells of the grid.
+
+    Parameters
+    ----------
+    colours : list of (nx, ny) float32
+    reach : float
+        Cells; depths are cut off here.
+    width : float
+        Of the lines for which it was made, mm: between lines that are thinner, fields might touch.
+    """
+
+    colours: list[NDArray[np.float32]]
+    reach: float
+    width: float
+
+    def fits(self, reach: float, width: float) -> bool:
+        """Return whether they are as they would be for lines of this width."""
+        return reach <= self.reach and width >= THINNER * self.width
+
+
+def _square(half: float) -> shapely.Polygon:
+    return shapely.box(-half, -half, half, half)
+
+
+def _away(
+    lines: NDArray[np.object_], start: NDArray[np.float64], size: float, reach: float, shape: tuple[int, int]
+) -> NDArray[np.float32]:
+    """Return how far the points of a layer lie from lines, in cells, cut off at `reach`."""
+    from infill.kernels.cells import lower_to_segments
+
+    points, line = shapely.get_coordinates(lines, return_index=True)
+    points = (points - start) / size
+    joined = np.flatnonzero(line[1:] == line[:-1])
+    squared = np.full(shape, np.float32(reach**2))
+    lower_to_segments(np.stack([points[joined], points[joined + 1]], axis=1), reach, squared)
+    return np.sqrt(squared)
+
+
+def _coloured(polygons: NDArray[np.object_], apart: float) -> list[NDArray[np.intp]]:
+    """Return the numbers of the polygons of each colour: those of one colour are further apart than this, mm."""
+    tree = shapely.STRtree(polygons)
+    one, other = tree.query(polygons, predicate="dwithin", distance=apart)
+    beside: list[list[int]] = [[] for _ in polygons]
+    for a, b in zip(one.tolist(), other.tolist(), strict=True):
+        if a != b:
+            beside[a].append(b)
+    colours = np.full(len(polygons), -1)
+    for number in sorted(range(len(polygons)), key=lambda k: -len(beside[k])):
+        taken = {int(colours[each]) for each in beside[number]}
+        colours[number] = next(colour for colour in range(len(polygons)) if colour not in taken)
+    return [np.flatnonzero(colours == colour) for colour in range(int(colours.max(initial=-1)) + 1)]

@@ -1,0 +1,243 @@
+"""`fill`: a part and its infill as one solid.
+
+    depth below the wall, distance into the void  ->  the lesser  ->  smoothing  ->  surfaces, taken out of the part
+
+The skin of the part is not computed: the triangles of the result are the part's own, and those of the voids, which lie
+inside of it and apart from one another.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from infill.filling.solids.hollowing import INTERFACE, SHARE, Hollow, hollowed
+from infill.filling.solids.request import (
+    OVERLAP,
+    TOLERANCE,
+    WALL,
+    Request,
+    checked,
+    voids_of,
+)
+from infill.filling.solids.space import Space
+from infill.filling.solids.stages import FillStages
+from infill.filling.solids.telling import least_wall, outside, problems
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.refining import on_profile
+from infill.phasefield.sparse import smooth_bricks
+from infill.result import Clock, Progress, Result
+from infill.surface import Surface
+from infill.surfaces.merging import surface_of
+from infill.surfaces.parting import joined
+from infill.surfaces.solids import shortened, status
+from infill.surfaces.sparse_marching import extract_bricks
+from infill.version import __version__
+
+if TYPE_CHECKING:
+    import trimesh
+
+    from infill.report_keys import FillReport
+
+FORM = 1
+
+
+def fill(
+    part: Surface | trimesh.Trimesh,
+    pattern: str = "gyroid",
+    *,
+    density: float | None = None,
+    cell: float | None = None,
+    line_width: float | None = None,
+    wall: float = WALL,
+    as_: str = "solid",
+    align: str = "part",
+    angle: float = 0.0,
+    phase: tuple[float, ...] = (0.0, 0.0, 0.0),
+    smooth_radius: float | None = None,
+    overlap: float = OVERLAP,
+    tolerance: float = TOLERANCE,
+    max_triangles: int | None = None,
+    voxel: float | None = None,
+    threads: int | None = None,
+    max_memory: int | None = None,
+    progress: Progress | None = None,
+    **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
+) -> Result[FillStages, FillReport]:
+    """Return a part that is hollow but for infill: one closed mesh, with the skin of the part as it is.
+
+    Parameters
+    ----------
+    part : Surface or trimesh.Trimesh, mm
+        Closed; holes in it are closed first, and that is told.
+    pattern : str
+        A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
+        the same at every height.
+    density : float, optional
+        Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
+        and a line width of 0.45 mm if nothing is given, or for bars, 0.2 and a cell of 8 mm.
+    cell : float, optional
+        Period of the pattern, mm.
+    line_width : float, optional
+        Width of walls inside, or diameter of bars, mm.
+    wall : float
+        Thickness of the shell, mm.
+    as_ : {"solid", "infill"}
+        Shell and infill as one, or the infill alone, which reaches `overlap` into the shell.
+    align : {"part", "bed"}
+        Where the pattern begins: in the middle of the part, or at x = y = 0 on the bottom of the part.
+    angle : float
+        Turns the pattern counter-clockwise about z, degrees.
+    phase : (x, y) or (x, y, z)
+        Shifts the pattern, mm.
+    smooth_radius : float, optional
+        Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for none.
+    overlap : float
+        mm
+    tolerance : float
+        How far simplifying may move the surfaces of voids, mm; 0 keeps every triangle.
+    max_triangles : int, optional
+        The voids are simplified until there are no more of them, the part's own included.
+    voxel : float, optional
+        Cell of the grid on which voids are computed, mm.
+    threads, max_memory, progress
+        As in `infill.smooth_mesh`.
+    **parameters
+        Further parameters of the pattern.
+
+    Returns
+    -------
+    Result
+        With the surface "solid", or "infill".
+
+    Raises
+    ------
+    ParameterError, patterns.PatternError
+        If a number is out of range, or there is no such pattern.
+    GeometryError
+        If the part encloses nothing, has no room inside its walls, or cannot be filled to this density.
+    MemoryLimitError
+        If memory will not suffice; raised before anything is computed.
+
+    Notes
+    -----
+    The field of a void is min(distance into the void, depth below the skin - wall), smoothed by the equation of Wang et
+    al. 2020, whose motion by curvature makes the fillets; the density is that of the finished mesh.
+
+    >>> import trimesh
+    >>> box = trimesh.creation.box((20, 20, 20))
+    >>> result = fill(box, "gyroid", density=0.3, wall=1, voxel=0.5)
+    >>> result.surface.closed, abs(result.report["density"] - 0.3) < 0.005
+    (True, True)
+    """
+    request = checked(
+        pattern=pattern,
+        own=parameters,
+        density=density,
+        cell=cell,
+        line_width=line_width,
+        wall=wall,
+        overlap=overlap,
+        angle=angle,
+        phase=phase,
+        align=align,
+        form=as_,
+        smooth_radius=smooth_radius,
+        tolerance=tolerance,
+        voxel=voxel,
+        max_triangles=max_triangles,
+    )
+    return filled(surface_of(part), request, threads=threads, max_memory=max_memory, progress=progress)
+
+
+def filled(
+    given: Surface,
+    request: Request,
+    *,
+    threads: int | None = None,
+    max_memory: int | None = None,
+    progress: Progress | None = None,
+) -> Result[FillStages, FillReport]:
+    """Return a part that is filled as a request says: see `fill`."""
+    clock = Clock(progress)
+    voids = voids_of(request, given.bounds, threads)
+    hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+    with clock.stage("check", 0.9):
+        result, report = _result(given, hollow, request, threads)
+    report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
+    stages = FillStages(part=hollow.space.part, voids=hollow.surface)
+    return Result(surfaces={request.form: result}, report=report, stages=stages)  # type: ignore[arg-type]
+
+
+def _result(given: Surface, hollow: Hollow, request: Request, threads: int | None) -> tuple[Surface, dict[str, Any]]:
+    """Return the surface that was asked for, and the report."""
+    space, voids, share = hollow.space, hollow.surface, hollow.density
+    outer = space.part if request.form == "solid" else _inside(space, request, threads)
+    solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
+    least, at = least_wall(space.part, voids, threads)
+    verdict = status(solid)
+    astray = outside(space.part, hollow.surfaces, threads)
+    told = list(problems(request, hollow, least, at, astray, verdict))
+    bounds = solid.bounds
+    report = {
+        "form": FORM,
+        "version": __version__,
+        "product": "fill",
+        "triangles": len(solid.faces),
+        "closed": solid.closed,
+        "area": solid.area,
+        "extents": (bounds[1] - bounds[0]).tolist(),
+        "bounds": bounds.tolist(),
+        "volume": solid.volume,
+        "density": share,
+        "problems": told,
+        "request": request.facts(),
+        "grid": {
+            "shape": list(space.depth.shape),
+            "spacing": [space.size] * 3,
+            "origin": (space.origin - space.size / 2).tolist(),
+            "space": "",
+        },
+        "mesh": {
+            "vertices": len(solid.vertices),
+            "manifold": verdict,
+            "skin": space.skin,
+            "tolerance": hollow.tolerance if math.isfinite(hollow.tolerance) else None,
+        },
+        "infill": {"cell": hollow.cell, "line_width": hollow.width, "radius": request.radius(space.thickness)},
+        "part": {
+            "triangles": len(given.faces),
+            "volume": space.repairs.volume,
+            "inside": space.volume,
+            "components": space.repairs.components,
+            "turned": space.repairs.turned,
+            "holes": space.repairs.holes,
+        },
+        "voids": {
+            "count": hollow.count,
+            "volume": hollow.volume,
+            "triangles": len(voids.faces),
+            "specks": hollow.specks,
+            "islands": hollow.islands,
+        },
+        "walls": {"requested": request.wall, "least": least, "at": at},
+    }
+    return solid, report
+
+
+def _inside(space: Space, request: Request, threads: int | None) -> Surface:
+    """Return the surface of what lies inside the walls, and reaches into them."""
+    field = smooth_bricks(
+        on_profile(space.depth + np.float32(request.overlap / space.size), INTERFACE),
+        Smoothing(steps=0),
+        spacing=(space.size,) * 3,
+        threads=threads,
+    )
+    origin = tuple((space.origin - space.size / 2).tolist())
+    surface = extract_bricks(field, spacing=(space.size,) * 3, origin=origin, threads=threads)
+    if request.tolerance > 0:
+        surface = shortened(surface, min(SHARE * request.tolerance, request.overlap / 2))
+    return surface

@@ -1,0 +1,307 @@
+"""The voids of a part as closed surfaces: as dense as asked, smoothed, and none that is of no use."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.filling.solids.request import RIGHT_ANGLE, Request, Size, coarsest_for, sizes_for, voxel_for
+from infill.filling.solids.roots import root
+from infill.filling.solids.space import Space, space_inside
+from infill.filling.solids.voids import Voids
+from infill.machine import require_memory
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.refining import on_profile
+from infill.phasefield.sparse import smooth_bricks
+from infill.result import Clock
+from infill.surface import Surface
+from infill.surfaces.components import shell_names
+from infill.surfaces.parting import joined
+from infill.surfaces.shells import first_of_shells
+from infill.surfaces.simplification import simplified
+from infill.surfaces.solids import shortened
+from infill.surfaces.sparse_marching import extract_bricks
+from infill.surfaces.winding import winding
+
+CLOSE = 0.002  # of the density: nearer than this, no other cell or width is tried
+LEAST = 1e-6  # densities below this are none
+TRIES, ROUNDS, REFITS = 8, 9, 3
+MOST_LARGER = 3.0  # than cells and walls were before, where there were too many triangles
+FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of its cells, ask for
+FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
+COLLAPSE_BYTES = 4000  # for each triangle, at most
+SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
+SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
+SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
+INTERFACE = 2.0  # cells: in thinner ones, curvature moves the surface slower than it should
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Hollow:
+    """The voids of a part.
+
+    Parameters
+    ----------
+    space : Space
+        The inside of the part.
+    cell, width : float
+        Of the pattern, mm.
+    surfaces : list of Surface, mm
+        The voids, facing outwards from them, one surface for each field.
+    tolerance : float
+        mm by which simplifying has moved them, at most; not finite if that was not watched.
+    count : int
+        Voids.
+    islands, specks : int
+        Pieces of solid that would have hung free in a void, and voids that were too small.
+    """
+
+    space: Space
+    cell: float
+    width: float
+    surfaces: list[Surface]
+    tolerance: float
+    count: int
+    islands: int
+    specks: int
+
+    @property
+    def surface(self) -> Surface:
+        """All voids, mm."""
+        return joined(self.surfaces)
+
+    @property
+    def triangles(self) -> int:
+        """Of all voids."""
+        return sum(len(surface.faces) for surface in self.surfaces)
+
+    @property
+    def volume(self) -> float:
+        """Of all voids, mm³."""
+        return sum(surface.volume for surface in self.surfaces)
+
+    @property
+    def density(self) -> float:
+        """Solid share of what lies inside the walls."""
+        return 1 - self.volume / self.space.volume
+
+
+def hollowed(
+    part: Surface,
+    request: Request,
+    voids: Voids,
+    *,
+    clock: Clock,
+    threads: int | None = None,
+    max_memory: int | None = None,
+) -> Hollow:
+    """Return the voids that a pattern leaves in a part, on a grid as fine as their triangles allow.
+
+    If there are too many still, and neither cell nor line width was asked for, both are larger.
+
+    Raises
+    ------
+    GeometryError
+        If there is no room for a void, or for its triangles.
+    MemoryLimitError
+        If memory will not suffice.
+    """
+    with clock.stage("density", 0.0):
+        sizes, varied = sizes_for(request, voids), request.varied
+    extents = np.ptp(part.bounds, axis=0)
+    voxel = voxel_for(request, voids, extents, *sizes)
+    for attempt in range(REFITS + 1):
+        with clock.stage("depth", 0.2 * attempt):
+            space = space_inside(part, wall=request.wall, voxel=voxel, threads=threads, max_memory=max_memory)
+        room = request.room(len(space.part.faces))
+        with clock.stage("density", 0.2 * attempt + 0.05):
+            sizes, varied = _sized(space, voids, request, sizes, varied)
+        with clock.stage("voids", 0.2 * attempt + 0.1):
+            found = _corrected(space, voids, request, sizes, varied, threads)
+        with clock.stage("simplify", 0.2 * attempt + 0.18):
+            if request.tolerance > 0:
+                few = [shortened(each, SHARE * request.tolerance) for each in found.surfaces]
+                found = replace(found, surfaces=few, tolerance=request.tolerance)
+        if found.triangles <= room or attempt == REFITS:
+            break
+        many, sizes = found.triangles / room, (found.cell, found.width)
+        wanted, coarsest = voxel * max(1.1, FEWER * many**0.5), coarsest_for(request, voids, *sizes)
+        if wanted > coarsest and request.cell is None and request.line_width is None:
+            larger = min(MOST_LARGER, max(1.2, many))
+            sizes = (found.cell * larger, found.width * larger)
+            wanted = coarsest = voxel_for(request, voids, extents, *sizes)
+        if min(wanted, coarsest) < 1.05 * voxel:
+            break
+        voxel = min(wanted, coarsest)
+    if not found.surfaces:
+        raise GeometryError(
+            f"the pattern leaves no void inside walls of {request.wall:g} mm; give larger cells, a lower density or a "
+            "thinner wall"
+        )
+    if found.triangles > room:
+        with clock.stage("simplify", 0.8):
+            found = _cut_down(found, room, threads=threads, max_memory=max_memory)
+    return found
+
+
+def _sized(
+    space: Space, voids: Voids, request: Request, sizes: tuple[float, float], varied: tuple[Size, ...]
+) -> tuple[tuple[float, float], tuple[Size, ...]]:
+    """Return cell and width, mm, with which the voids leave the density asked for in this space, before smoothing.
+
+    A cell that is larger than the space is made smaller, and walls thinner instead, if neither was asked for; what may
+    still be varied is returned too.
+    """
+    if not varied:
+        return sizes, varied
+    density = request.density or LEAST
+    out = np.empty_like(space.depth)
+
+    def share(cell: float, width: float) -> float:
+        count = voids.count(space, cell=cell, width=width)
+        filled = sum(voids.into(out, space, which, cell=cell, width=width) for which in range(count))
+        return max(1 - filled / space.cells, LEAST)
+
+    if request.cell is None and request.line_width is None and sizes[0] > (most := space.across):
+        sizes, varied = (most, sizes[1] * most / sizes[0]), ("width",)
+    vary = varied[0]
+    times = root(lambda at: math.log(share(*_scaled(sizes, at, vary)) / density), CLOSE / 4 / density, TRIES)
+    return _scaled(sizes, times, vary), varied
+
+
+def _corrected(
+    space: Space,
+    voids: Voids,
+    request: Request,
+    sizes: tuple[float, float],
+    varied: tuple[Size, ...],
+    threads: int | None,
+) -> Hollow:
+    """Return voids whose meshes leave the density asked for: smoothing and the grid fill corners of voids."""
+    found = _surfaces(space, voids, request, sizes, threads)
+    density = request.density or LEAST
+    for vary in varied:
+        tried = {1.0: found}
+
+        def off(times: float, tried: dict[float, Hollow] = tried, vary: Size = vary) -> float:
+            if times not in tried:
+                start = tried[1.0]
+                tried[times] = _surfaces(
+                    space, voids, request, _scaled((start.cell, start.width), times, vary), threads
+                )
+            return math.log(max(tried[times].density, LEAST) / density)
+
+        found = tried[root(off, CLOSE / density, ROUNDS)]
+    return found
+
+
+def _scaled(sizes: tuple[float, float], times: float, vary: Size) -> tuple[float, float]:
+    """Return cell and width with walls that many times as dense."""
+    cell, width = sizes
+    return (cell, width * times) if vary == "width" else (cell / times, width)
+
+
+def _smoothing(radius: float, size: float) -> Smoothing:
+    """Return the steps that round right angles to a radius, mm."""
+    smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
+    times = (RIGHT_ANGLE * radius / size) ** 2 / 2  # cells²
+    if times < SHORTEST:
+        return replace(smoothing, steps=0)
+    steps = math.ceil(times / smoothing.alpha)
+    return replace(smoothing, steps=steps, alpha=times / steps)
+
+
+def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None) -> Hollow:
+    """Return the surfaces of the voids, smoothed, without what is no void of any use."""
+    cell, width = sizes
+    out = np.empty_like(space.depth)
+    smoothing = _smoothing(request.radius(space.thickness), space.size)
+    surfaces, islands, specks, count = [], 0, 0, 0
+    lost: list[Surface] = []
+    for which in range(voids.count(space, cell=cell, width=width)):
+        voids.into(out, space, which, cell=cell, width=width)
+        if not (out > 0).any():
+            continue
+        field = smooth_bricks(on_profile(out, INTERFACE), smoothing, spacing=(space.size,) * 3, threads=threads)
+        if not (field.values > 0).any():
+            continue
+        surface = extract_bricks(
+            field, spacing=(space.size,) * 3, origin=tuple((space.origin - space.size / 2).tolist()), threads=threads
+        )
+        kept, few, small, loose = _useful(surface, (SPECK * space.size) ** 3)
+        islands, specks = islands + few, specks + small
+        lost.extend(loose)
+        if kept is not None:
+            surfaces.append(kept)
+    surfaces = [each for each in (_outside(surface, lost, threads) for surface in surfaces) if each is not None]
+    for surface in surfaces:
+        count += shell_names(surface)[1]
+    return Hollow(
+        space=space,
+        cell=cell,
+        width=width,
+        surfaces=surfaces,
+        tolerance=0.0,
+        count=count,
+        islands=islands,
+        specks=specks,
+    )
+
+
+def _useful(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
+    """Return the voids larger than a volume, mm³, filled where solid hangs free, and how many were neither."""
+    names, count = shell_names(surface)
+    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
+    shell = names[surface.faces[:, 0]]
+    six = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+    volume = np.bincount(shell, weights=six, minlength=count) / 6
+    islands, specks = volume < 0, (volume >= 0) & (volume < least)
+    if not (islands.any() or specks.any()):
+        return surface, 0, 0, []
+    loose = [_part(surface, shell == each, turned=True) for each in np.flatnonzero(islands)]
+    kept = volume >= least
+    return (
+        _part(surface, kept[shell]) if kept.any() else None,
+        int(islands.sum()),
+        int(specks.sum()),
+        loose,
+    )
+
+
+def _part(surface: Surface, faces: NDArray[np.bool_], *, turned: bool = False) -> Surface:
+    chosen = surface.faces[faces]
+    used, own = np.unique(chosen, return_inverse=True)
+    own = own.reshape(-1, 3)
+    return replace(surface, vertices=surface.vertices[used], faces=own[:, ::-1] if turned else own)
+
+
+def _outside(surface: Surface, lost: list[Surface], threads: int | None) -> Surface | None:
+    """Return the shells that do not lie in pieces that were lost."""
+    for piece in lost:
+        names, first = shell_names(surface)[0], first_of_shells(surface)
+        within = winding(np.asarray(surface.vertices, dtype=np.float64)[first], piece, threads=threads) > 0
+        if within.any():
+            kept = ~within[names[surface.faces[:, 0]]]
+            if not kept.any():
+                return None
+            surface = _part(surface, kept)
+    return surface
+
+
+def _cut_down(found: Hollow, room: int, *, threads: int | None, max_memory: int | None) -> Hollow:
+    """Return the voids with so few triangles, further from what they were than was asked for."""
+    tolerance = max(found.tolerance, FINEST * found.space.size)
+    for _ in range(DOUBLINGS):
+        tolerance *= 2
+        few = [shortened(each, SHARE * tolerance) for each in found.surfaces]
+        if sum(len(each.faces) for each in few) <= room:
+            return replace(found, surfaces=few, tolerance=tolerance)
+    needed = COLLAPSE_BYTES * max(len(each.faces) for each in few)
+    require_memory(needed, max_memory, f"the voids have {found.triangles:,} triangles; give larger cells or voxels")
+    share = room / sum(len(each.faces) for each in few)
+    few = [simplified(each, triangles=max(4, int(share * len(each.faces))), threads=threads) for each in few]
+    return replace(found, surfaces=few, tolerance=math.inf)

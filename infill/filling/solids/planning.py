@@ -1,0 +1,27 @@
+"""What a fill will take, before anything is computed."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from infill.filling.solids.request import Request, sizes_for, voids_of, voxel_for
+from infill.filling.solids.space import BYTES_PER_CELL, MARGIN
+from infill.surface import Surface
+from infill.voxels.from_mesh import grid_around
+
+
+def planned_fill(part: Surface, request: Request, *, threads: int | None = None) -> dict[str, Any]:
+    """Return cell, line width, grid and memory, as the report of `fill` has them."""
+    voids = voids_of(request, part.bounds, threads)
+    cell, width = sizes_for(request, voids)
+    voxel = voxel_for(request, voids, np.ptp(part.bounds, axis=0), cell, width)
+    grid = grid_around(part, voxel=voxel, margin=MARGIN)
+    return {
+        "request": request.facts(),
+        "infill": {"cell": cell, "line_width": width},
+        "grid": {"shape": list(grid.shape), "spacing": [voxel] * 3, "origin": list(grid.origin), "space": ""},
+        "memory": BYTES_PER_CELL * math.prod(grid.shape),
+    }

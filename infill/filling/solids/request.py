@@ -1,0 +1,294 @@
+"""What `fill` is asked for: numbers checked, what is left out chosen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.checks import length, positive, whole, within
+from infill.errors import GeometryError, ParameterError, UsageError
+from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.voids import Repeating, Voids
+from infill.formats.assignments import assignments, merged
+from patterns import PATTERNS
+from patterns.cellular import CELLULAR, no_such
+from patterns.declared import parameters
+from patterns.given import nearest
+from patterns.protocol import Pattern
+from patterns.unit_cells import Bars
+
+Form = Literal["solid", "infill"]
+Align = Literal["part", "bed"]
+Size = Literal["cell", "width"]
+
+DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
+BAR_CELL = 8.0  # mm: bars are as thick as the density asks for
+LOWEST, HIGHEST = 0.01, 0.9  # densities
+# Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
+# of bars; across a wall of the part and a bar; in all.
+FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
+ACROSS, ACROSS_BAR = 2.5, 4.0
+LEAST_FINE, LEAST_FINE_BARS, LEAST_ACROSS, LEAST_ACROSS_BAR = (
+    0.58,
+    9.0,
+    1.5,
+    3.0,
+)  # where there would be too many triangles
+MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
+FURTHEST = 1e4  # mm
+FEWEST_TRIANGLES = 1000  # of voids
+HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or no use
+LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
+FIFTH = 0.2
+FEWEST, MOST = 1e6, 25e6
+COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
+OVERLAP = 0.15  # mm by which an infill body reaches into the wall
+LEAST_CELL = 2.5  # line widths: walls that are nearer to one another leave no void
+# Curvature rounds a right angle to a radius R in the time (0.7386 R)² / 2: the self-similar solution of curve
+# shortening that begins as a right angle has the curvature 0.7386 / sqrt(2 t) at its tip.
+RIGHT_ANGLE = 0.7386
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """A request for `fill`, checked.
+
+    Parameters
+    ----------
+    pattern : str
+    parameters : mapping
+        The pattern's own, by name.
+    density : float or None
+        Solid share inside the walls; None if cell and line width say it.
+    cell, line_width : float or None
+        mm; None for what follows from the density.
+    wall, overlap, tolerance : float
+        mm
+    smooth_radius : float or None
+        mm; None for the default, which small parts have smaller.
+    angle : float
+        Degrees.
+    phase : (x, y, z)
+        mm
+    align : {"part", "bed"}
+    form : {"solid", "infill"}
+    voxel : float or None
+        mm
+    max_triangles : int or None
+    """
+
+    pattern: str
+    parameters: Mapping[str, Any]
+    density: float | None
+    cell: float | None
+    line_width: float | None
+    wall: float
+    overlap: float
+    angle: float
+    phase: tuple[float, float, float]
+    align: Align
+    form: Form
+    smooth_radius: float | None
+    tolerance: float
+    voxel: float | None
+    max_triangles: int | None
+
+    def radius(self, thickness: float) -> float:
+        """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
+        return min(RADIUS, thickness / LEAST_ROUND) if self.smooth_radius is None else self.smooth_radius
+
+    @property
+    def varied(self) -> tuple[Size, ...]:
+        """What may be changed for the density, in this order."""
+        if self.density is None:
+            return ()
+        if self.cell is not None or self.line_width is not None:
+            return ("cell",) if self.cell is None else ("width",)
+        return ("width",) if isinstance(CELLULAR.get(self.pattern), Bars) else ("cell", "width")
+
+    def room(self, taken: int) -> int:
+        """Return how many triangles voids may have, if the part has taken so many.
+
+        Raises
+        ------
+        GeometryError
+            If there are none left.
+        """
+        if self.max_triangles is None:
+            return max(MOST_TRIANGLES - taken, LEAST_TRIANGLES)
+        if self.max_triangles < taken + FEWEST_TRIANGLES:
+            raise GeometryError(
+                f"max_triangles is {self.max_triangles:,}, and the skin of the part alone has {taken:,}; give at least "
+                f"{taken + FEWEST_TRIANGLES:,}"
+            )
+        return self.max_triangles - taken
+
+    def facts(self) -> dict[str, Any]:
+        """Return the request as the report has it."""
+        return {
+            "pattern": self.pattern,
+            "parameters": dict(self.parameters),
+            "density": self.density,
+            "cell": self.cell,
+            "line_width": self.line_width,
+            "wall": self.wall,
+            "angle": self.angle,
+            "phase": list(self.phase),
+            "align": self.align,
+            "form": self.form,
+            "overlap": self.overlap,
+            "smooth_radius": self.smooth_radius,
+            "tolerance": self.tolerance,
+            "voxel": self.voxel,
+            "max_triangles": self.max_triangles,
+        }
+
+
+def checked(
+    *,
+    pattern: str,
+    own: Mapping[str, Any],
+    density: float | None,
+    cell: float | None,
+    line_width: float | None,
+    wall: float,
+    overlap: float,
+    angle: float,
+    phase: tuple[float, ...],
+    align: str,
+    form: str,
+    smooth_radius: float | None,
+    tolerance: float,
+    voxel: float | None,
+    max_triangles: int | None,
+) -> Request:
+    """Return a request whose numbers are in range, with what follows from others left open."""
+    if density is not None and cell is not None and line_width is not None:
+        raise UsageError("density, cell and line_width are all given; give two of them, and the third follows")
+    if align not in get_args(Align):
+        raise UsageError(f"align is {align!r}; choose from {', '.join(get_args(Align))}")
+    if form not in get_args(Form):
+        raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
+    if len(phase) not in (2, 3):
+        raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
+    shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
+    if density is not None:
+        density = within("density", density, LOWEST, HIGHEST)
+    elif cell is None or line_width is None:
+        bars = isinstance(CELLULAR.get(pattern), Bars)
+        density = DENSITY if cell is None or bars else None
+        if density is None:
+            line_width = LINE_WIDTH
+    wall = length("wall", wall)
+    return Request(
+        pattern=pattern,
+        parameters=own,
+        density=density,
+        cell=None if cell is None else length("cell", cell),
+        line_width=None if line_width is None else length("line_width", line_width),
+        wall=wall,
+        overlap=within("overlap", overlap, 0.0, 0.9 * wall, "mm"),
+        angle=within("angle", angle, -360.0, 360.0, "degrees"),
+        phase=(shift[0], shift[1], shift[2] if len(shift) == 3 else 0.0),
+        align=align,  # type: ignore[arg-type]
+        form=form,  # type: ignore[arg-type]
+        smooth_radius=None if smooth_radius is None else within("smooth_radius", smooth_radius, 0.0, 100.0, "mm"),
+        tolerance=within("tolerance", tolerance, 0.0, 100.0, "mm"),
+        voxel=None if voxel is None else positive("voxel", voxel, "mm"),
+        max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
+    )
+
+
+def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None) -> Voids:
+    """Return the voids of the pattern that is asked for, in a part with these bounds (2, 3), mm."""
+    middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
+    if request.align == "bed":
+        middle = np.array([0.0, 0.0, float(bounds[0][2])])
+    anchor = middle + request.phase
+    turned = np.radians(request.angle)
+    turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
+    if request.pattern in CELLULAR:
+        if request.parameters:
+            name = next(iter(request.parameters))
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
+        return Repeating(pattern=CELLULAR[request.pattern], turn=turn, anchor=anchor, threads=threads)
+    return Drawn(pattern=pattern_of(request), anchor=anchor, threads=threads)
+
+
+def own_parameters(pattern: str, assigned: Sequence[str]) -> dict[str, Any]:
+    """Return the pattern's own parameters by name, from ``name=value``, or raise ParameterError."""
+    if pattern in CELLULAR and assigned:
+        raise ParameterError(f"--set {assigned[0]}: {pattern} has no parameters; give --cell or --line-width")
+    if not assigned:
+        return {}
+    kind = PATTERNS.find(pattern)
+    given = merged(kind, command=assignments(kind, assigned, options=HELD), file=())
+    for name in given:
+        if name in HELD:
+            raise ParameterError(f"--set {name}: that is --{name.replace('_', '-')} here; give it instead")
+    return given
+
+
+def pattern_of(request: Request) -> Pattern:
+    """Return the pattern of lines that is asked for, or raise ParameterError."""
+    if request.pattern not in PATTERNS:
+        raise no_such(request.pattern, [*CELLULAR, *PATTERNS])
+    kind = PATTERNS[request.pattern]
+    known = parameters(kind)
+    own = [name for name in known if name not in HELD]
+    for name in request.parameters:
+        if name not in own:
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, own)}")
+    made: Pattern = kind(**{**request.parameters, **({"angle": request.angle} if "angle" in known else {})})
+    if not made.prismatic:
+        raise ParameterError(f"the lines of {made.name} change with height; choose from {', '.join(CELLULAR)}")
+    return made
+
+
+def sizes_for(request: Request, voids: Voids) -> tuple[float, float]:
+    """Return cell and width, mm: as asked, or as the density would have them far from any skin."""
+    if request.cell is not None and request.line_width is not None:
+        return request.cell, request.line_width
+    assert request.density is not None
+    share = voids.widths(request.density)
+    if request.line_width is None and (request.cell is not None or "cell" not in request.varied):
+        cell = BAR_CELL if request.cell is None else request.cell
+        return cell, share * cell
+    width = LINE_WIDTH if request.line_width is None else request.line_width
+    return width / share, width
+
+
+def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:
+    """Return the side of the cells of the grid, mm."""
+    if request.voxel is not None:
+        return request.voxel
+    size = request.wall / ACROSS
+    if isinstance(voids, Drawn):
+        size = min(size, cell / FINE_LINES, COARSEST_LINES)
+    elif _has_bars(voids):
+        size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
+    else:
+        size = min(size, voids.widths(FIFTH) * cell / FINE)
+    whole = math.prod(np.maximum(extents, size).tolist())
+    return min(max(size, math.cbrt(whole / MOST)), math.cbrt(whole / FEWEST))
+
+
+def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:
+    """Return the largest side of the cells of a grid that still has the pattern in it, mm."""
+    if request.voxel is not None:
+        return request.voxel
+    if isinstance(voids, Drawn):
+        return COARSEST_LINES
+    size = request.wall / LEAST_ACROSS
+    if _has_bars(voids):
+        return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
+    return min(size, voids.widths(FIFTH) * cell / LEAST_FINE)
+
+
+def _has_bars(voids: Voids) -> bool:
+    return isinstance(voids, Repeating) and isinstance(voids.pattern, Bars)

@@ -1,0 +1,139 @@
+"""The inside of a part: how deep below its wall each cell of a grid lies."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.machine import require_memory
+from infill.surface import Surface
+from infill.surfaces.parting import joined, parted
+from infill.surfaces.solids import FINE, status, united
+from infill.voxels.from_mesh import Repairs, Voxelised, grid_around, voxelise_reported
+from infill.voxels.partial import distances_in_cells
+
+BAND = 2.5  # cells on either side of the wall in which depths are exact
+LEAST_OVERLAP = 1e-5  # of the volume: components that overlap by less are taken not to
+MARGIN = 3  # cells of void around the part
+BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks that are smoothed
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Space:
+    """What lies inside the walls of a part.
+
+    Parameters
+    ----------
+    depth : (nx, ny, nz) float32
+        How deep the centre of each cell lies below the inner side of the wall, in cells; cut off deep inside.
+    size : float
+        Of a cell, mm.
+    origin : (3,) float64
+        The centre of cell (0, 0, 0), mm.
+    part : Surface, mm
+        The part as it was taken: as it was given, if that is closed, faces outwards, and no two components overlap.
+    repairs : Repairs
+        What had to be assumed.
+    skin : {"as given", "turned", "closed", "parted", "united"}
+        What was done to the mesh to have a part: faces turned, holes closed, components that touch taken apart, or
+        united where they overlap; the last of these that was.
+    overlap : float
+        Share of the volume that components of `part` still enclose twice.
+    """
+
+    depth: NDArray[np.float32]
+    size: float
+    origin: NDArray[np.float64]
+    part: Surface
+    repairs: Repairs
+    skin: str
+    overlap: float
+
+    @cached_property
+    def cells(self) -> float:
+        """How many cells lie inside the walls, parts of cells counted as such."""
+        return float(sum(np.clip(layer + 0.5, 0, 1).sum(dtype=np.float64) for layer in self.depth))
+
+    @cached_property
+    def across(self) -> float:
+        """The second longest side of what lies inside the walls, mm: larger cells of a pattern are of no use."""
+        inside = self.depth > 0
+        sides = [np.flatnonzero(inside.any(axis=tuple({0, 1, 2} - {axis}))) for axis in range(3)]
+        return float(sorted(each[-1] + 1 - each[0] for each in sides)[1]) * self.size
+
+    @cached_property
+    def thickness(self) -> float:
+        """How thick what lies inside the walls is, mm: as a plate with this volume and surface would be."""
+        area = sum(int((np.abs(layer) < 0.5).sum()) for layer in self.depth) * self.size**2
+        return 2 * self.volume / max(area, self.size**2)
+
+    @property
+    def volume(self) -> float:
+        """What lies inside the walls, mm³."""
+        return self.cells * self.size**3
+
+
+def space_inside(
+    part: Surface, *, wall: float, voxel: float, threads: int | None = None, max_memory: int | None = None
+) -> Space:
+    """Return the inside of a part, without a wall, mm, along all of its skin.
+
+    Raises
+    ------
+    GeometryError
+        If the part encloses nothing, or is nowhere thicker than two walls.
+    MemoryLimitError
+        If the grid does not fit into memory.
+    """
+    grid = grid_around(part, voxel=voxel, margin=MARGIN)
+    advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
+    require_memory(BYTES_PER_CELL * math.prod(grid.shape), max_memory, advice)
+    found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
+    whole, skin, overlap = _skin(found)
+    # Thin gaps between components count too, but not faces inside the solid.
+    reach, several = wall / voxel + BAND, overlap > LEAST_OVERLAP
+    depth = distances_in_cells(whole, found.volume, reach, several=several, threads=threads)
+    depth -= np.float32(wall / voxel)
+    if not (depth > 0).any():
+        raise GeometryError(
+            f"wall is {wall:g} mm, and the part is nowhere thicker than two of those; give a thinner wall"
+        )
+    return Space(
+        depth=depth,
+        size=voxel,
+        origin=np.array(found.volume.origin) + voxel / 2,
+        part=whole,
+        repairs=found.repairs,
+        skin=skin,
+        overlap=overlap,
+    )
+
+
+def _skin(found: Voxelised) -> tuple[Surface, str, float]:
+    """Return the part facing outwards, without overlaps if possible, what was done to it, and what still overlaps."""
+    mesh, held = found.closed, found.enclosed
+    skin = "closed" if found.repairs.holes else "as given"
+    if (turned := held.sign < 0).any():
+        faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
+        mesh, skin = Surface(vertices=mesh.vertices, faces=faces), "turned" if skin == "as given" else skin
+    overlap = float(held.excess.sum() / held.total)
+    if (verdict := status(mesh)) == FINE and overlap <= LEAST_OVERLAP:
+        return mesh, skin, 0.0
+    parts = parted(mesh, float(found.volume.cell_size[0])).surfaces
+    if overlap <= LEAST_OVERLAP:
+        mesh = joined(list(parts))
+        verdict, skin = status(mesh), "parted"
+    elif (whole := united(parts)) is not None:
+        # The union counts what parts enclose together once, as the exact volume does.
+        mesh, verdict, skin, overlap = whole, FINE, "united", abs(1 - held.total / whole.volume)
+    if verdict != FINE:
+        raise GeometryError(
+            f"the mesh of {len(mesh.faces):,} triangles is no solid, even with its holes closed ({verdict}, says "
+            "manifold3d); make one of it first: 'infill smooth' does"
+        )
+    return mesh, skin, overlap

@@ -1,0 +1,34 @@
+"""What a filled part was made from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+    from infill.surface import Surface
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FillStages:
+    """The stages of `infill.fill`.
+
+    Parameters
+    ----------
+    part : Surface, mm
+        The part whose skin the result has.
+    voids : Surface, mm
+        What was taken out of it, facing outwards.
+    """
+
+    part: Surface
+    voids: Surface
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+        """Return cuts through the middle."""
+        from infill.pictures.cuts import cuts
+
+        return cuts(surface, report)

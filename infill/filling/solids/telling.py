@@ -1,0 +1,55 @@
+"""What a filled part is not that was asked for: measured on the meshes that are handed over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from infill.filling.solids.hollowing import Hollow
+from infill.filling.solids.request import Request
+from infill.filling.solids.space import LEAST_OVERLAP
+from infill.surface import Surface
+from infill.surfaces.distance import Tree
+from infill.surfaces.shells import first_of_shells
+from infill.surfaces.solids import FINE
+from infill.surfaces.winding import winding
+
+OFF = 0.005  # of the density: what is further off is told
+LEAST_WALL = 0.9  # of the wall asked for
+
+
+def least_wall(part: Surface, voids: Surface, threads: int | None) -> tuple[float, list[float]]:
+    """Return how near the voids come to the skin, mm, and where: at corners and in the middle of triangles."""
+    corners = np.asarray(voids.vertices, dtype=np.float64)
+    points = np.concatenate([corners, corners[voids.faces].mean(axis=1)])
+    away, _ = Tree.of(part).nearest(points, threads=threads)
+    nearest = int(np.argmin(away))
+    return float(away[nearest]), points[nearest].tolist()
+
+
+def outside(part: Surface, voids: list[Surface], threads: int | None) -> int:
+    """Return how many voids begin outside of the part: none crosses its skin, from which all are some way off."""
+    first = [surface.vertices[first_of_shells(surface)] for surface in voids]
+    return int((winding(np.concatenate(first).astype(np.float64), part, threads=threads) <= 0).sum())
+
+
+def problems(
+    request: Request, hollow: Hollow, least: float, at: list[float], astray: int, verdict: str
+) -> Iterator[str]:
+    """Say what is not as it was asked for, and what was done to the part."""
+    overlap, moved = hollow.space.overlap, hollow.tolerance
+    if request.density is not None and abs(hollow.density - request.density) > OFF:
+        yield f"the density is {hollow.density:.1%}, and {request.density:.1%} was asked for"
+    if moved > request.tolerance:
+        most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
+        yield f"for so few triangles, the voids were moved by {most}; give larger cells, or more triangles"
+    if least < LEAST_WALL * request.wall:
+        where = ", ".join(f"{each:.4g}" for each in at)
+        yield f"the wall is {least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
+    if astray:
+        yield f"{astray} void(s) lie outside of the part"
+    if overlap > LEAST_OVERLAP:
+        yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
+    if verdict != FINE:
+        yield f"manifold3d does not take it: {verdict}"

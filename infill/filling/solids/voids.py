@@ -1,0 +1,109 @@
+"""The voids that a pattern leaves in a part, each as a field of distances, in cells of the grid.
+
+Voids that lie next to one another are in fields of their own: a wall between them needs no cell of the grid in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.solids.space import BAND, Space
+from infill.kernels.threads import in_threads, thread_count
+from patterns.unit_cells import Bars, Cellular, Surfaces
+
+NODES = 48  # of the table of a period, along each axis
+FIELD = NDArray[np.float32]
+
+
+class Voids(Protocol):
+    """The voids of a pattern."""
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:
+        """Return how many fields the voids need."""
+        ...
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """Write how deep each cell lies in the void or below the wall, the lesser; return how many cells that fills."""
+        ...
+
+    def widths(self, density: float) -> float:
+        """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repeating:
+    """The voids beside walls or bars that repeat along x, y and z.
+
+    Parameters
+    ----------
+    pattern : Surfaces or Bars
+    turn : (3, 3) float64
+        From the part to the pattern.
+    anchor : (3,) float64
+        The point of the part at which a cell of the pattern begins, mm.
+    threads : int, optional
+    """
+
+    pattern: Cellular
+    turn: NDArray[np.float64]
+    anchor: NDArray[np.float64]
+    threads: int | None = None
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
+        """Two beside a surface, one around bars."""
+        return 2 if isinstance(self.pattern, Surfaces) else 1
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """See `Voids`."""
+        from infill.kernels.cells import from_bars, from_period
+
+        surface = isinstance(self.pattern, Surfaces)
+        table = _period(self.pattern) if isinstance(self.pattern, Surfaces) else _bars(self.pattern)
+        filled = in_threads(
+            from_period if surface else from_bars,
+            space.depth,
+            -BAND,
+            table,
+            self.turn,
+            self.turn @ (space.origin - self.anchor) / space.size,
+            cell / space.size,
+            1.0 if which == 0 else -1.0,
+            width / 2 / space.size,
+            out,
+            threads=thread_count(self.threads),
+        )
+        return float(sum(filled))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`."""
+        return float(2 * np.quantile(_samples(self.pattern), density))
+
+
+@cache
+def _period(pattern: Surfaces) -> NDArray[np.float32]:
+    line = np.arange(NODES) / NODES
+    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
+
+
+@cache
+def _bars(pattern: Bars) -> NDArray[np.float64]:
+    return pattern.around_cell()
+
+
+@cache
+def _samples(pattern: Cellular) -> NDArray[np.floating]:
+    """Return how far points spread evenly over a cell lie from the walls or bars, in cells."""
+    if isinstance(pattern, Surfaces):
+        return np.abs(_period(pattern)).ravel()
+    from infill.kernels.cells import from_bars
+
+    deep, found = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
+    from_bars(deep, 0.0, _bars(pattern), np.eye(3), np.full(3, 0.5), float(NODES), 1.0, 0.0, found, 0, 1)
+    return found.ravel() / NODES

@@ -1,0 +1,88 @@
+"""Closed surfaces as solids of manifold3d: what it says of them, with fewer triangles, and united."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import reduce
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from infill.surface import Surface
+
+if TYPE_CHECKING:
+    import manifold3d
+
+FINE = "NoError"
+MOVED = 0.4  # of a tolerance: what is asked of manifold3d, which measures each step from the one before
+
+
+def solid_of(surface: Surface, *, single: bool = False) -> manifold3d.Manifold:
+    """Return the surface as manifold3d has it, in single or double precision; it may be none, as its status says."""
+    import manifold3d
+
+    if single:
+        return manifold3d.Manifold(
+            manifold3d.Mesh(
+                vert_properties=np.ascontiguousarray(surface.vertices, dtype=np.float32),
+                tri_verts=np.ascontiguousarray(surface.faces, dtype=np.uint32),
+            )
+        )
+    return manifold3d.Manifold(
+        manifold3d.Mesh64(
+            vert_properties=np.ascontiguousarray(surface.vertices, dtype=np.float64),
+            tri_verts=np.ascontiguousarray(surface.faces, dtype=np.uint64),
+        )
+    )
+
+
+def status(surface: Surface, *, single: bool = False) -> str:
+    """Return the verdict of manifold3d: "NoError" if it takes the surface as a solid."""
+    return str(solid_of(surface, single=single).status().name)
+
+
+def surface_from(solid: manifold3d.Manifold) -> Surface:
+    """Return a solid of manifold3d as plain arrays."""
+    mesh = solid.to_mesh64()
+    return Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=np.array(mesh.tri_verts).astype(np.int64))
+
+
+def shortened(surface: Surface, tolerance: float) -> Surface:
+    """Return a surface with fewer triangles, from some of its vertices, that lies within a tolerance, mm, of it.
+
+    It takes a hundredth of the time and memory of `infill.surfaces.simplification.simplified`, and leaves more
+    triangles. A surface that manifold3d does not take is returned as it is.
+
+    >>> import trimesh
+    >>> ball = trimesh.creation.icosphere(5)
+    >>> few = shortened(Surface(vertices=ball.vertices, faces=ball.faces), 0.05)
+    >>> len(few.faces) < len(ball.faces) / 4, few.closed
+    (True, True)
+    """
+    solid = solid_of(surface)
+    if status_of(solid) != FINE:
+        return surface
+    few = surface_from(solid.simplify(MOVED * tolerance))
+    return replace(few, space=surface.space) if few.closed else surface
+
+
+def status_of(solid: manifold3d.Manifold) -> str:
+    """Return whether it is one: "NoError" if so."""
+    return str(solid.status().name)
+
+
+def united(surfaces: Iterable[Surface]) -> Surface | None:
+    """Return the union of closed surfaces, or None if manifold3d does not take one of them.
+
+    >>> import trimesh
+    >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
+    >>> both = united([Surface(vertices=each.vertices, faces=each.faces) for each in boxes])
+    >>> both.closed, round(both.volume, 6)
+    (True, 15.0)
+    """
+    solids = [solid_of(each) for each in surfaces]
+    if not solids or any(status_of(each) != FINE for each in solids):
+        return None
+    whole = reduce(lambda one, other: one + other, solids)
+    return surface_from(whole) if status_of(whole) == FINE and not whole.is_empty() else None

@@ -1,0 +1,72 @@
+"""Strut lattices: round bars between the nodes of a unit cell."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable
+
+from patterns.unit_cells import Bars
+
+Node = tuple[float, float, float]
+Edge = tuple[Node, Node]
+
+
+def _between(one: Iterable[Node], other: Iterable[Node], length: float) -> tuple[Edge, ...]:
+    """Return the edges of a length between two sets of nodes, each once."""
+    found = {
+        tuple(sorted((a, b)))
+        for a, b in itertools.product(one, other)
+        if math.isclose(math.dist(a, b), length, abs_tol=1e-9)
+    }
+    return tuple(sorted((a, b) for a, b in found))
+
+
+CORNERS: tuple[Node, ...] = tuple((float(x), float(y), float(z)) for x, y, z in itertools.product((0, 1), repeat=3))
+CENTRE: Node = (0.5, 0.5, 0.5)
+FACES: tuple[Node, ...] = tuple(
+    (float(x), float(y), float(z))
+    for axis in range(3)
+    for side in (0.0, 1.0)
+    for x, y, z in [tuple(side if a == axis else 0.5 for a in range(3))]
+)
+QUARTERS: tuple[Node, ...] = ((0.25, 0.25, 0.25), (0.75, 0.75, 0.25), (0.75, 0.25, 0.75), (0.25, 0.75, 0.75))
+# The corners of truncated octahedra about the corners and the centre of a cell: 0, 1/4 and 1/2, in any order.
+OCTAHEDRON: tuple[Node, ...] = tuple(
+    sorted(
+        {
+            (0.5 + a * signs[0], 0.5 + b * signs[1], 0.5 + c * signs[2])
+            for a, b, c in itertools.permutations((0.0, 0.25, 0.5))
+            for signs in itertools.product((-1, 1), repeat=3)
+        }
+    )
+)
+
+CUBIC = Bars(
+    name="cubic-bars",
+    summary="bars along x, y and z",
+    edges=(((0, 0, 0), (1, 0, 0)), ((0, 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 0, 1))),
+)
+OCTET = Bars(
+    name="octet",
+    summary="octahedra and tetrahedra: the stiffest for its weight",
+    edges=_between((*CORNERS, *FACES), FACES, math.sqrt(0.5)),
+)
+BCC = Bars(name="bcc", summary="bars to the corners of a cube", edges=_between(CORNERS, [CENTRE], math.sqrt(0.75)))
+FCC = Bars(
+    name="fcc",
+    summary="bars across the faces of a cube",
+    edges=_between(CORNERS, FACES, math.sqrt(0.5)),
+)
+DIAMOND = Bars(
+    name="diamond",
+    summary="four bars at every node; soft, and prints without support",
+    edges=_between((*CORNERS, *FACES), QUARTERS, math.sqrt(3) / 4),
+)
+KELVIN = Bars(
+    name="kelvin",
+    summary="truncated octahedra, as foam has them",
+    edges=_between(OCTAHEDRON, OCTAHEDRON, math.sqrt(0.125)),
+)
+
+STRUTS = (CUBIC, OCTET, BCC, FCC, DIAMOND, KELVIN)

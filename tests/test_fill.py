@@ -1,0 +1,495 @@
+"""`fill`: the skin is the part's own, the density and the walls are those asked for, and what is not is told."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import slicers
+import trimesh
+from made_shapes import ball, box, less, rod, together, turned, union
+from PIL import Image
+from test_command_line import one_line_error
+from test_command_line import run as command
+from test_report import FILL, PAGE, described, differences, misfits
+
+from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
+from infill.filling.solids.hollowing import hollowed
+from infill.filling.solids.request import checked, voids_of
+from infill.filling.solids.roots import root
+from infill.filling.solids.telling import least_wall, outside
+from infill.report_keys import FillReport
+from infill.result import Clock
+from infill.surfaces.distance import Tree
+from infill.surfaces.solids import FINE, status
+from infill.surfaces.winding import winding
+from patterns import PATTERNS
+from patterns.cellular import CELLULAR
+from patterns.errors import PatternError
+from patterns.unit_cells import Bars, Surfaces
+
+pytestmark = pytest.mark.usefixtures("compiled")
+
+EVERY = [*CELLULAR, *(name for name, kind in PATTERNS.items() if kind.prismatic)]
+BAR = "octet"
+FEW = {"voxel": 0.5, "wall": 1.5, "density": 0.3}  # quick
+
+
+def surface(mesh: Any) -> Surface:
+    return Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
+
+
+@pytest.fixture(scope="module")
+def part() -> trimesh.Trimesh:
+    """A block with a hole and a ball on it, turned: no face lies along an axis."""
+    mesh = union(less(box(26, 20, 14), rod(4, 30)), box(8, 8, 8, (9, 6, 8)))
+    return turned(mesh, np.random.default_rng(4))
+
+
+# --- every pattern ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("pattern", EVERY)
+def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(pattern: str, part: trimesh.Trimesh) -> None:
+    result = fill(part, pattern, density=0.25, wall=1.2)
+    solid, voids, report = result.surface, result.stages.voids, result.report
+    assert report["problems"] == []
+    # The skin, bit for bit.
+    assert (solid.vertices[: len(part.vertices)] == part.vertices).all()
+    assert (solid.faces[: len(part.faces)] == part.faces).all()
+    assert len(solid.faces) == len(part.faces) + len(voids.faces) == report["triangles"]
+    # A solid, with the density asked for.
+    assert solid.closed
+    assert status(solid) == FINE
+    assert solid.volume == pytest.approx(part.volume - voids.volume)
+    assert report["density"] == pytest.approx(0.25, abs=0.005)
+    # The density again, by points: those at least a wall below the skin that lie in no void.
+    points = np.random.default_rng(1).uniform(*part.bounds, (40000, 3))
+    deep = (winding(points, surface(part)) > 0) & (Tree.of(surface(part)).nearest(points)[0] > 1.2)
+    hollow = winding(points, voids) > 0
+    assert np.mean(~hollow[deep]) == pytest.approx(0.25, abs=0.02)
+    # The wall, from both sides.
+    assert least_wall(surface(part), voids, 2)[0] >= 0.9 * 1.2
+    skin = trimesh.sample.sample_surface(part, 20000, seed=2)[0]
+    assert Tree.of(voids).nearest(skin)[0].min() >= 0.9 * 1.2
+    assert not hollow[~deep & (Tree.of(surface(part)).nearest(points)[0] < 0.9 * 1.2)].any()
+
+
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "honeycomb"])
+def test_more_is_denser(pattern: str, part: trimesh.Trimesh) -> None:
+    """The density grows with the line width, and falls with the cell."""
+    width = {"gyroid": 0.5, BAR: 1.2, "honeycomb": 0.5}[pattern]
+
+    def density(cell: float, line_width: float) -> float:
+        return fill(part, pattern, cell=cell, line_width=line_width, voxel=0.3).report["density"]
+
+    assert density(6, width) < density(6, 1.3 * width) < density(6, 1.7 * width)
+    assert density(9, width) < density(6, width) < density(4.5, width)
+
+
+@pytest.mark.parametrize("name", CELLULAR)
+def test_a_shift_by_a_cell_changes_nothing(name: str) -> None:
+    given = {"cell": 6.0, "line_width": 0.7, "voxel": 0.4, "wall": 1.0}
+    block = box(15, 15, 15)
+    one = fill(block, name, **given).surface
+    other = fill(block, name, phase=(6.0, -12.0, 6.0), **given).surface
+    assert other.volume == pytest.approx(one.volume, rel=1e-5)
+    assert len(other.faces) == pytest.approx(len(one.faces), rel=0.01)
+
+
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "honeycomb"])
+def test_turning_the_part_and_the_pattern_turns_the_result(pattern: str) -> None:
+    block = union(box(20, 12, 10), box(6, 6, 10, (5, 0, 4)))
+    quarter = trimesh.transformations.rotation_matrix(np.pi / 2, (0, 0, 1))
+    given = {"cell": 5.0, "line_width": 0.8, "voxel": 0.4, "wall": 1.0, "tolerance": 0}
+    one = fill(block, pattern, **given).stages.voids
+    other = fill(block.copy().apply_transform(quarter), pattern, angle=90, **given).stages.voids
+    assert other.volume == pytest.approx(one.volume, rel=1e-3)
+    back = np.asarray(other.vertices) @ quarter[:3, :3]
+    assert Tree.of(one).nearest(back)[0].max() < 0.05
+    assert Tree.of(replace(other, vertices=back)).nearest(np.asarray(one.vertices, np.float64))[0].max() < 0.05
+
+
+def test_both_sides_of_a_gyroid_are_alike() -> None:
+    """Turning it inside out at the middle of a block swaps them."""
+    result = fill(box(20, 20, 20), "gyroid", cell=7, line_width=0.6, wall=1, voxel=0.4)
+    voids = result.stages.voids
+    pieces = sorted((each for each in voids.to_trimesh().split()), key=lambda each: -each.volume)
+    assert len(pieces) % 2 == 0
+    for one, other in zip(pieces[::2], pieces[1::2], strict=True):
+        assert one.volume == pytest.approx(other.volume, rel=1e-3)
+
+
+def test_units_are_no_matter() -> None:
+    block = box(20, 14, 10)
+    small = fill(block, "gyroid", cell=5, line_width=0.6, wall=1, voxel=0.4, smooth_radius=0.2)
+    large = fill(
+        block.copy().apply_scale(10), "gyroid", cell=50, line_width=6, wall=10, voxel=4, smooth_radius=2, tolerance=0.3
+    )
+    assert large.surface.volume == pytest.approx(1000 * small.surface.volume, rel=1e-5)
+
+
+# --- what patterns are -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Surfaces)])
+def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
+    from skimage.measure import marching_cubes
+
+    pattern = CELLULAR[name]
+    assert isinstance(pattern, Surfaces)
+    line = np.linspace(-0.25, 1.25, 97)
+    x, y, z = np.meshgrid(*[2 * np.pi * line] * 3, indexing="ij")
+    corners, faces, _, _ = marching_cubes(pattern.value(x, y, z), 0.0, spacing=(line[1] - line[0],) * 3)
+    mesh = Surface(vertices=corners.astype(np.float64) - 0.25, faces=faces)
+    points = np.random.default_rng(3).random((3000, 3))
+    exact, _ = Tree.of(mesh).nearest(points)
+    found = pattern.distance(points)
+    near = exact < 0.06  # as thick as walls are, at least
+    assert near.sum() > 500
+    off = np.abs(np.abs(found) - exact)[near]
+    assert np.quantile(off, 0.99) < 2e-3
+    assert off.max() < 0.02  # where another sheet is nearer than the one that is found
+    assert (np.sign(found) == np.sign(pattern.value(*(2 * np.pi * points.T))))[exact > 1e-3].all()
+
+
+@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Bars)])
+def test_the_bars_of_a_cell_repeat_and_none_that_is_near_is_missing(name: str) -> None:
+    pattern = CELLULAR[name]
+    assert isinstance(pattern, Bars)
+    edges = pattern.around_cell()
+    shifts = np.stack(np.meshgrid(*[np.arange(-2, 3)] * 3), axis=-1).reshape(-1, 1, 1, 3)
+    every = (np.array(pattern.edges)[None] + shifts).reshape(-1, 2, 3)
+    points = np.random.default_rng(5).random((500, 3))
+    assert to_edges(points, edges) == pytest.approx(to_edges(points, every), abs=1e-12)
+
+
+def to_edges(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """How far points lie from the nearest of some edges: the definition."""
+    along, beside = edges[:, 1] - edges[:, 0], points[:, None] - edges[None, :, 0]
+    share = np.clip((beside * along).sum(axis=2) / (along**2).sum(axis=1), 0, 1)
+    return np.linalg.norm(beside - share[..., None] * along, axis=2).min(axis=1)
+
+
+def test_kernels_are_their_definitions() -> None:
+    from infill.kernels.cells import from_bars, from_period, from_plane, lower_to_segments
+
+    rng = np.random.default_rng(6)
+    depth = rng.uniform(-2, 6, (5, 6, 7)).astype(np.float32)
+    cells = np.stack(np.meshgrid(*map(np.arange, depth.shape), indexing="ij"), axis=-1)
+    turn = trimesh.transformations.random_rotation_matrix(rng.random(3))[:3, :3]
+    start, period, half = rng.uniform(-9, 9, 3), 7.3, 0.8
+    places = (start + cells @ turn.T) / period
+    pattern = CELLULAR["kelvin"]
+    assert isinstance(pattern, Bars)
+    out = np.empty_like(depth)
+    filled = from_bars(depth, -1.0, pattern.around_cell(), turn, start, period, 1.0, half, out, 0, 1)
+    exact = to_edges((places % 1).reshape(-1, 3), pattern.around_cell()).reshape(depth.shape) * period - half
+    wanted = np.where(depth <= -1, depth, np.minimum(exact, depth))
+    assert out == pytest.approx(wanted, abs=1e-5)
+    assert filled == pytest.approx(np.clip(wanted + 0.5, 0, 1).sum(), abs=1e-3)
+    # A table of a function that is linear between its nodes along each axis.
+    table = rng.normal(size=(4, 4, 4)).astype(np.float32)
+    from scipy.ndimage import map_coordinates
+
+    for sign in (1.0, -1.0):
+        from_period(depth, -1.0, table, turn, start, period, sign, half, out, 0, 1)
+        there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap")
+        exact = sign * there.reshape(depth.shape) * period - half
+        assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
+    plane = rng.uniform(-2, 2, (5, 6)).astype(np.float32)
+    from_plane(depth, plane, out, 0, 1)
+    assert (out == np.minimum(plane[:, :, None], depth)).all()
+    segments = rng.uniform(0, 9, (6, 2, 2))
+    squared = np.full((10, 11), np.float32(9.0))
+    lower_to_segments(segments, 3.0, squared)
+    grid = np.stack(np.meshgrid(np.arange(10), np.arange(11), indexing="ij"), axis=-1).reshape(-1, 2)
+    flat = to_edges(np.pad(grid, ((0, 0), (0, 1))), np.pad(segments, ((0, 0), (0, 0), (0, 1))))
+    assert np.sqrt(squared).ravel() == pytest.approx(np.minimum(flat, 3.0), abs=1e-5)
+
+
+def test_a_root_is_found_where_there_are_jumps() -> None:
+    assert root(lambda times: np.log(times**2 / 5), 1e-9, 30) == pytest.approx(5**0.5)
+    stairs = root(lambda times: np.log(np.ceil(20 * times) / 57), 0.02, 30)
+    assert np.ceil(20 * stairs) == pytest.approx(57, abs=1)
+
+
+# --- fillets -----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("radius", [1.0, 2.0])
+def test_a_right_angle_is_rounded_to_the_radius_asked_for(radius: float) -> None:
+    """A block with one void, whose edges are right angles before they are smoothed."""
+    empty = {"cell": 100.0, "line_width": 1.0, "phase": (50.0, 50.0, 50.0)}
+    result = fill(box(30, 30, 30), "cubic-bars", **empty, smooth_radius=radius, voxel=0.25, tolerance=0, wall=2)
+    assert result.report["voids"]["count"] == 1
+    cut = result.stages.voids.to_trimesh().section((0, 0, 1), (0, 0, 0.01))
+    ring = np.asarray(cut.discrete[0])[:, :2]
+    corner = ring[(ring > 0).all(axis=1)]
+    tip = corner[np.argmin(np.abs(corner[:, 0] - corner[:, 1]))]
+    tip = corner[np.linalg.norm(corner - tip, axis=1) < 0.5 * radius]
+    centre, fitted = circle(tip)
+    assert fitted == pytest.approx(radius, rel=0.1)
+    assert (centre < 13 - radius).all()  # further from the corner than that of a circle that touches both sides
+
+
+def circle(points: np.ndarray) -> tuple[np.ndarray, float]:
+    """The centre and radius of the circle nearest to points."""
+    system = np.column_stack([2 * points, np.ones(len(points))])
+    x, y, rest = np.linalg.lstsq(system, (points**2).sum(axis=1), rcond=None)[0]
+    return np.array([x, y]), float(np.sqrt(rest + x * x + y * y))
+
+
+def test_no_radius_is_no_fillet() -> None:
+    empty = {"cell": 100.0, "line_width": 1.0, "phase": (50.0, 50.0, 50.0)}
+    sharp = fill(box(20, 20, 20), "cubic-bars", **empty, smooth_radius=0, wall=2).stages.voids
+    assert sharp.volume == pytest.approx(16**3, rel=0.005)
+
+
+# --- parts -------------------------------------------------------------------------------------------------------------
+
+
+def test_a_cavity_keeps_its_wall() -> None:
+    part = less(box(24, 24, 24), ball(5))
+    result = fill(part, "gyroid", **FEW)
+    assert result.report["problems"] == []
+    assert Tree.of(result.stages.voids).nearest(ball(5).vertices)[0].min() >= 0.9 * 1.5
+
+
+def test_what_overlaps_is_united_and_what_touches_is_not() -> None:
+    two = together(box(14, 14, 14), box(14, 14, 14, (7, 3, 2)))
+    result = fill(two, "gyroid", **FEW)
+    whole = union(box(14, 14, 14), box(14, 14, 14, (7, 3, 2)))
+    assert result.report["mesh"]["skin"] == "united"
+    assert result.report["problems"] == []
+    assert result.stages.part.volume == pytest.approx(whole.volume)
+    assert result.report["density"] == pytest.approx(0.3, abs=0.005)
+    apart = together(box(14, 14, 14), box(14, 14, 14, (14.01, 0, 0)))
+    result = fill(apart, "gyroid", **FEW)
+    assert result.report["mesh"]["skin"] == "as given"
+    assert result.report["part"]["components"] == 2
+    assert result.report["problems"] == []  # the wall along the gap, too
+
+
+def test_what_is_inside_out_or_has_a_hole_is_repaired_and_told() -> None:
+    block = box(16, 16, 16)
+    inverted = Surface(vertices=block.vertices, faces=block.faces[:, ::-1])
+    result = fill(inverted, "gyroid", **FEW)
+    assert result.report["mesh"]["skin"] == "turned"
+    assert result.surface.volume > 0
+    holed = Surface(vertices=block.vertices, faces=block.faces[1:])
+    result = fill(holed, "gyroid", **FEW)
+    assert (result.report["mesh"]["skin"], result.report["part"]["holes"]) == ("closed", 1)
+    assert result.report["problems"] == []
+    assert result.stages.part.volume == pytest.approx(16**3)
+
+
+def test_boxes_that_share_an_edge_are_told_apart() -> None:
+    two = together(box(14, 14, 14), box(14, 14, 14, (14, 14, 0)))
+    two.merge_vertices()
+    result = fill(two, "gyroid", **FEW)
+    assert result.report["mesh"]["manifold"] == FINE
+    assert result.report["problems"] == []
+
+
+def test_far_from_the_origin() -> None:
+    block = box(16, 12, 10)
+    here = fill(block, "gyroid", **FEW).report
+    there = fill(block.copy().apply_translation((9000, -8000, 7000)), "gyroid", **FEW).report
+    assert there["density"] == pytest.approx(here["density"], abs=1e-3)
+    assert there["problems"] == []
+
+
+def test_a_part_smaller_than_a_cell_has_thinner_walls_instead() -> None:
+    result = fill(box(6, 5, 4), "gyroid", density=0.1, wall=0.8)
+    assert result.report["problems"] == []
+    assert result.report["infill"]["line_width"] < 0.45
+    # Unless a width is asked for: then the density is what it can be, and that is told.
+    told = fill(box(6, 5, 4), "gyroid", density=0.02, line_width=0.8, wall=0.8).report["problems"]
+    assert any("the density is" in each for each in told)
+
+
+def test_what_hangs_free_is_left_out() -> None:
+    """Nodes of bars far thicker than the cell is wide between them touch nothing where a void is one cell high."""
+    block = box(12, 12, 40)
+    result = fill(block, "cubic-bars", cell=100, line_width=3, phase=(0, 0, 0), wall=1, voxel=0.4)
+    assert result.report["voids"]["islands"] == 0  # a cross of bars that reaches the wall on all sides
+    assert len(result.surface.to_trimesh().split(only_watertight=True)) == 2  # the skin, and one void
+
+
+@pytest.mark.parametrize("form", ["solid", "infill"])
+def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
+    block = box(20, 20, 12)
+    given = {"cell": 6.0, "line_width": 0.8, "wall": 1.5, "voxel": 0.3, "tolerance": 0}
+    result = fill(block, "gyroid", as_=form, overlap=0.4, **given)
+    assert list(result.surfaces) == [form]
+    assert status(result.surface) == FINE
+    lower, upper = result.surface.bounds
+    if form == "infill":
+        assert (upper - lower) / 2 == pytest.approx(np.array([10, 10, 6]) - 1.5 + 0.4, abs=0.03)
+        inside = 17 * 17 * 9
+        band = 17.8 * 17.8 * 9.8 - inside
+        assert result.surface.volume == pytest.approx(
+            result.report["density"] * inside + band, rel=0.02
+        )  # its edges are cut
+
+
+# --- what is told ------------------------------------------------------------------------------------------------------
+
+
+def test_a_thin_wall_and_a_void_outside_are_found() -> None:
+    """Planted: voids that are moved towards the skin, and through it."""
+    part = surface(box(20, 20, 20))
+    voids = fill(part, "gyroid", **FEW).stages.voids
+    assert least_wall(part, voids, 1)[0] >= 0.9 * 1.5
+    nearer = replace(voids, vertices=voids.vertices + np.array([1.0, 0, 0]))
+    least, at = least_wall(part, nearer, 1)
+    assert 0.3 < least < 0.6
+    assert at[0] == pytest.approx(10 - least, abs=0.01)
+    assert outside(part, [voids], 1) == 0
+    assert outside(part, [replace(voids, vertices=voids.vertices + np.array([40.0, 0, 0]))], 1) > 0
+
+
+@pytest.mark.parametrize(
+    ("wrong", "error", "says"),
+    [
+        ({"wall": 8}, GeometryError, "^wall is 8 mm, and the part is nowhere thicker than two"),
+        ({"density": 1.2}, ParameterError, "^density is 1.2"),
+        ({"density": 0.2, "cell": 5, "line_width": 0.4}, UsageError, "^density, cell and line_width are all given"),
+        ({"pattern": "gyriod"}, PatternError, "did you mean 'gyroid'"),
+        ({"waves": 3}, ParameterError, "^gyroid has no parameter 'waves'"),
+        ({"pattern": "honeycomb", "waves": 3}, ParameterError, "^honeycomb has no parameter 'waves'"),
+        ({"align": "top"}, UsageError, "^align is 'top'; choose from part, bed"),
+        ({"as_": "shell"}, UsageError, "^as is 'shell'; choose from solid, infill"),
+        ({"phase": (1.0,)}, UsageError, "^phase has 1 numbers"),
+        ({"max_triangles": 20}, GeometryError, "^max_triangles is 20, and the skin of the part alone has 12"),
+        ({"max_memory": 10_000}, MemoryLimitError, "give larger voxels"),
+    ],
+)
+def test_what_cannot_be_done_is_one_clear_line(wrong: dict[str, Any], error: type[Exception], says: str) -> None:
+    with pytest.raises(error, match=says) as told:
+        fill(box(12, 12, 12), **{"pattern": "gyroid", **wrong})
+    assert "\n" not in str(told.value)
+
+
+def test_a_sheet_is_no_part() -> None:
+    sheet = Surface(vertices=np.array([[0.0, 0, 0], [9, 0, 0], [9, 9, 0]]), faces=np.array([[0, 1, 2]]))
+    with pytest.raises(GeometryError, match="encloses nothing"):
+        fill(sheet)
+
+
+def test_triangles_are_no_more_than_asked_for(part: trimesh.Trimesh) -> None:
+    many = fill(part, "gyroid", density=0.25)
+    few = fill(part, "gyroid", density=0.25, max_triangles=30_000)
+    assert many.report["triangles"] > 40_000
+    assert few.report["triangles"] <= 30_000
+    assert few.report["mesh"]["manifold"] == FINE
+    assert few.report["density"] == pytest.approx(0.25, abs=0.01)
+
+
+def test_a_hollow_knows_its_density() -> None:
+    request = checked(
+        pattern="gyroid",
+        own={},
+        density=0.3,
+        cell=None,
+        line_width=None,
+        wall=1.0,
+        overlap=0.1,
+        angle=0.0,
+        phase=(0.0, 0.0, 0.0),
+        align="bed",
+        form="solid",
+        smooth_radius=None,
+        tolerance=0.03,
+        voxel=0.2,
+        max_triangles=None,
+    )
+    block = surface(box(16, 16, 16))
+    hollow = hollowed(block, request, voids_of(request, block.bounds, 1), clock=Clock(None))
+    assert hollow.space.volume == pytest.approx(14**3, rel=1e-3)
+    assert hollow.density == pytest.approx(0.3, abs=0.002 + 1e-9)
+    assert hollow.triangles == len(hollow.surface.faces)
+
+
+def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> None:
+    text = PAGE.read_text(encoding="utf-8").partition(FILL)[2]
+    results = {
+        "plain": fill(part, **FEW),
+        "lines": fill(part, "zigzag", waves=5, cell=5, line_width=0.5, voxel=0.5, max_triangles=10**6),
+        "infill": fill(part, BAR, as_="infill", smooth_radius=0.3, voxel=0.5, density=0.3),
+    }
+    reports = {name: result.report for name, result in results.items()}
+    assert differences(described(text), reports, ("fill",)) == []
+    for report in reports.values():
+        assert json.loads(json.dumps(report, allow_nan=False)) == report
+        assert list(misfits(report, FillReport)) == []
+
+
+# --- files -------------------------------------------------------------------------------------------------------------
+
+
+def test_the_command_writes_what_python_makes(tmp_path: Path, part: trimesh.Trimesh) -> None:
+    given, out, picture = tmp_path / "part.stl", tmp_path / "out.stl", tmp_path / "out.png"
+    part.export(given)
+    done = command(
+        "fill", given, "--density", "30%", "--wall", 1.5, "--voxel", 0.5, "-o", out, "--preview", picture, "--json"
+    )
+    assert done.exit_code == 0, done.stderr
+    report = json.loads(done.stdout)
+    assert report["files"] == [str(out), str(picture)]
+    read, made = read_mesh(out), fill(read_mesh(given), **FEW)
+    assert len(read.faces) == len(made.surface.faces) == report["triangles"]
+    assert read.volume == pytest.approx(made.surface.volume, rel=1e-5)
+    assert "as it was" in done.stderr
+    with Image.open(picture) as image:
+        pixels = np.asarray(image.convert("RGB")).astype(int)
+    orange = (pixels[..., 0] - pixels[..., 2] > 60).sum()
+    assert orange > 500  # what was cut
+    one_line_error(command("fill", given, "-o", out), "exists")
+
+
+def test_a_dry_run_says_what_it_would_take(tmp_path: Path, part: trimesh.Trimesh) -> None:
+    given = tmp_path / "part.stl"
+    part.export(given)
+    plan = json.loads(command("fill", given, "--pattern", "honeycomb", "--dry-run", "--json").stdout)
+    done = fill(read_mesh(given), "honeycomb").report
+    assert plan["request"] == done["request"]
+    assert plan["grid"]["spacing"] == pytest.approx(done["grid"]["spacing"])
+    assert plan["infill"]["cell"] == pytest.approx(done["infill"]["cell"], rel=0.4)
+    assert "memory" in command("fill", given, "--dry-run").stdout
+    assert sorted(tmp_path.iterdir()) == [given]
+
+
+@pytest.mark.skipif(bool(slicers.missing_prusa()), reason=slicers.missing_prusa() or "there")
+def test_prusaslicer_slices_it_without_repairs(tmp_path: Path, part: trimesh.Trimesh) -> None:
+    path = tmp_path / "filled.stl"
+    fill(part, **FEW).save(path)
+    facts = slicers.prusa_info(path)
+    assert (facts["manifold"], facts["repairs"]) == (True, {})
+    assert facts["volume"] == pytest.approx(read_mesh(path).volume, rel=1e-4)
+    assert slicers.prusa_slice(path)["layers"] > 20
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern", "density"),
+    [
+        ("bracket_medium.stl", "gyroid", 0.15),
+        ("m3x10_screw.stl", "octet", 0.3),
+        ("prusa_x-carriage.stl", "concentric-heart", 0.15),
+        ("voron_thread_test_2.stl", "gyroid", 0.3),
+        ("far_out_ring.stl", "honeycomb", 0.15),
+    ],
+)
+def test_real_parts(name: str, pattern: str, density: float, data: Path) -> None:
+    given = read_mesh(data / "printable" / name)
+    result = fill(given, pattern, density=density)
+    assert result.report["problems"] == []
+    assert (result.surface.vertices[: len(given.vertices)] == given.vertices).all()
+    assert abs(result.report["density"] - density) < 0.005
+    assert result.report["walls"]["least"] >= 0.9 * 1.2
+    assert result.report["triangles"] <= 1_000_000
