@@ -153,14 +153,13 @@ def fill(
         ),
     ] = "solid",
     overlap: Annotated[
-        float,
+        float | None,
         typer.Option(
             metavar="MM",
-            show_default=False,
             help="How far the infill alone reaches into the shell. (default: 0.15)",
             rich_help_panel=SOLID,
         ),
-    ] = 0.15,
+    ] = None,
     tolerance: Annotated[
         float,
         typer.Option(

@@ -16,7 +16,6 @@ import numpy as np
 
 from infill.filling.solids.hollowing import INTERFACE, SHARE, Hollow, hollowed
 from infill.filling.solids.request import (
-    OVERLAP,
     TOLERANCE,
     WALL,
     Request,
@@ -58,7 +57,7 @@ def fill(
     angle: float = 0.0,
     phase: tuple[float, ...] = (0.0, 0.0, 0.0),
     smooth_radius: float | None = None,
-    overlap: float = OVERLAP,
+    overlap: float | None = None,
     tolerance: float = TOLERANCE,
     max_triangles: int | None = None,
     voxel: float | None = None,
@@ -95,8 +94,8 @@ def fill(
         Shifts the pattern, mm.
     smooth_radius : float, optional
         Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for none.
-    overlap : float
-        mm
+    overlap : float, optional
+        mm; 0.15 by default, and at most half the wall.
     tolerance : float
         How far simplifying may move the surfaces of voids, mm; 0 keeps every triangle.
     max_triangles : int, optional

@@ -12,7 +12,7 @@ from infill.errors import GeometryError
 from infill.filling.solids.request import RIGHT_ANGLE, Request, Size, coarsest_for, sizes_for, voxel_for
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import Space, space_inside
-from infill.filling.solids.voids import Voids
+from infill.filling.solids.voids import Repeating, Voids
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import on_profile
@@ -32,6 +32,7 @@ LEAST = 1e-6  # densities below this are none
 TRIES, ROUNDS, REFITS = 8, 9, 3
 MOST_LARGER = 3.0  # than cells and walls were before, where there were too many triangles
 FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of its cells, ask for
+TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
@@ -110,33 +111,31 @@ def hollowed(
     MemoryLimitError
         If memory will not suffice.
     """
-    with clock.stage("density", 0.0):
-        sizes, varied = sizes_for(request, voids), request.varied
     extents = np.ptp(part.bounds, axis=0)
+    with clock.stage("density", 0.0):
+        sizes, varied = sizes_for(request, voids, extents), request.varied
     voxel = voxel_for(request, voids, extents, *sizes)
+    last = False
     for attempt in range(REFITS + 1):
-        with clock.stage("depth", 0.2 * attempt):
+        done, last = 0.2 * attempt, last or attempt == REFITS
+        with clock.stage("depth", done):
             space = space_inside(part, wall=request.wall, voxel=voxel, threads=threads, max_memory=max_memory)
         room = request.room(len(space.part.faces))
-        with clock.stage("density", 0.2 * attempt + 0.05):
+        with clock.stage("density", done + 0.05):
             sizes, varied = _sized(space, voids, request, sizes, varied)
-        with clock.stage("voids", 0.2 * attempt + 0.1):
-            found = _corrected(space, voids, request, sizes, varied, threads)
-        with clock.stage("simplify", 0.2 * attempt + 0.18):
-            if request.tolerance > 0:
-                few = [shortened(each, SHARE * request.tolerance) for each in found.surfaces]
-                found = replace(found, surfaces=few, tolerance=request.tolerance)
-        if found.triangles <= room or attempt == REFITS:
-            break
-        many, sizes = found.triangles / room, (found.cell, found.width)
-        wanted, coarsest = voxel * max(1.1, FEWER * many**0.5), coarsest_for(request, voids, *sizes)
-        if wanted > coarsest and request.cell is None and request.line_width is None:
-            larger = min(MOST_LARGER, max(1.2, many))
-            sizes = (found.cell * larger, found.width * larger)
-            wanted = coarsest = voxel_for(request, voids, extents, *sizes)
-        if min(wanted, coarsest) < 1.05 * voxel:
-            break
-        voxel = min(wanted, coarsest)
+            triangles = _about(space, voids, sizes) if isinstance(voids, Repeating) else 0
+        if last or triangles <= FAR_TOO_MANY * room:
+            with clock.stage("voids", done + 0.1):
+                found = _corrected(space, voids, request, sizes, varied, threads)
+            with clock.stage("simplify", done + 0.18):
+                found = _shortened(found, request.tolerance)
+            triangles, sizes = found.triangles, (found.cell, found.width)
+            if last or triangles <= room:
+                break
+        larger, coarser = _coarser(request, voids, sizes, voxel, triangles / room)
+        last = coarser < 1.05 * voxel
+        if not last:
+            sizes, voxel = larger, coarser
     if not found.surfaces:
         raise GeometryError(
             f"the pattern leaves no void inside walls of {request.wall:g} mm; give larger cells, a lower density or a "
@@ -146,6 +145,40 @@ def hollowed(
         with clock.stage("simplify", 0.8):
             found = _cut_down(found, room, threads=threads, max_memory=max_memory)
     return found
+
+
+def _coarser(
+    request: Request,
+    voids: Voids,
+    sizes: tuple[float, float],
+    voxel: float,
+    many: float,
+) -> tuple[tuple[float, float], float]:
+    """Return sizes and voxel with which there would be a fraction of the triangles, as far as that may be."""
+    wanted, coarsest = voxel * max(1.1, FEWER * many**0.5), coarsest_for(request, voids, *sizes)
+    if wanted > coarsest and request.cell is None and request.line_width is None:
+        larger = min(MOST_LARGER, max(1.2, wanted / coarsest))
+        sizes = (sizes[0] * larger, sizes[1] * larger)
+        coarsest = coarsest_for(request, voids, *sizes)
+    return sizes, min(wanted, coarsest)
+
+
+def _shortened(found: Hollow, tolerance: float) -> Hollow:
+    """Return the voids without the triangles that flat places need not."""
+    if tolerance == 0:
+        return found
+    return replace(found, surfaces=[shortened(each, SHARE * tolerance) for each in found.surfaces], tolerance=tolerance)
+
+
+def _about(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:
+    """Return about how many triangles the surfaces of the voids will have, before they are simplified."""
+    cell, width = sizes
+    out = np.empty_like(space.depth)
+    crossed = 0
+    for which in range(voids.count(space, cell=cell, width=width)):
+        voids.into(out, space, which, cell=cell, width=width)
+        crossed += sum(int((np.abs(layer) < 0.5).sum()) for layer in out)
+    return TRIANGLES_A_CELL * crossed
 
 
 def _sized(
@@ -297,11 +330,13 @@ def _cut_down(found: Hollow, room: int, *, threads: int | None, max_memory: int 
     tolerance = max(found.tolerance, FINEST * found.space.size)
     for _ in range(DOUBLINGS):
         tolerance *= 2
-        few = [shortened(each, SHARE * tolerance) for each in found.surfaces]
-        if sum(len(each.faces) for each in few) <= room:
-            return replace(found, surfaces=few, tolerance=tolerance)
-    needed = COLLAPSE_BYTES * max(len(each.faces) for each in few)
+        few = _shortened(found, tolerance)
+        if few.triangles <= room:
+            return few
+    needed = COLLAPSE_BYTES * max(len(each.faces) for each in few.surfaces)
     require_memory(needed, max_memory, f"the voids have {found.triangles:,} triangles; give larger cells or voxels")
-    share = room / sum(len(each.faces) for each in few)
-    few = [simplified(each, triangles=max(4, int(share * len(each.faces))), threads=threads) for each in few]
-    return replace(found, surfaces=few, tolerance=math.inf)
+    share = room / few.triangles
+    fewest = [
+        simplified(each, triangles=max(4, int(share * len(each.faces))), threads=threads) for each in few.surfaces
+    ]
+    return replace(found, surfaces=fewest, tolerance=math.inf)

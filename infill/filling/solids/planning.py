@@ -16,8 +16,9 @@ from infill.voxels.from_mesh import grid_around
 def planned_fill(part: Surface, request: Request, *, threads: int | None = None) -> dict[str, Any]:
     """Return cell, line width, grid and memory, as the report of `fill` has them."""
     voids = voids_of(request, part.bounds, threads)
-    cell, width = sizes_for(request, voids)
-    voxel = voxel_for(request, voids, np.ptp(part.bounds, axis=0), cell, width)
+    extents = np.ptp(part.bounds, axis=0)
+    cell, width = sizes_for(request, voids, extents)
+    voxel = voxel_for(request, voids, extents, cell, width)
     grid = grid_around(part, voxel=voxel, margin=MARGIN)
     return {
         "request": request.facts(),

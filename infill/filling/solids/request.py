@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -41,6 +41,7 @@ LEAST_FINE, LEAST_FINE_BARS, LEAST_ACROSS, LEAST_ACROSS_BAR = (
 )  # where there would be too many triangles
 MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
 FURTHEST = 1e4  # mm
+SLACK = 1.01
 FEWEST_TRIANGLES = 1000  # of voids
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or no use
 LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
@@ -157,7 +158,7 @@ def checked(
     cell: float | None,
     line_width: float | None,
     wall: float,
-    overlap: float,
+    overlap: float | None,
     angle: float,
     phase: tuple[float, ...],
     align: str,
@@ -192,7 +193,7 @@ def checked(
         cell=None if cell is None else length("cell", cell),
         line_width=None if line_width is None else length("line_width", line_width),
         wall=wall,
-        overlap=within("overlap", overlap, 0.0, 0.9 * wall, "mm"),
+        overlap=min(OVERLAP, wall / 2) if overlap is None else within("overlap", overlap, 0.0, 0.9 * wall, "mm"),
         angle=within("angle", angle, -360.0, 360.0, "degrees"),
         phase=(shift[0], shift[1], shift[2] if len(shift) == 3 else 0.0),
         align=align,  # type: ignore[arg-type]
@@ -250,8 +251,19 @@ def pattern_of(request: Request) -> Pattern:
     return made
 
 
-def sizes_for(request: Request, voids: Voids) -> tuple[float, float]:
-    """Return cell and width, mm: as asked, or as the density would have them far from any skin."""
+def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
+    """Return cell and width, mm: as asked, or as the density would have them far from any skin.
+
+    In a part too large for a grid as fine as that needs, both are larger, unless one was asked for.
+    """
+    cell, width = _sizes(request, voids)
+    if request.cell is None and request.line_width is None:
+        larger = max(1.0, SLACK * _finest(extents) / coarsest_for(replace(request, wall=math.inf), voids, cell, width))
+        return cell * larger, width * larger
+    return cell, width
+
+
+def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
     if request.cell is not None and request.line_width is not None:
         return request.cell, request.line_width
     assert request.density is not None
@@ -274,8 +286,28 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell / FINE)
-    whole = math.prod(np.maximum(extents, size).tolist())
-    return min(max(size, math.cbrt(whole / MOST)), math.cbrt(whole / FEWEST))
+    size = min(max(size, _finest(extents)), math.cbrt(_box(extents) / FEWEST))
+    if size > request.wall / LEAST_ACROSS:
+        raise GeometryError(
+            f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
+            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit"
+        )
+    if size > (most := coarsest_for(request, voids, cell, width)):
+        raise GeometryError(
+            f"cell is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
+            f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density"
+        )
+    return size
+
+
+def _box(extents: NDArray[np.floating]) -> float:
+    """Return the volume of the box around a part, mm³; a flat one is as thick as a thousandth of its length."""
+    return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
+
+
+def _finest(extents: NDArray[np.floating]) -> float:
+    """Return the side of the cells of the finest grid around a part, mm."""
+    return float(math.cbrt(_box(extents) / MOST))
 
 
 def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:

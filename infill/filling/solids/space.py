@@ -122,15 +122,15 @@ def _skin(found: Voxelised) -> tuple[Surface, str, float]:
         faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
         mesh, skin = Surface(vertices=mesh.vertices, faces=faces), "turned" if skin == "as given" else skin
     overlap = float(held.excess.sum() / held.total)
-    if (verdict := status(mesh)) == FINE and overlap <= LEAST_OVERLAP:
+    verdict = status(mesh)
+    if mesh.closed and verdict == FINE and overlap <= LEAST_OVERLAP:
         return mesh, skin, 0.0
     parts = parted(mesh, float(found.volume.cell_size[0])).surfaces
-    if overlap <= LEAST_OVERLAP:
-        mesh = joined(list(parts))
-        verdict, skin = status(mesh), "parted"
-    elif (whole := united(parts)) is not None:
+    if overlap > LEAST_OVERLAP and (whole := united(parts)) is not None:
         # The union counts what parts enclose together once, as the exact volume does.
         mesh, verdict, skin, overlap = whole, FINE, "united", abs(1 - held.total / whole.volume)
+    elif parts and (apart := joined(list(parts))).closed:
+        mesh, verdict, skin = apart, status(apart), "parted"
     if verdict != FINE:
         raise GeometryError(
             f"the mesh of {len(mesh.faces):,} triangles is no solid, even with its holes closed ({verdict}, says "

@@ -49,6 +49,8 @@ def problems(
         yield f"the wall is {least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
     if astray:
         yield f"{astray} void(s) lie outside of the part"
+    if not hollow.space.part.closed:
+        yield "the part has edges with more than two faces, and so has the result"
     if overlap > LEAST_OVERLAP:
         yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
     if verdict != FINE:
