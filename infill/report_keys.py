@@ -490,6 +490,20 @@ class FillPart(TypedDict):
     holes: int
 
 
+class ClosedVoid(TypedDict):
+    """A void that nothing drains from."""
+
+    volume: float
+    at: Vector
+
+
+class FillDrains(TypedDict):
+    """Holes that voids drain through."""
+
+    count: int
+    at: list[Vector]
+
+
 class FillVoids(TypedDict):
     """What was taken out of it."""
 
@@ -498,6 +512,7 @@ class FillVoids(TypedDict):
     triangles: int
     specks: int
     islands: int
+    closed: list[ClosedVoid]
 
 
 class FillWalls(TypedDict):
@@ -522,6 +537,7 @@ class FillRequest(TypedDict):
     align: str
     form: str
     overlap: float
+    drain: float | None
     smooth_radius: float | None
     tolerance: float
     voxel: float | None
@@ -560,5 +576,6 @@ class FillReport(TypedDict):
     infill: FillSizes
     part: FillPart
     voids: FillVoids
+    drains: FillDrains
     walls: FillWalls
     seconds: FillSeconds

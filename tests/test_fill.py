@@ -18,6 +18,7 @@ from test_command_line import run as command
 from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
+from infill.filling.solids.drains import falls
 from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.request import checked, voids_of
 from infill.filling.solids.roots import root
@@ -339,6 +340,45 @@ def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
         )  # its edges are cut
 
 
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "honeycomb"])
+def test_every_void_drains_or_is_listed(pattern: str, part: trimesh.Trimesh) -> None:
+    shut = fill(part, pattern, **FEW)
+    assert len(shut.report["voids"]["closed"]) == shut.report["voids"]["count"] > 0
+    assert sum(each["volume"] for each in shut.report["voids"]["closed"]) == pytest.approx(
+        shut.report["voids"]["volume"], rel=1e-6
+    )
+    result = fill(part, pattern, drain=1.5, **FEW)
+    report, solid = result.report, result.surface
+    assert report["problems"] == []
+    assert report["voids"]["closed"] == []
+    assert report["drains"]["count"] == report["voids"]["count"]
+    assert solid.closed
+    assert status(solid) == FINE
+    assert len(solid.to_trimesh().split(only_watertight=False)) == 1  # one surface, inside and out
+    # A line through each drain meets no solid from the void to where it leaves the part.
+    for x, y, z in report["drains"]["at"]:
+        line = np.array([[x, y, z + step] for step in np.linspace(-0.5, 0.5, 9)])
+        assert (winding(line, solid) == 0).all()
+    assert Tree.of(surface(part)).nearest(np.array(report["drains"]["at"]))[0].max() < 1e-6
+
+
+def test_drains_fall_where_a_vertical_line_first_leaves_the_part() -> None:
+    arch = less(box(20, 20, 20), box(10, 30, 10))  # a tunnel through the middle
+    points = np.array([[0.1, 0.2, 8.0], [7.1, 0.3, 8.0], [0.1, 0.2, -8.0], [30.0, 0.0, 0.0]])
+    assert falls(surface(arch), points) == pytest.approx([5.0, -10.0, -10.0, np.nan], nan_ok=True)
+
+
+def test_a_void_that_stays_closed_is_told() -> None:
+    """A cavity of the part itself, into which the only void drains, has no drain."""
+    part = less(box(16, 16, 20), box(15, 15, 2, (0, 0, -8)))
+    empty = {"cell": 100.0, "line_width": 1.0, "phase": (50.0, 50.0, 50.0)}
+    report = fill(part, "cubic-bars", **empty, wall=2.5, voxel=0.4, drain=1.5).report
+    assert report["drains"]["count"] == 1
+    (left,) = report["voids"]["closed"]
+    assert left["volume"] > 15 * 15 * 2
+    assert any("still closed" in each for each in report["problems"])
+
+
 # --- what is told ------------------------------------------------------------------------------------------------------
 
 
@@ -410,6 +450,7 @@ def test_a_hollow_knows_its_density() -> None:
     request = checked(
         pattern="gyroid",
         own={},
+        drain=None,
         density=0.3,
         cell=None,
         line_width=None,
@@ -436,6 +477,7 @@ def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> Non
     results = {
         "plain": fill(part, **FEW),
         "lines": fill(part, "zigzag", waves=5, cell=5, line_width=0.5, voxel=0.5, max_triangles=10**6),
+        "drained": fill(part, drain=2, **FEW),
         "infill": fill(part, BAR, as_="infill", smooth_radius=0.3, voxel=0.5, density=0.3),
     }
     reports = {name: result.report for name, result in results.items()}

@@ -133,6 +133,14 @@ def fill(
             metavar="MM", show_default=False, help="Thickness of the shell. (default: 1.2)", rich_help_panel=SOLID
         ),
     ] = 1.2,
+    drain: Annotated[
+        float | None,
+        typer.Option(
+            metavar="MM",
+            help="Diameter of a hole down from the lowest place of every void, for powder and resin. (default: none)",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
     smooth_radius: Annotated[
         float | None,
         typer.Option(
@@ -233,6 +241,7 @@ def fill(
             align=align,
             angle=angle,
             phase=phase,
+            drain=drain,
             smooth_radius=smooth_radius,
             overlap=overlap,
             tolerance=tolerance,
@@ -259,6 +268,14 @@ def fill(
         say(_summary(result.report, files, str(part), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": files})
+
+
+def _drained(report: FillReport) -> str:
+    closed, drains = len(report["voids"]["closed"]), report["drains"]["count"]
+    if not drains:
+        return "closed: nothing drains from them"
+    left = f"; {closed:,} still closed" if closed else ""
+    return f"{drains:,} drain(s) of {report['request']['drain']:g} mm{left}"
 
 
 def _own(pattern: str, assigned: list[str]) -> dict[str, Any]:
@@ -293,13 +310,15 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
         report["infill"],
     )
     skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
+    if report["drains"]["count"]:
+        skin += ", but for the drains"
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
         "solid": f"{report['volume']:.6g} mm³, {report['volume'] / report['part']['volume']:.1%} of the part",
         "density": f"{report['density']:.1%} inside the walls: cells of {infill['cell']:.4g} mm, lines of "
         f"{infill['line_width']:.3g} mm",
         "walls": f"{walls['least']:.3g} mm at least, {walls['requested']:g} asked for",
-        "voids": f"{voids['count']:,}, closed: nothing drains from them",
+        "voids": f"{voids['count']:,}, {_drained(report)}",
     }
     if request["form"] == "infill":
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"

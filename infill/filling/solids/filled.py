@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from infill.filling.solids.drains import drained, trapped
 from infill.filling.solids.hollowing import INTERFACE, SHARE, Hollow, hollowed
 from infill.filling.solids.request import (
     TOLERANCE,
@@ -56,6 +57,7 @@ def fill(
     align: str = "part",
     angle: float = 0.0,
     phase: tuple[float, ...] = (0.0, 0.0, 0.0),
+    drain: float | None = None,
     smooth_radius: float | None = None,
     overlap: float | None = None,
     tolerance: float = TOLERANCE,
@@ -92,6 +94,8 @@ def fill(
         Turns the pattern counter-clockwise about z, degrees.
     phase : (x, y) or (x, y, z)
         Shifts the pattern, mm.
+    drain : float, optional
+        Diameter of a hole straight down from the lowest place of every void, mm; by default there is none.
     smooth_radius : float, optional
         Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for none.
     overlap : float, optional
@@ -144,6 +148,7 @@ def fill(
         phase=phase,
         align=align,
         form=as_,
+        drain=drain,
         smooth_radius=smooth_radius,
         tolerance=tolerance,
         voxel=voxel,
@@ -177,9 +182,13 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
     outer = space.part if request.form == "solid" else _inside(space, request, threads)
     solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
     least, at = least_wall(space.part, voids, threads)
+    drains = np.empty((0, 3))
+    if request.drain is not None:
+        solid, drains = drained(solid, space.part, voids, request.drain)
+    closed = trapped(solid) if request.form == "solid" else []
     verdict = status(solid)
     astray = outside(space.part, hollow.surfaces, threads)
-    told = list(problems(request, hollow, least, at, astray, verdict))
+    told = list(problems(request, hollow, least, at, astray, closed, verdict))
     bounds = solid.bounds
     report = {
         "form": FORM,
@@ -221,7 +230,9 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
             "triangles": len(voids.faces),
             "specks": hollow.specks,
             "islands": hollow.islands,
+            "closed": [{"volume": volume, "at": place} for volume, place in closed],
         },
+        "drains": {"count": len(drains), "at": drains.tolist()},
         "walls": {"requested": request.wall, "least": least, "at": at},
     }
     return solid, report

@@ -36,6 +36,7 @@ TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
+LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
 SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 INTERFACE = 2.0  # cells: in thinner ones, curvature moves the surface slower than it should
@@ -133,6 +134,7 @@ def hollowed(
             if last or triangles <= room:
                 break
         larger, coarser = _coarser(request, voids, sizes, voxel, triangles / room)
+        coarser = min(coarser, space.thickness / LEAST_THICK)
         last = coarser < 1.05 * voxel
         if not last:
             sizes, voxel = larger, coarser

@@ -33,12 +33,8 @@ LOWEST, HIGHEST = 0.01, 0.9  # densities
 # of bars; across a wall of the part and a bar; in all.
 FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
 ACROSS, ACROSS_BAR = 2.5, 4.0
-LEAST_FINE, LEAST_FINE_BARS, LEAST_ACROSS, LEAST_ACROSS_BAR = (
-    0.58,
-    9.0,
-    1.5,
-    3.0,
-)  # where there would be too many triangles
+LEAST_FINE, LEAST_FINE_LINES, LEAST_FINE_BARS = 0.58, 2.5, 9.0
+LEAST_ACROSS, LEAST_ACROSS_BAR = 1.5, 3.0
 MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
 FURTHEST = 1e4  # mm
 SLACK = 1.01
@@ -70,6 +66,8 @@ class Request:
         mm; None for what follows from the density.
     wall, overlap, tolerance : float
         mm
+    drain : float or None
+        Diameter of a hole for each void, mm.
     smooth_radius : float or None
         mm; None for the default, which small parts have smaller.
     angle : float
@@ -94,6 +92,7 @@ class Request:
     phase: tuple[float, float, float]
     align: Align
     form: Form
+    drain: float | None
     smooth_radius: float | None
     tolerance: float
     voxel: float | None
@@ -143,6 +142,7 @@ class Request:
             "align": self.align,
             "form": self.form,
             "overlap": self.overlap,
+            "drain": self.drain,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
             "voxel": self.voxel,
@@ -163,6 +163,7 @@ def checked(
     phase: tuple[float, ...],
     align: str,
     form: str,
+    drain: float | None,
     smooth_radius: float | None,
     tolerance: float,
     voxel: float | None,
@@ -175,6 +176,8 @@ def checked(
         raise UsageError(f"align is {align!r}; choose from {', '.join(get_args(Align))}")
     if form not in get_args(Form):
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
+    if drain is not None and form == "infill":
+        raise UsageError("drain is for a shell with its infill, and as is 'infill'; leave one of them out")
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
     shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
@@ -198,6 +201,7 @@ def checked(
         phase=(shift[0], shift[1], shift[2] if len(shift) == 3 else 0.0),
         align=align,  # type: ignore[arg-type]
         form=form,  # type: ignore[arg-type]
+        drain=None if drain is None else length("drain", drain),
         smooth_radius=None if smooth_radius is None else within("smooth_radius", smooth_radius, 0.0, 100.0, "mm"),
         tolerance=within("tolerance", tolerance, 0.0, 100.0, "mm"),
         voxel=None if voxel is None else positive("voxel", voxel, "mm"),
@@ -314,9 +318,9 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
     """Return the largest side of the cells of a grid that still has the pattern in it, mm."""
     if request.voxel is not None:
         return request.voxel
-    if isinstance(voids, Drawn):
-        return COARSEST_LINES
     size = request.wall / LEAST_ACROSS
+    if isinstance(voids, Drawn):
+        return min(size, cell / LEAST_FINE_LINES)
     if _has_bars(voids):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell / LEAST_FINE)

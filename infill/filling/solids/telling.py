@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -35,7 +35,7 @@ def outside(part: Surface, voids: list[Surface], threads: int | None) -> int:
 
 
 def problems(
-    request: Request, hollow: Hollow, least: float, at: list[float], astray: int, verdict: str
+    request: Request, hollow: Hollow, least: float, at: list[float], astray: int, closed: Sequence[object], verdict: str
 ) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved = hollow.space.overlap, hollow.tolerance
@@ -53,5 +53,7 @@ def problems(
         yield "the part has edges with more than two faces, and so has the result"
     if overlap > LEAST_OVERLAP:
         yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
+    if request.drain is not None and closed:
+        yield f"{len(closed)} void(s) are still closed; give larger or smaller drains, or turn the part"
     if verdict != FINE:
         yield f"manifold3d does not take it: {verdict}"
