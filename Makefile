@@ -104,6 +104,7 @@ bench: .venv/test
 	@$(BIN)/python -m benchmarks.smooth_files
 	@$(BIN)/python -m benchmarks.simplify
 	@$(BIN)/python -m benchmarks.smooth_points
+	@$(BIN)/python -m benchmarks.fill_parts
 
 # Refill in the real slicers, and docs/slicer-report.md: hours; what was run before is kept in build/slicer-report.json.
 # `make slicer-report ONLY=--quick` takes some minutes, `ONLY=--page` writes the page of what is there.

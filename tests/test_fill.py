@@ -26,7 +26,7 @@ from infill.filling.solids.telling import least_wall, outside
 from infill.report_keys import FillReport
 from infill.result import Clock
 from infill.surfaces.distance import Tree
-from infill.surfaces.solids import FINE, status
+from infill.surfaces.solids import FINE, in_one_place, shortened, status
 from infill.surfaces.winding import winding
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR
@@ -444,6 +444,19 @@ def test_triangles_are_no_more_than_asked_for(part: trimesh.Trimesh) -> None:
     assert few.report["triangles"] <= 30_000
     assert few.report["mesh"]["manifold"] == FINE
     assert few.report["density"] == pytest.approx(0.25, abs=0.01)
+
+
+def test_simplified_voids_stay_closed_in_single_precision(part: trimesh.Trimesh) -> None:
+    """Files of most formats have no more: two vertices in one place would be one, and an edge between two such, four."""
+    voids = fill(part, BAR, density=0.25, tolerance=0).stages.voids
+    assert not in_one_place(voids).any()
+    for tolerance in np.linspace(0.01, 0.1, 10):
+        few = shortened(voids, tolerance)
+        assert not in_one_place(few).any()
+        assert few.closed
+    assert len(few.faces) < 0.6 * len(voids.faces)
+    twice = replace(voids, vertices=np.concatenate([voids.vertices, voids.vertices[:1] + 1e-9]))
+    assert in_one_place(twice).sum() == 2
 
 
 def test_a_hollow_knows_its_density() -> None:

@@ -33,7 +33,7 @@ from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.surfaces.parting import joined
-from infill.surfaces.solids import shortened, status
+from infill.surfaces.solids import in_one_place, shortened, status
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.version import __version__
 
@@ -187,8 +187,9 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
         solid, drains = drained(solid, space.part, voids, request.drain)
     closed = trapped(solid) if request.form == "solid" else []
     verdict = status(solid)
+    crowded = max(0, int(in_one_place(solid).sum()) - int(in_one_place(outer).sum()))
     astray = outside(space.part, hollow.surfaces, threads)
-    told = list(problems(request, hollow, least, at, astray, closed, verdict))
+    told = list(problems(request, hollow, least, at, astray, closed, crowded, verdict))
     bounds = solid.bounds
     report = {
         "form": FORM,

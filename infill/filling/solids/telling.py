@@ -35,7 +35,14 @@ def outside(part: Surface, voids: list[Surface], threads: int | None) -> int:
 
 
 def problems(
-    request: Request, hollow: Hollow, least: float, at: list[float], astray: int, closed: Sequence[object], verdict: str
+    request: Request,
+    hollow: Hollow,
+    least: float,
+    at: list[float],
+    astray: int,
+    closed: Sequence[object],
+    crowded: int,
+    verdict: str,
 ) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved = hollow.space.overlap, hollow.tolerance
@@ -55,5 +62,7 @@ def problems(
         yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
     if request.drain is not None and closed:
         yield f"{len(closed)} void(s) are still closed; give larger or smaller drains, or turn the part"
+    if crowded:
+        yield f"{crowded} vertices are in one place in single precision: an STL of it is not closed"
     if verdict != FINE:
         yield f"manifold3d does not take it: {verdict}"
