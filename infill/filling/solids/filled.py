@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from infill.filling.solids.drains import drained, trapped
+from infill.filling.solids.drains import drained
 from infill.filling.solids.hollowing import INTERFACE, SHARE, Hollow, hollowed
 from infill.filling.solids.request import (
     TOLERANCE,
@@ -25,7 +25,7 @@ from infill.filling.solids.request import (
 )
 from infill.filling.solids.space import Space
 from infill.filling.solids.stages import FillStages
-from infill.filling.solids.telling import least_wall, outside, problems
+from infill.filling.solids.telling import measured, problems
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import on_profile
 from infill.phasefield.sparse import smooth_bricks
@@ -33,7 +33,7 @@ from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.surfaces.parting import joined
-from infill.surfaces.solids import in_one_place, shortened, status
+from infill.surfaces.solids import shortened
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.version import __version__
 
@@ -181,15 +181,10 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
     space, voids, share = hollow.space, hollow.surface, hollow.density
     outer = space.part if request.form == "solid" else _inside(space, request, threads)
     solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
-    least, at = least_wall(space.part, voids, threads)
     drains = np.empty((0, 3))
     if request.drain is not None:
         solid, drains = drained(solid, space.part, voids, request.drain)
-    closed = trapped(solid) if request.form == "solid" else []
-    verdict = status(solid)
-    crowded = max(0, int(in_one_place(solid).sum()) - int(in_one_place(outer).sum()))
-    astray = outside(space.part, hollow.surfaces, threads)
-    told = list(problems(request, hollow, least, at, astray, closed, crowded, verdict))
+    facts = measured(solid, outer, hollow, request, threads=threads)
     bounds = solid.bounds
     report = {
         "form": FORM,
@@ -202,7 +197,7 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
         "bounds": bounds.tolist(),
         "volume": solid.volume,
         "density": share,
-        "problems": told,
+        "problems": list(problems(request, hollow, facts)),
         "request": request.facts(),
         "grid": {
             "shape": list(space.depth.shape),
@@ -212,7 +207,7 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
         },
         "mesh": {
             "vertices": len(solid.vertices),
-            "manifold": verdict,
+            "manifold": facts.verdict,
             "skin": space.skin,
             "tolerance": hollow.tolerance if math.isfinite(hollow.tolerance) else None,
         },
@@ -231,10 +226,10 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
             "triangles": len(voids.faces),
             "specks": hollow.specks,
             "islands": hollow.islands,
-            "closed": [{"volume": volume, "at": place} for volume, place in closed],
+            "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],
         },
         "drains": {"count": len(drains), "at": drains.tolist()},
-        "walls": {"requested": request.wall, "least": least, "at": at},
+        "walls": {"requested": request.wall, "least": facts.least, "at": facts.at},
     }
     return solid, report
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 
+from infill.filling.solids.drains import trapped
 from infill.filling.solids.hollowing import Hollow
 from infill.filling.solids.request import Request
 from infill.filling.solids.space import LEAST_OVERLAP
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
 from infill.surfaces.shells import first_of_shells
-from infill.surfaces.solids import FINE
+from infill.surfaces.solids import FINE, in_one_place, status
 from infill.surfaces.winding import winding
 
 OFF = 0.005  # of the density: what is further off is told
@@ -34,16 +36,48 @@ def outside(part: Surface, voids: list[Surface], threads: int | None) -> int:
     return int((winding(np.concatenate(first).astype(np.float64), part, threads=threads) <= 0).sum())
 
 
-def problems(
-    request: Request,
-    hollow: Hollow,
-    least: float,
-    at: list[float],
-    astray: int,
-    closed: Sequence[object],
-    crowded: int,
-    verdict: str,
-) -> Iterator[str]:
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """What is measured on a solid that is handed over.
+
+    Parameters
+    ----------
+    least : float
+        Of the wall, mm.
+    at : list of float
+        Where that is, mm.
+    astray : int
+        Voids outside of the part.
+    closed : list of (float, list of float)
+        Voids that nothing drains from: see `trapped`.
+    crowded : int
+        Vertices that are where another one is in single precision, besides those of the skin.
+    verdict : str
+        Of manifold3d.
+    """
+
+    least: float
+    at: list[float]
+    astray: int
+    closed: list[tuple[float, list[float]]]
+    crowded: int
+    verdict: str
+
+
+def measured(solid: Surface, outer: Surface, hollow: Hollow, request: Request, *, threads: int | None) -> Measured:
+    """Return what is measured on a solid with an outer surface and voids."""
+    least, at = least_wall(hollow.space.part, hollow.surface, threads)
+    return Measured(
+        least=least,
+        at=at,
+        astray=outside(hollow.space.part, hollow.surfaces, threads),
+        closed=trapped(solid) if request.form == "solid" else [],
+        crowded=max(0, int(in_one_place(solid).sum()) - int(in_one_place(outer).sum())),
+        verdict=status(solid),
+    )
+
+
+def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved = hollow.space.overlap, hollow.tolerance
     if request.density is not None and abs(hollow.density - request.density) > OFF:
@@ -51,18 +85,18 @@ def problems(
     if moved > request.tolerance:
         most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
         yield f"for so few triangles, the voids were moved by {most}; give larger cells, or more triangles"
-    if least < LEAST_WALL * request.wall:
-        where = ", ".join(f"{each:.4g}" for each in at)
-        yield f"the wall is {least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
-    if astray:
-        yield f"{astray} void(s) lie outside of the part"
+    if facts.least < LEAST_WALL * request.wall:
+        where = ", ".join(f"{each:.4g}" for each in facts.at)
+        yield f"the wall is {facts.least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
+    if facts.astray:
+        yield f"{facts.astray} void(s) lie outside of the part"
     if not hollow.space.part.closed:
         yield "the part has edges with more than two faces, and so has the result"
     if overlap > LEAST_OVERLAP:
         yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
-    if request.drain is not None and closed:
-        yield f"{len(closed)} void(s) are still closed; give larger or smaller drains, or turn the part"
-    if crowded:
-        yield f"{crowded} vertices are in one place in single precision: an STL of it is not closed"
-    if verdict != FINE:
-        yield f"manifold3d does not take it: {verdict}"
+    if request.drain is not None and facts.closed:
+        yield f"{len(facts.closed)} void(s) are still closed; give larger or smaller drains, or turn the part"
+    if facts.crowded:
+        yield f"{facts.crowded} vertices are in one place in single precision: an STL of it is not closed"
+    if facts.verdict != FINE:
+        yield f"manifold3d does not take it: {facts.verdict}"
