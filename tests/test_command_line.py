@@ -27,6 +27,7 @@ from infill.cli.listing import BRAILLE_BLANK
 from infill.cli.words import parse_bytes
 from infill.making.settings import MakeSettings, parse_size, resolve
 from patterns import PATTERNS, gives, parameters
+from patterns.cellular import CELLULAR
 from patterns.shared import SHARED
 
 COMMANDS = ["make", "smooth", "fill", "refill", "list", "check", "motion"]
@@ -139,7 +140,25 @@ def test_list_is_one_line_a_pattern() -> None:
     lines = run("list").stdout.splitlines()
     for name, line in zip(BUILT_IN, lines, strict=False):
         assert line.split() == [name, *PATTERNS[name].summary.split()]
-    assert lines[len(BUILT_IN) :] == ["'infill list PATTERN' shows one, with its parameters and a picture."]
+    rest = lines[len(BUILT_IN) :]
+    assert rest[:3] == [
+        "'infill list PATTERN' shows one, with its parameters and a picture.",
+        "",
+        "in space, for 'infill fill':",
+    ]
+    for (name, each), line in zip(CELLULAR.items(), rest[3:], strict=True):
+        assert line.split() == [name, *each.summary.split()]
+
+
+@pytest.mark.parametrize("name", ["gyroid", "octet"])
+def test_list_shows_a_pattern_that_repeats_in_space(name: str, tmp_path: Path) -> None:
+    assert run("list", name).stdout.startswith(f"{name}: {CELLULAR[name].summary}\n  repeats in space")
+    assert json.loads(run("list", name, "--json").stdout) == {
+        "patterns": {},
+        "in_space": {name: CELLULAR[name].summary},
+    }
+    assert run("list", name, "--preview", tmp_path / "a.png").exit_code == 2
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("name", BUILT_IN)
@@ -210,7 +229,9 @@ def test_list_names_the_nearest_pattern() -> None:
 
 
 def test_list_as_json() -> None:
-    found = json.loads(run("list", "--json").stdout)["patterns"]
+    whole = json.loads(run("list", "--json").stdout)
+    found = whole["patterns"]
+    assert set(whole["in_space"]) == set(CELLULAR)
     assert set(found) == set(BUILT_IN)
     assert found["honeycomb"]["options"]["angle"] == {
         "help": "turns the pattern counter-clockwise",

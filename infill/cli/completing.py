@@ -35,11 +35,11 @@ def pattern_names(incomplete: str) -> list[tuple[str, str]]:
 
 
 def fill_names(incomplete: str) -> list[tuple[str, str]]:
-    """Return the patterns that a part can be filled with, each with its summary."""
+    """Return all patterns, those that repeat in space too, each with its summary."""
     from patterns.cellular import CELLULAR
 
     in_space = [(name, each.summary) for name, each in CELLULAR.items() if name.startswith(incomplete)]
-    return [*in_space, *pattern_names(incomplete)]
+    return [*pattern_names(incomplete), *in_space]
 
 
 def fill_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from infill.cli.completing import pattern_names
+from infill.cli.completing import fill_names
 from infill.cli.console import can_show, print_json, say, table
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def list_patterns(
     pattern: Annotated[
         str | None,
         typer.Argument(
-            metavar="PATTERN", help="Show this one, with its parameters and a picture.", autocompletion=pattern_names
+            metavar="PATTERN", help="Show this one, with its parameters and a picture.", autocompletion=fill_names
         ),
     ] = None,
     preview: Annotated[
@@ -36,16 +36,34 @@ def list_patterns(
 
     if pattern is None and preview is not None:
         raise typer.BadParameter("a preview shows a single pattern; name one")
+    from patterns.cellular import CELLULAR
+
+    in_space = {name: each.summary for name, each in CELLULAR.items() if pattern in (None, name)}
+    if pattern is not None and in_space:
+        _show_in_space(pattern, in_space, pictured=preview is not None, as_json=as_json)
+        return
     kinds = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
     if preview is not None:
         _write_preview(kinds[str(pattern)], preview, overwrite=force)
     if as_json:
-        print_json({"patterns": {name: _described(kind) for name, kind in kinds.items()}})
+        described = {name: _described(kind) for name, kind in kinds.items()}
+        print_json({"patterns": described} | ({"in_space": in_space} if pattern is None else {}))
     elif pattern is None:
         typer.echo(table({name: kind.summary for name, kind in kinds.items()}))
         typer.echo("'infill list PATTERN' shows one, with its parameters and a picture.")
+        typer.echo(table(in_space, title="\nin space, for 'infill fill':"))
     else:
         typer.echo(_shown(kinds[pattern]))
+
+
+def _show_in_space(name: str, found: dict[str, str], *, pictured: bool, as_json: bool) -> None:
+    """Print what a pattern that repeats in space is for."""
+    if pictured:
+        raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
+    if as_json:
+        print_json({"patterns": {}, "in_space": found})
+    else:
+        typer.echo(f"{name}: {found[name]}\n  repeats in space, for 'infill fill': see its --cell and --line-width")
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
