@@ -45,7 +45,6 @@ FIFTH = 0.2
 FEWEST, MOST = 1e6, 25e6
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
-LEAST_CELL = 2.5  # line widths: walls that are nearer to one another leave no void
 # Curvature rounds a right angle to a radius R in the time (0.7386 R)² / 2: the self-similar solution of curve
 # shortening that begins as a right angle has the curvature 0.7386 / sqrt(2 t) at its tip.
 RIGHT_ANGLE = 0.7386
