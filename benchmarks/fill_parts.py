@@ -1,7 +1,8 @@
 """What `infill fill` makes of every printable part of the test data: ``python -m benchmarks.fill_parts``.
 
 The command runs as a user's would, files included, and what it wrote is judged anew: the skin against the part's own
-file, the wall by rays into the solid from all over the skin, the density by the volumes of both files, and manifold3d.
+file, the wall by the nearest void to points all over the skin, which no ray undercuts, the density by the volumes of
+both files, what hangs together, and manifold3d.
 ``--parts bracket_medium`` and ``--patterns gyroid`` for a first look.
 """
 
@@ -22,6 +23,7 @@ import trimesh
 
 from benchmarks.pairs import row
 from infill import Surface, check, read_mesh
+from infill.filling.solids.drains import trapped
 from infill.surfaces.distance import Tree
 
 PATTERNS = ("gyroid", "honeycomb", "octet", "concentric-heart")
@@ -61,6 +63,11 @@ def filled(part: Path, pattern: str, density: float, folder: Path) -> Filled:
     return Filled(seconds=seconds, peak=peak / 2**20, report=json.loads(done.stdout), result=result)
 
 
+def solids(surface: Surface) -> int:
+    """Return how many closed surfaces face outwards: what hangs free inside would be one more."""
+    return len(trapped(Surface(vertices=surface.vertices, faces=surface.faces[:, ::-1])))
+
+
 def faults(part: Surface, found: Filled, density: float) -> list[str]:
     """Return in what a result is not what it should be, by the file alone but for the volume inside the walls."""
     solid, report = read_mesh(found.result), found.report
@@ -81,7 +88,8 @@ def faults(part: Surface, found: Filled, density: float) -> list[str]:
         f"{found.seconds:.0f} s": found.seconds > SECONDS,
         f"{found.peak:.1f} GiB": found.peak > GIBIBYTES,
         f"{len(solid.faces):,} triangles": len(solid.faces) > TRIANGLES,
-        "voids are not listed": len(report["voids"]["closed"]) < report["voids"]["count"],
+        "voids are not listed": len(report["voids"]["closed"]) != report["voids"]["count"] + len(trapped(part)),
+        "solids do not hang together as before": solids(solid) != solids(part),
         "; ".join(report["problems"]): bool(report["problems"]),
     }
     return [text for text, holds in wrong.items() if holds]

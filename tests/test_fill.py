@@ -315,12 +315,28 @@ def test_a_part_smaller_than_a_cell_has_thinner_walls_instead() -> None:
     assert any("the density is" in each for each in told)
 
 
-def test_what_hangs_free_is_left_out() -> None:
-    """Nodes of bars far thicker than the cell is wide between them touch nothing where a void is one cell high."""
-    block = box(12, 12, 40)
-    result = fill(block, "cubic-bars", cell=100, line_width=3, phase=(0, 0, 0), wall=1, voxel=0.4)
-    assert result.report["voids"]["islands"] == 0  # a cross of bars that reaches the wall on all sides
+def test_bars_that_reach_the_wall_leave_one_void_around_them() -> None:
+    result = fill(box(12, 12, 40), "cubic-bars", cell=100, line_width=3, wall=1, voxel=0.4)
+    assert result.report["voids"]["islands"] == 0
     assert len(result.surface.to_trimesh().split(only_watertight=True)) == 2  # the skin, and one void
+
+
+def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
+    """Bars as thin as a cell of the grid break into pieces; those that vanish leave none."""
+    broken = fill(box(20, 20, 20), "bcc", cell=8, line_width=0.5, voxel=0.4)
+    assert broken.report["voids"]["islands"] > 100
+    solid = broken.surface.to_trimesh().split(only_watertight=False)
+    assert sum(each.volume > 0 for each in solid) == 1
+    gone = fill(box(20, 20, 20), BAR, cell=8, line_width=0.4, voxel=0.4)
+    for report in (broken.report, gone.report):
+        assert any(each.startswith("of the infill") for each in report["problems"])
+    assert fill(box(20, 20, 20), BAR, cell=8, line_width=1.2).report["problems"] == []
+
+
+def test_a_part_far_thinner_than_the_wall_is_refused_at_once() -> None:
+    """In millimetres where metres were meant: no distance is measured over thousands of cells."""
+    with pytest.raises(GeometryError, match="nowhere thicker"):
+        fill(ball(0.02), "gyroid")
 
 
 @pytest.mark.parametrize("form", ["solid", "infill"])

@@ -26,6 +26,7 @@ from infill.filling.solids.request import (
 from infill.filling.solids.space import Space
 from infill.filling.solids.stages import FillStages
 from infill.filling.solids.telling import measured, problems
+from infill.filling.solids.voids import Voids
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import on_profile
 from infill.phasefield.sparse import smooth_bricks
@@ -170,13 +171,15 @@ def filled(
     voids = voids_of(request, given.bounds, threads)
     hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
-        result, report = _result(given, hollow, request, threads)
+        result, report = _result(given, hollow, voids, request, threads)
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface)
     return Result(surfaces={request.form: result}, report=report, stages=stages)  # type: ignore[arg-type]
 
 
-def _result(given: Surface, hollow: Hollow, request: Request, threads: int | None) -> tuple[Surface, dict[str, Any]]:
+def _result(
+    given: Surface, hollow: Hollow, pattern: Voids, request: Request, threads: int | None
+) -> tuple[Surface, dict[str, Any]]:
     """Return the surface that was asked for, and the report."""
     space, voids, share = hollow.space, hollow.surface, hollow.density
     outer = space.part if request.form == "solid" else _inside(space, request, threads)
@@ -184,7 +187,7 @@ def _result(given: Surface, hollow: Hollow, request: Request, threads: int | Non
     drains = np.empty((0, 3))
     if request.drain is not None:
         solid, drains = drained(solid, space.part, voids, request.drain)
-    facts = measured(solid, outer, hollow, request, threads=threads)
+    facts = measured(solid, outer, hollow, pattern, request, threads=threads)
     bounds = solid.bounds
     report = {
         "form": FORM,

@@ -183,6 +183,14 @@ def _about(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:
     return TRIANGLES_A_CELL * crossed
 
 
+def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> float:
+    """Return the solid share of what lies inside the walls, as the pattern has it before it is smoothed."""
+    out = np.empty_like(space.depth)
+    count = voids.count(space, cell=cell, width=width)
+    filled = sum(voids.into(out, space, which, cell=cell, width=width) for which in range(count))
+    return max(1 - filled / space.cells, LEAST)
+
+
 def _sized(
     space: Space, voids: Voids, request: Request, sizes: tuple[float, float], varied: tuple[Size, ...]
 ) -> tuple[tuple[float, float], tuple[Size, ...]]:
@@ -194,17 +202,14 @@ def _sized(
     if not varied:
         return sizes, varied
     density = request.density or LEAST
-    out = np.empty_like(space.depth)
-
-    def share(cell: float, width: float) -> float:
-        count = voids.count(space, cell=cell, width=width)
-        filled = sum(voids.into(out, space, which, cell=cell, width=width) for which in range(count))
-        return max(1 - filled / space.cells, LEAST)
-
     if request.cell is None and request.line_width is None and sizes[0] > (most := space.across):
         sizes, varied = (most, sizes[1] * most / sizes[0]), ("width",)
     vary = varied[0]
-    times = root(lambda at: math.log(share(*_scaled(sizes, at, vary)) / density), CLOSE / 4 / density, TRIES)
+    times = root(
+        lambda at: math.log(share_of_cells(space, voids, *_scaled(sizes, at, vary)) / density),
+        CLOSE / 4 / density,
+        TRIES,
+    )
     return _scaled(sizes, times, vary), varied
 
 

@@ -90,6 +90,10 @@ def space_inside(
     MemoryLimitError
         If the grid does not fit into memory.
     """
+    nowhere = f"wall is {wall:g} mm, and the part is nowhere thicker than two of those; give a thinner wall"
+    # Seen before anything is measured, however long that would take; a flat sheet has a message of its own.
+    if 0 < np.ptp(part.bounds, axis=0).min() <= 2 * wall:
+        raise GeometryError(nowhere)
     grid = grid_around(part, voxel=voxel, margin=MARGIN)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
     require_memory(BYTES_PER_CELL * math.prod(grid.shape), max_memory, advice)
@@ -100,9 +104,7 @@ def space_inside(
     depth = distances_in_cells(whole, found.volume, reach, several=several, threads=threads)
     depth -= np.float32(wall / voxel)
     if not (depth > 0).any():
-        raise GeometryError(
-            f"wall is {wall:g} mm, and the part is nowhere thicker than two of those; give a thinner wall"
-        )
+        raise GeometryError(nowhere)
     return Space(
         depth=depth,
         size=voxel,

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.filling.solids.drains import trapped
-from infill.filling.solids.hollowing import Hollow
+from infill.filling.solids.hollowing import Hollow, share_of_cells
 from infill.filling.solids.request import Request
 from infill.filling.solids.space import LEAST_OVERLAP
+from infill.filling.solids.voids import Voids
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
 from infill.surfaces.shells import first_of_shells
@@ -18,6 +19,7 @@ from infill.surfaces.solids import FINE, in_one_place, status
 from infill.surfaces.winding import winding
 
 OFF = 0.005  # of the density: what is further off is told
+LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 LEAST_WALL = 0.9  # of the wall asked for
 
 
@@ -54,6 +56,8 @@ class Measured:
         Vertices that are where another one is in single precision, besides those of the skin.
     verdict : str
         Of manifold3d.
+    drawn : float
+        Density of the pattern before it was smoothed.
     """
 
     least: float
@@ -62,9 +66,12 @@ class Measured:
     closed: list[tuple[float, list[float]]]
     crowded: int
     verdict: str
+    drawn: float
 
 
-def measured(solid: Surface, outer: Surface, hollow: Hollow, request: Request, *, threads: int | None) -> Measured:
+def measured(
+    solid: Surface, outer: Surface, hollow: Hollow, voids: Voids, request: Request, *, threads: int | None
+) -> Measured:
     """Return what is measured on a solid with an outer surface and voids."""
     least, at = least_wall(hollow.space.part, hollow.surface, threads)
     return Measured(
@@ -74,6 +81,7 @@ def measured(solid: Surface, outer: Surface, hollow: Hollow, request: Request, *
         closed=trapped(solid) if request.form == "solid" else [],
         crowded=max(0, int(in_one_place(solid).sum()) - int(in_one_place(outer).sum())),
         verdict=status(solid),
+        drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
     )
 
 
@@ -82,6 +90,11 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
     overlap, moved = hollow.space.overlap, hollow.tolerance
     if request.density is not None and abs(hollow.density - request.density) > OFF:
         yield f"the density is {hollow.density:.1%}, and {request.density:.1%} was asked for"
+    if hollow.density < LEAST_LEFT * facts.drawn:
+        yield (
+            f"of the infill, {facts.drawn:.1%} as drawn, {hollow.density:.1%} is left: walls or bars are too thin for "
+            "the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
+        )
     if moved > request.tolerance:
         most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
         yield f"for so few triangles, the voids were moved by {most}; give larger cells, or more triangles"
