@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
     from infill.result import Result
+    from infill.slicers.doctor import check_project
+    from infill.slicers.saving import save_project
     from infill.smoothing.labels import smooth_labels
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
@@ -75,6 +77,8 @@ _HOMES = {
     "surfaces.stacking": ("extrude", "stack"),
     "voxels.stamping": ("stamp", "stamp_lines"),
     "formats.volume_files": ("read_volume",),
+    "slicers.doctor": ("check_project",),
+    "slicers.saving": ("save_project",),
     "surface": ("Surface",),
     "surfaces.marching": ("isosurface",),
     "volume": ("Volume",),
@@ -102,6 +106,7 @@ __all__ = [
     "Volume",
     "WallWidth",
     "check",
+    "check_project",
     "extrude",
     "fill",
     "isosurface",
@@ -115,6 +120,7 @@ __all__ = [
     "refill",
     "rescale",
     "save",
+    "save_project",
     "smooth",
     "smooth_labels",
     "smooth_mesh",

@@ -519,8 +519,8 @@ class FillWalls(TypedDict):
     """The shell, mm."""
 
     requested: float
-    least: float
-    at: Vector
+    least: float | None
+    at: Vector | None
 
 
 class FillRequest(TypedDict):

@@ -36,6 +36,7 @@ WORKING = {
     "fill honeycomb": "box.stl -o a.stl --pattern honeycomb",
     "refill": "print.gcode -o a.gcode",
     "refill gyroid": "print.gcode -o a.gcode --pattern gyroid",
+    "check": "box.stl",
     "motion": "print.gcode",
     "motion plot": "print.gcode --plot a.png",
     "motion corner": "print.gcode --model klipper",
@@ -129,7 +130,8 @@ UNREAD = {
         "--label": "1.5",
     },
     "smooth labels": {"--range": "5 1,2,3"},
-    "fill": {"--align": "foo", "--as": "foo", "--units": "yard", "--max-triangles": "2.5"},
+    "fill": {"--align": "foo", "--as": "foo", "--units": "yard", "--max-triangles": "2.5", "--for": "foo"},
+    "check": {"--for": "foo"},
     "refill": {"--density": "dense", "--smooth-radius": "wide", "--layers": "1.5"},
     "motion": {"--model": "foo"},
 }
@@ -212,11 +214,11 @@ def test_what_is_out_of_range_is_told_by_the_option_that_was_typed(case: str, fo
             assert sorted(folder.iterdir()) == before
 
 
-@pytest.mark.parametrize("case", [*OUT_OF_RANGE])
+@pytest.mark.parametrize("case", dict.fromkeys([*OUT_OF_RANGE, *UNREAD]))
 def test_what_cannot_be_read_is_wrong_usage(case: str, folder: Path) -> None:
     """A word where numbers are wanted, for every option with a range, and what else cannot be read."""
     before = sorted(folder.iterdir())
-    tried = [(option, "a-word") for option in OUT_OF_RANGE[case] if option not in ("--set", "--phase")]
+    tried = [(option, "a-word") for option in OUT_OF_RANGE.get(case, {}) if option not in ("--set", "--phase")]
     tried += [(option, value) for option, values in UNREAD.get(case, {}).items() for value in values.split()]
     for option, value in tried:
         usage_error(run(*words(case, option, value)), f"{option}\\b")
@@ -253,6 +255,8 @@ def test_an_unknown_option_is_wrong_usage(command: str) -> None:
         "smooth grey.npy --labels a.txt -o a.stl",
         "fill box.stl",
         "fill box.stl --as infill --drain 2 -o a.stl",
+        "fill box.stl --as project -o a.3mf",
+        "fill box.stl --as solid --for cura -o a.3mf",
         "fill box.stl --density 20% --cell 5 --line-width 0.4 -o a.stl",
         "refill print.gcode --preview a.png --dry-run",
         "refill print.gcode --pattern gyroid --set cell=5 --density 20% -o a.gcode",
@@ -325,16 +329,18 @@ def test_the_choices_are_those_of_the_library() -> None:
     from infill.filling.solids.request import Align, Form
     from infill.formats.units import UNITS
     from infill.making.request import DEFAULT_CELLS
+    from infill.slicers.project import SLICERS
 
     told = {(command, name_of(option)): option.metavar for command in COMMANDS for option in options_of(command)}
     assert told["smooth", "--smooth"].split("|") == [*METHODS]
     assert told["smooth", "--as"].split("|") == [*KINDS]
     assert told["smooth", "--units"].split("|") == [*UNITS]
     assert told["fill", "--as"].split("|") == [*get_args(Form)]
+    assert told["fill", "--for"].split("|") == told["check", "--for"].split("|") == [*SLICERS]
     assert told["fill", "--align"].split("|") == [*get_args(Align)]
     assert told["make", "--stamp"].split("|") == [*DEFAULT_CELLS]
     assert set(told["motion", "--model"].split("|")) == {*MODELS}
-    from infill.cli import filling, making, smoothing, timing
+    from infill.cli import checking, filling, making, smoothing, timing
 
     for module, function, argument, wanted in (
         (making, "make", "stamp", DEFAULT_CELLS),
@@ -343,6 +349,8 @@ def test_the_choices_are_those_of_the_library() -> None:
         (smoothing, "smooth", "units", UNITS),
         (filling, "fill", "kind", get_args(Form)),
         (filling, "fill", "align", get_args(Align)),
+        (filling, "fill", "slicer", SLICERS),
+        (checking, "check", "slicer", SLICERS),
         (timing, "motion", "model", MODELS),
     ):
         from typing import get_type_hints

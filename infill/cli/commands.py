@@ -27,6 +27,7 @@ CALLED = {
     "radius": ("smooth_radius",),
     "object": ("part",),
     "as": ("kind",),
+    "for": ("slicer",),
     "range": ("between",),
     "smooth": ("method",),
 }

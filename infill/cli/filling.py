@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
 import typer
 
 from infill.cli.completing import fill_assignments, fill_names, unit_names
-from infill.cli.console import as_bytes, log_said, print_json, progress_bar, say, table
+from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, say, table
 
 if TYPE_CHECKING:
+    from infill.filling.solids.settings import FillSettings
     from infill.report_keys import FillReport
+    from infill.result import Result
 
 FILES, PATTERN, SOLID, RUN = "Files", "Pattern", "Solid", "Run"
 DONE = {
@@ -25,6 +27,7 @@ DONE = {
 
 
 def fill(
+    context: typer.Context,
     part: Annotated[
         Path, typer.Argument(metavar="PART", help="Mesh to fill (.stl .3mf .obj .ply .off .glb): closed, or nearly.")
     ],
@@ -34,8 +37,8 @@ def fill(
             "-o",
             "--output",
             metavar="FILE",
-            help="Mesh to write, by suffix: .stl .3mf .obj .ply .glb; - for an STL on stdout, -.3mf for others. May be "
-            "given again.",
+            help="File to write, by suffix: .stl .3mf .obj .ply .glb, for a project .3mf; - for an STL on stdout, "
+            "-.3mf for others. May be given again.",
             rich_help_panel=FILES,
         ),
     ] = None,
@@ -43,6 +46,20 @@ def fill(
         Path | None,
         typer.Option(
             metavar="FILE", help="Picture to write, cut open through the middle: a .png.", rich_help_panel=FILES
+        ),
+    ] = None,
+    config: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="TOML file of options, or a project that this command wrote; what is typed here takes precedence.",
+            rich_help_panel=FILES,
+        ),
+    ] = None,
+    save_config: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
         ),
     ] = None,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
@@ -85,7 +102,8 @@ def fill(
         float | None,
         typer.Option(
             metavar="MM",
-            help="Width of the walls inside, or diameter of bars. (default: 0.45, or for bars, by density and cell)",
+            help="Width of the walls inside, or diameter of bars. (default: 0.45, in a project 0.9, or for bars, by "
+            "density and cell)",
             rich_help_panel=PATTERN,
         ),
     ] = None,
@@ -130,7 +148,11 @@ def fill(
     wall: Annotated[
         float,
         typer.Option(
-            metavar="MM", show_default=False, help="Thickness of the shell. (default: 1.2)", rich_help_panel=SOLID
+            metavar="MM",
+            show_default=False,
+            help="Thickness of the shell; in a project, what the slicer's perimeters take. (default: 1.2, in a project "
+            "0.9)",
+            rich_help_panel=SOLID,
         ),
     ] = 1.2,
     drain: Annotated[
@@ -151,15 +173,25 @@ def fill(
         ),
     ] = None,
     kind: Annotated[
-        Literal["solid", "infill"],
+        Literal["solid", "infill", "project"],
         typer.Option(
             "--as",
-            metavar="solid|infill",
+            metavar="solid|infill|project",
             show_default=False,
-            help="solid: shell and infill in one; infill: the infill alone. (default: solid)",
+            help="solid: shell and infill in one; infill: the infill alone; project: part and infill for a slicer. "
+            "(default: solid, or project with --for)",
             rich_help_panel=SOLID,
         ),
     ] = "solid",
+    slicer: Annotated[
+        Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,
+        typer.Option(
+            "--for",
+            metavar="prusaslicer|orcaslicer|bambustudio|cura|plain",
+            help="Slicer that a project is for; plain: two objects without settings.",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
     overlap: Annotated[
         float | None,
         typer.Option(
@@ -207,63 +239,73 @@ def fill(
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print errors only.", rich_help_panel=RUN)] = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
-    """Fill a part: a shell and infill as one solid, the skin as it was, in a closed mesh."""
+    """Fill a part: a shell and infill as one solid, the skin as it was; or part and infill as a slicer's project."""
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
-    from infill.formats.mesh_files import writer
-    from infill.formats.options import parse_share
+    from infill.filling.solids.settings import resolve
 
     outputs = [with_suffix(path) for path in output or []]
-    if not (outputs or preview or as_json or dry_run):
+    if not (outputs or preview or as_json or save_config or dry_run):
         raise typer.BadParameter("nothing to write; give -o FILE, --json to see the report, or --dry-run")
-    for path in outputs:
-        writer(path, ascii=ascii_stl)
+    flags = {
+        "pattern": pattern,
+        "density": density,
+        "cell": cell,
+        "line_width": line_width,
+        "wall": wall,
+        "as": kind,
+        "for": slicer,
+        "units": units,
+        "align": align,
+        "angle": angle,
+        "phase": phase,
+        "drain": drain,
+        "smooth_radius": smooth_radius,
+        "overlap": overlap,
+        "tolerance": tolerance,
+        "max_triangles": max_triangles,
+        "voxel": voxel,
+    }
+    settings = resolve(
+        {name: value for name, value in flags.items() if is_typed(context, name)}, assigned or [], config
+    )
+    writers = {path: _writer(path, settings, ascii_stl=ascii_stl) for path in outputs}
     if preview is not None:
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    check_outputs((*outputs, preview), text=None, overwrite=force, as_json=as_json, dry_run=dry_run)
     limit = None if max_memory is None else parse_bytes(max_memory)
+    saved: dict[Path, Callable[[BinaryIO], object]] = {}
+    if save_config is not None:
+        text = settings.to_toml().encode()
+        saved[save_config] = lambda file: file.write(text)
+    check_outputs((*outputs, preview), text=save_config, overwrite=force, as_json=as_json, dry_run=dry_run)
+    if not (outputs or preview or as_json or dry_run):
+        written = deliver_all(saved)
+        if not quiet and written != ["-"]:
+            say(f"wrote {', '.join(written)}")
+        return
     with progress_bar(shown=not quiet and not dry_run) as progress:
         from infill.filling.solids.filled import filled
         from infill.filling.solids.planning import planned_fill
-        from infill.filling.solids.request import checked
         from infill.smoothing.sources import read_source
 
-        request = checked(
-            pattern=pattern,
-            own=_own(pattern, assigned or []),
-            density=None if density is None else parse_share("density", density),
-            cell=cell,
-            line_width=line_width,
-            wall=wall,
-            form=kind,
-            align=align,
-            angle=angle,
-            phase=phase,
-            drain=drain,
-            smooth_radius=smooth_radius,
-            overlap=overlap,
-            tolerance=tolerance,
-            max_triangles=max_triangles,
-            voxel=voxel,
-        )
         if progress is not None:
             progress("read", 0.0)
         with log_said(shown=not quiet):
-            given: Any = read_source(part, kind="mesh", units=units)
+            given: Any = read_source(part, kind="mesh", units=settings.units)
             if dry_run:
-                _show_plan(planned_fill(given, request, threads=threads), str(part), as_json=as_json)
+                _show_plan(planned_fill(given, settings.request, threads=threads), str(part), as_json=as_json)
                 return
-            result = filled(given, request, threads=threads, max_memory=limit, progress=progress)
+            result = filled(given, settings.request, threads=threads, max_memory=limit, progress=progress)
         if progress is not None:
             progress("write", 0.95)
         parts: dict[Path, Callable[[BinaryIO], object]] = {
-            path: partial(writer(path, ascii=ascii_stl), result.surface) for path in outputs
+            path: partial(write, result, part.stem) for path, write in writers.items()
         }
         if preview is not None:
             parts[preview] = result.write_picture
-        files = deliver_all(parts)
+        files = deliver_all({**parts, **saved})
     if not quiet:
         say(_summary(result.report, files, str(part), verbose=verbose))
     if as_json:
@@ -278,13 +320,21 @@ def _drained(report: FillReport) -> str:
     return f"{drains:,} drain(s) of {report['request']['drain']:g} mm{left}"
 
 
-def _own(pattern: str, assigned: list[str]) -> dict[str, Any]:
-    """Return the pattern's own parameters by name."""
-    if not assigned:
-        return {}
-    from infill.filling.solids.request import own_parameters
+def _writer(
+    path: Path, settings: FillSettings, *, ascii_stl: bool
+) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
+    """Return what writes a result with a title to a file of this format, or raise FormatError."""
+    if settings.slicer is None:
+        from infill.formats.mesh_files import writer
 
-    return own_parameters(pattern, assigned)
+        write = writer(path, ascii=ascii_stl)
+        return lambda result, title, file: write(result.surface, file)  # noqa: ARG005 - as projects are written
+    from infill.slicers.saving import check_suffix, project_of, project_writer
+
+    slicer, units = settings.slicer, settings.units
+    check_suffix(path)
+    write_project = project_writer(slicer)
+    return lambda result, title, file: write_project(project_of(result, slicer=slicer, title=title, units=units), file)
 
 
 def _show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
@@ -317,10 +367,10 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
         "solid": f"{report['volume']:.6g} mm³, {report['volume'] / report['part']['volume']:.1%} of the part",
         "density": f"{report['density']:.1%} inside the walls: cells of {infill['cell']:.4g} mm, lines of "
         f"{infill['line_width']:.3g} mm",
-        "walls": f"{walls['least']:.3g} mm at least, {walls['requested']:g} asked for",
+        "walls": f"{walls['least'] or 0.0:.3g} mm at least, {walls['requested']:g} asked for",
         "voids": f"{voids['count']:,}, {_drained(report)}",
     }
-    if request["form"] == "infill":
+    if request["form"] != "solid":
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
         rows["solid"] = f"{report['volume']:.6g} mm³ of infill"
         del rows["walls"], rows["voids"]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import html
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO, BinaryIO
 from xml.etree import ElementTree
 
 import numpy as np
@@ -22,29 +23,47 @@ from infill.version import __version__
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 AGAIN = "export the mesh again"
-TYPES = """<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
- <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
- <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
-</Types>
-"""
-RELATIONS = """<?xml version="1.0" encoding="UTF-8"?>
-<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
- <Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
-</Relationships>
-"""
-HEAD = f"""<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
- <metadata name="Application">phasefill-{__version__}</metadata>
- <resources>"""
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+MODEL = "3D/3dmodel.model"
+MODEL_RELATION = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+DECLARED = '<?xml version="1.0" encoding="UTF-8"?>\n'
+TYPES = {
+    "rels": "application/vnd.openxmlformats-package.relationships+xml",
+    "model": "application/vnd.ms-package.3dmanufacturing-3dmodel+xml",
+}
+SETTINGS = "Metadata/phasefill.toml"  # what we attach: the options that make it again
+MOST_PLACED = 100_000  # objects: components of components may say any number in a few lines
+LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
+MOST_BYTES = 4 << 30  # of a file in a package, unpacked: a zip of some megabytes may unpack to terabytes
+APPLICATION = f"phasefill-{__version__}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attached:
+    """A file in a 3MF beside the model.
+
+    Parameters
+    ----------
+    name : str
+        Its path in the package.
+    content : bytes
+    media : str
+        The content type of its suffix.
+    relation : str
+        What it is to the package, as a relationship has it; empty for none.
+    """
+
+    name: str
+    content: bytes
+    media: str
+    relation: str = ""
 
 
 def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     """Read the build of a 3MF: objects, components and their transforms; core specification."""
-    # The standard parser fetches nothing from outside, and its output is only counted and multiplied.
     with told_broken(path, "is not a 3MF file", AGAIN), zipfile.ZipFile(path) as package:
         models = [name for name in package.namelist() if name.lower().endswith(".model")]
-        roots = {f"/{name}": ElementTree.fromstring(package.read(name)) for name in models}  # noqa: S314
+        roots = {f"/{name}": parsed_xml(unpacked(package, name, path)) for name in models}
         start = _start_part(package)
     built = [part for part, each in roots.items() if each.find("{*}build/{*}item") is not None]
     main = start if start in roots else next(iter(built), "")
@@ -59,10 +78,16 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     vertices: list[NDArray[np.floating]] = []
     faces: list[NDArray[np.integer]] = []
 
+    left = MOST_PLACED
+
     def place(part: str, number: str | None, outer: NDArray[np.floating], depth: int = 0) -> None:
+        nonlocal left
+        left -= 1
         each = objects.get((part, number))
         if each is None or depth > 20:
             raise FormatError(f"{path} refers to an object {number} that it does not hold; {AGAIN}")
+        if left < 0:
+            raise FormatError(f"{path} places its objects more than {MOST_PLACED:,} times; {AGAIN}")
         corners = [
             [float(v.get(axis, "nan")) for axis in "xyz"] for v in each.iterfind("{*}mesh/{*}vertices/{*}vertex")
         ]
@@ -92,11 +117,53 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     return np.concatenate(vertices) * UNITS.get(root.get("unit", "millimeter"), 1.0), np.concatenate(faces)
 
 
+def unpacked(package: zipfile.ZipFile, name: str, path: Path) -> bytes:
+    """Return a file in a package, or raise FormatError if it would unpack to more than memory should be asked for."""
+    most = min(MOST_BYTES, LARGEST_RATIO * max(path.stat().st_size, SMALL))
+    if package.getinfo(name).file_size > most:
+        raise FormatError(
+            f"{path} would unpack to {package.getinfo(name).file_size / 1e6:,.0f} MB, and it has "
+            f"{path.stat().st_size / 1e6:,.1f} MB; {AGAIN}"
+        )
+    with package.open(name) as file:  # which reads no more than the size above says
+        return file.read(most + 1)
+
+
+def parsed_xml(text: bytes) -> ElementTree.Element:
+    """Return the root of a document, or raise ValueError: the specification allows no document type definitions.
+
+    The standard parser fetches nothing from outside; what it returns is only counted and multiplied.
+    """
+    parser = ElementTree.XMLParser(target=_NoEntities())  # noqa: S314
+    try:
+        parser.feed(text)
+        root: ElementTree.Element = parser.close()
+    except ElementTree.ParseError as error:
+        raise ValueError(str(error)) from error
+    return root
+
+
+class _NoEntities(ElementTree.TreeBuilder):
+    """Builds a tree, but not from a text with definitions of its own, which may stand for any length."""
+
+    def doctype(self, name: str, public: str | None, system: str | None) -> None:  # noqa: ARG002 - of the parser
+        """Refuse it."""
+        raise ValueError(f"it defines a document type, {name}")
+
+
+def attached_settings(path: Path) -> str:
+    """Return the options that made what is in a 3MF, or raise FormatError if it has none of ours."""
+    with told_broken(path, "is not a 3MF file", AGAIN), zipfile.ZipFile(path) as package:
+        if SETTINGS in package.namelist():
+            return unpacked(package, SETTINGS, path).decode()
+    raise FormatError(f"{path} holds no options of ours; give a project that 'infill fill' wrote, or a TOML file")
+
+
 def _start_part(package: zipfile.ZipFile) -> str:
     """Return the part that the package says to start with, or an empty string."""
     if "_rels/.rels" not in package.namelist():
         return ""
-    relations = ElementTree.fromstring(package.read("_rels/.rels"))  # noqa: S314 - as the models
+    relations = parsed_xml(package.read("_rels/.rels"))
     targets = [each.get("Target", "") for each in relations if each.get("Type", "").endswith("/3dmodel")]
     return "/" + targets[0].lstrip("/") if targets else ""
 
@@ -120,22 +187,74 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
     """Write 3MF, core specification only: an object for each part, with its name and its colour, in millimetres."""
     names = [plain(part.name) for part in parts]
     coloured = [number for number, part in enumerate(parts) if part.colour is not None]
+
+    def model(into: IO[bytes]) -> None:
+        into.write(model_head({"Application": APPLICATION}).encode())
+        into.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
+        for number, part in enumerate(parts):
+            name = f" name={quoted(names[number])}" if names[number] else ""
+            at = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
+            into.write(f'<object id="{number + 1}" type="model"{name}{at}>'.encode())
+            write_mesh(into, part.surface.vertices, part.surface.faces)
+            into.write(b"</object>")
+        into.write(model_end(range(1, len(parts) + 1)).encode())
+
+    write_package(file, model)
+
+
+def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: Sequence[Attached] = ()) -> None:
+    """Write a 3MF whose model a function writes, with other files beside it."""
+    media = {**TYPES, **{each.name.rpartition(".")[2]: each.media for each in attached}}
+    types = "".join(f' <Default Extension="{suffix}" ContentType="{kind}"/>\n' for suffix, kind in media.items())
+    related = [(MODEL, MODEL_RELATION), *((each.name, each.relation) for each in attached if each.relation)]
+    relations = "".join(
+        f' <Relationship Target="/{name}" Id="rel{number}" Type="{kind}"/>\n'
+        for number, (name, kind) in enumerate(related)
+    )
+    packaging = "http://schemas.openxmlformats.org/package/2006"
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=4) as package:
-        package.writestr("[Content_Types].xml", TYPES)
-        package.writestr("_rels/.rels", RELATIONS)
-        with package.open("3D/3dmodel.model", "w", force_zip64=True) as model:
-            model.write(HEAD.encode())
-            model.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
-            for number, part in enumerate(parts):
-                name = f" name={_quoted(names[number])}" if names[number] else ""
-                at = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
-                model.write(f'<object id="{number + 1}" type="model"{name}{at}><mesh><vertices>\n'.encode())
-                write_rows(model, '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', part.surface.vertices)
-                model.write(b"</vertices><triangles>\n")
-                write_rows(model, '<triangle v1="%d" v2="%d" v3="%d"/>\n', part.surface.faces)
-                model.write(b"</triangles></mesh></object>")
-            items = "".join(f'<item objectid="{number + 1}"/>' for number in range(len(parts)))
-            model.write(f"</resources>\n <build>{items}</build>\n</model>\n".encode())
+        package.writestr(
+            _dated("[Content_Types].xml"), f'{DECLARED}<Types xmlns="{packaging}/content-types">\n{types}</Types>\n'
+        )
+        package.writestr(
+            _dated("_rels/.rels"),
+            f'{DECLARED}<Relationships xmlns="{packaging}/relationships">\n{relations}</Relationships>\n',
+        )
+        with package.open(MODEL, "w", force_zip64=True) as into:
+            model(into)
+        for each in attached:
+            package.writestr(_dated(each.name), each.content)
+
+
+def _dated(name: str) -> zipfile.ZipInfo:
+    """Return an entry of a package, the same whenever it is written."""
+    entry = zipfile.ZipInfo(name)
+    entry.compress_type = zipfile.ZIP_DEFLATED
+    return entry
+
+
+def model_head(metadata: Mapping[str, str], namespaces: Mapping[str, str] | None = None) -> str:
+    """Return how a model in millimetres begins, up to its resources."""
+    spaces = "".join(f' xmlns:{prefix}="{address}"' for prefix, address in (namespaces or {}).items())
+    told = "".join(
+        f' <metadata name="{name}">{html.escape(plain(text))}</metadata>\n' for name, text in metadata.items()
+    )
+    return f'{DECLARED}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}"{spaces}>\n{told} <resources>'
+
+
+def model_end(built: Iterable[int]) -> str:
+    """Return how a model ends that builds objects of these numbers."""
+    items = "".join(f'<item objectid="{number}"/>' for number in built)
+    return f"</resources>\n <build>{items}</build>\n</model>\n"
+
+
+def write_mesh(into: IO[bytes], vertices: NDArray[np.floating], faces: NDArray[np.integer]) -> None:
+    """Write vertices and triangles as a mesh of a model."""
+    into.write(b"<mesh><vertices>\n")
+    write_rows(into, '<vertex x="%.9g" y="%.9g" z="%.9g"/>\n', vertices)
+    into.write(b"</vertices><triangles>\n")
+    write_rows(into, '<triangle v1="%d" v2="%d" v3="%d"/>\n', faces)
+    into.write(b"</triangles></mesh>")
 
 
 def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
@@ -143,14 +262,14 @@ def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
     if not coloured:
         return ""
     bases = "".join(
-        f'<base name={_quoted(name or "part")} displaycolor="{hexadecimal(part.colour)}"/>'
+        f'<base name={quoted(name or "part")} displaycolor="{hexadecimal(part.colour)}"/>'
         for name, part in coloured
         if part.colour is not None
     )
     return f'<basematerials id="{number}">{bases}</basematerials>\n'
 
 
-def _quoted(text: str) -> str:
+def quoted(text: str) -> str:
     """Return a text as the value of an attribute, whose line breaks and tabs stay what they are."""
     escaped = html.escape(text)
     for sign in "\n\r\t":

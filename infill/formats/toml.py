@@ -10,6 +10,8 @@ from typing import Any
 
 from infill.errors import FormatError, ParameterError
 
+OPTIONS = {"form": "as"}  # what reports call otherwise
+
 
 def read_toml(path: Path, *, example: str) -> dict[str, Any]:
     """Return what a TOML file holds, with dashes in the names of options turned into underscores.
@@ -17,6 +19,7 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
     Parameters
     ----------
     path : Path
+        A text, or a 3MF that has one of them attached.
     example : str
         A line as the file should have, for the message.
 
@@ -26,7 +29,7 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
         If the file is missing or not TOML.
     """
     try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
+        content = tomllib.loads(_text(path))
     except FileNotFoundError:
         raise FormatError(f"there is no config file {path}; check the name") from None
     except OSError as error:
@@ -34,6 +37,31 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise FormatError(f"{path} is not TOML: {error}; write lines such as {example}") from error
     return {name.replace("-", "_"): value for name, value in content.items()}
+
+
+def _text(path: Path) -> str:
+    if path.suffix.lower() != ".3mf":
+        return path.read_text(encoding="utf-8")
+    from infill.formats.threemf import attached_settings
+
+    return attached_settings(path)
+
+
+def options_text(request: Mapping[str, Any], head: str) -> str:
+    """Return the request in a report as the options of its command, from which a config file makes it again.
+
+    >>> print(options_text({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
+    # again
+    cell = 5.0
+    as = "solid"
+    <BLANKLINE>
+    [set]
+    waves = 3
+    <BLANKLINE>
+    """
+    plain = {OPTIONS.get(name, name): value for name, value in request.items() if name != "parameters"}
+    own = toml_rows(request.get("parameters") or {})
+    return "\n".join([f"# {head}", *toml_rows(plain), *(["", "[set]", *own] if own else []), ""])
 
 
 def toml_rows(values: Mapping[str, Any]) -> list[str]:

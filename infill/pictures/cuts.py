@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -18,6 +19,7 @@ from infill.surfaces.solids import FINE, solid_of, status_of, surface_from
 CUT: Colour = (240, 160, 60)
 BEHIND: Colour = (196, 200, 206)
 ABOVE = math.radians(55)  # the elevation from which a level cut is looked at
+THUMBNAIL = 256  # pixels
 ON = 1e-6  # of the size: what lies this near the plane of a cut was cut
 AXES = "xyz"
 
@@ -41,7 +43,15 @@ def cuts(surface: Surface, report: Mapping[str, Any]) -> Image.Image:
     return sheet(panels, facts, [(CUT, "cut"), (BEHIND, f"behind it; {voids['count']:,} void(s)")])
 
 
-def _half(surface: Surface, axis: int, middle: float, elevation: float) -> Image.Image:
+def thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
+    """Return a small PNG of a closed surface without its front half."""
+    middle = float(surface.bounds[:, 1].mean())
+    with io.BytesIO() as file:
+        _half(surface, 1, middle, ELEVATION, side).save(file, format="PNG")
+        return file.getvalue()
+
+
+def _half(surface: Surface, axis: int, middle: float, elevation: float, side: int = PANEL) -> Image.Image:
     """Return what lies behind, or below, the middle."""
     solid = solid_of(surface)
     if status_of(solid) == FINE:
@@ -55,8 +65,8 @@ def _half(surface: Surface, axis: int, middle: float, elevation: float) -> Image
 
     pixels = render(
         surface,
-        width=PANEL,
-        height=PANEL,
+        width=side,
+        height=side,
         azimuth=AZIMUTH,
         elevation=elevation,
         background=BACKGROUND,

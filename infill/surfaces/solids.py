@@ -109,6 +109,35 @@ def status_of(solid: manifold3d.Manifold) -> str:
     return str(solid.status().name)
 
 
+def without(surface: Surface, others: Iterable[Surface]) -> Surface | None:
+    """Return a closed surface without what others enclose, or None if manifold3d does not take one of them.
+
+    >>> import trimesh
+    >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
+    >>> one, other = (Surface(vertices=each.vertices, faces=each.faces) for each in boxes)
+    >>> round(without(one, [other]).volume, 6)
+    7.0
+    """
+    solids = [solid_of(each) for each in (surface, *others)]
+    if any(status_of(each) != FINE for each in solids):
+        return None
+    return surface_from(reduce(lambda one, other: one - other, solids))
+
+
+def volume_within(surface: Surface, other: Surface) -> float:
+    """Return the volume that two closed surfaces both enclose; nan if manifold3d does not take one of them.
+
+    >>> import trimesh
+    >>> boxes = [trimesh.creation.box((2, 2, 2)), trimesh.creation.box((2, 2, 2)).apply_translation((1, 1, 1))]
+    >>> round(volume_within(*(Surface(vertices=each.vertices, faces=each.faces) for each in boxes)), 6)
+    1.0
+    """
+    one, two = solid_of(surface), solid_of(other)
+    if status_of(one) != FINE or status_of(two) != FINE:
+        return float("nan")
+    return float((one ^ two).volume())
+
+
 def united(surfaces: Iterable[Surface]) -> Surface | None:
     """Return the union of closed surfaces, or None if manifold3d does not take one of them.
 

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from infill.errors import GeometryError
 from infill.filling.solids.drains import drained
-from infill.filling.solids.hollowing import INTERFACE, SHARE, Hollow, hollowed
+from infill.filling.solids.hollowing import Hollow, hollowed
+from infill.filling.solids.inside import SHARE, inner_side
 from infill.filling.solids.request import (
     TOLERANCE,
-    WALL,
     Request,
     checked,
     voids_of,
@@ -27,15 +28,11 @@ from infill.filling.solids.space import Space
 from infill.filling.solids.stages import FillStages
 from infill.filling.solids.telling import measured, problems
 from infill.filling.solids.voids import Voids
-from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.refining import on_profile
-from infill.phasefield.sparse import smooth_bricks
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.surfaces.parting import joined
-from infill.surfaces.solids import shortened
-from infill.surfaces.sparse_marching import extract_bricks
+from infill.surfaces.solids import without
 from infill.version import __version__
 
 if TYPE_CHECKING:
@@ -44,6 +41,7 @@ if TYPE_CHECKING:
     from infill.report_keys import FillReport
 
 FORM = 1
+INTO_WALL = 0.75  # how far infill reaches into the walls of a part from which it cannot be cut
 
 
 def fill(
@@ -53,7 +51,7 @@ def fill(
     density: float | None = None,
     cell: float | None = None,
     line_width: float | None = None,
-    wall: float = WALL,
+    wall: float | None = None,
     as_: str = "solid",
     align: str = "part",
     angle: float = 0.0,
@@ -80,15 +78,16 @@ def fill(
         the same at every height.
     density : float, optional
         Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
-        and a line width of 0.45 mm if nothing is given, or for bars, 0.2 and a cell of 8 mm.
+        and a line width of 0.45 mm (0.9 in a project) if nothing is given, or for bars, 0.2 and a cell of 8 mm.
     cell : float, optional
         Period of the pattern, mm.
     line_width : float, optional
         Width of walls inside, or diameter of bars, mm.
-    wall : float
-        Thickness of the shell, mm.
-    as_ : {"solid", "infill"}
-        Shell and infill as one, or the infill alone, which reaches `overlap` into the shell.
+    wall : float, optional
+        Thickness of the shell, mm: 1.2 by default. In a project, what the slicer's perimeters take: 0.9 by default.
+    as_ : {"solid", "infill", "project"}
+        Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
+        two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
     align : {"part", "bed"}
         Where the pattern begins: in the middle of the part, or at x = y = 0 on the bottom of the part.
     angle : float
@@ -115,7 +114,7 @@ def fill(
     Returns
     -------
     Result
-        With the surface "solid", or "infill".
+        With the surface "solid" or "infill"; in a project, "part" and "infill".
 
     Raises
     ------
@@ -173,8 +172,9 @@ def filled(
     with clock.stage("check", 0.9):
         result, report = _result(given, hollow, voids, request, threads)
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
-    stages = FillStages(part=hollow.space.part, voids=hollow.surface)
-    return Result(surfaces={request.form: result}, report=report, stages=stages)  # type: ignore[arg-type]
+    stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result)
+    surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
+    return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
 
 
 def _result(
@@ -182,8 +182,11 @@ def _result(
 ) -> tuple[Surface, dict[str, Any]]:
     """Return the surface that was asked for, and the report."""
     space, voids, share = hollow.space, hollow.surface, hollow.density
-    outer = space.part if request.form == "solid" else _inside(space, request, threads)
-    solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
+    if request.form == "project":
+        solid = outer = _through_walls(space, hollow.surfaces, request, threads)
+    else:
+        outer = space.part if request.form == "solid" else _inside(space, request, threads)
+        solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
     drains = np.empty((0, 3))
     if request.drain is not None:
         solid, drains = drained(solid, space.part, voids, request.drain)
@@ -239,14 +242,18 @@ def _result(
 
 def _inside(space: Space, request: Request, threads: int | None) -> Surface:
     """Return the surface of what lies inside the walls, and reaches into them."""
-    field = smooth_bricks(
-        on_profile(space.depth + np.float32(request.overlap / space.size), INTERFACE),
-        Smoothing(steps=0),
-        spacing=(space.size,) * 3,
-        threads=threads,
-    )
-    origin = tuple((space.origin - space.size / 2).tolist())
-    surface = extract_bricks(field, spacing=(space.size,) * 3, origin=origin, threads=threads)
-    if request.tolerance > 0:
-        surface = shortened(surface, min(SHARE * request.tolerance, request.overlap / 2))
-    return surface
+    near = min(SHARE * request.tolerance, request.overlap / 2)
+    return inner_side(space, overlap=request.overlap, tolerance=near, threads=threads)
+
+
+def _through_walls(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:
+    """Return the surface of what the voids leave of the part, or of most of it, if manifold3d does not take that."""
+    found = without(space.part, voids)
+    if found is None:
+        inside = inner_side(
+            space, overlap=INTO_WALL * request.wall, tolerance=SHARE * request.tolerance, threads=threads
+        )
+        found = without(inside, voids)
+    if found is None or not len(found.faces):
+        raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
+    return found

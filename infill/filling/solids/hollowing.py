@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.solids.inside import INTERFACE, SHARE, inner_side
 from infill.filling.solids.request import RIGHT_ANGLE, Request, Size, coarsest_for, sizes_for, voxel_for
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import Space, space_inside
@@ -23,7 +25,7 @@ from infill.surfaces.components import shell_names
 from infill.surfaces.parting import joined
 from infill.surfaces.shells import first_of_shells
 from infill.surfaces.simplification import simplified
-from infill.surfaces.solids import shortened
+from infill.surfaces.solids import shortened, volume_within
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.surfaces.winding import winding
 
@@ -35,11 +37,9 @@ FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 COLLAPSE_BYTES = 4000  # for each triangle, at most
-SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
 SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
-INTERFACE = 2.0  # cells: in thinner ones, curvature moves the surface slower than it should
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -56,10 +56,10 @@ class Hollow:
         The voids, facing outwards from them, one surface for each field.
     tolerance : float
         mm by which simplifying has moved them, at most; not finite if that was not watched.
-    count : int
-        Voids.
     islands, specks : int
         Pieces of solid that would have hung free in a void, and voids that were too small.
+    walls : Surface or None, mm
+        The inner side of the walls, if voids reach through them.
     """
 
     space: Space
@@ -67,29 +67,36 @@ class Hollow:
     width: float
     surfaces: list[Surface]
     tolerance: float
-    count: int
     islands: int
     specks: int
+    walls: Surface | None = None
 
     @property
     def surface(self) -> Surface:
         """All voids, mm."""
         return joined(self.surfaces)
 
+    @cached_property
+    def count(self) -> int:
+        """How many voids there are."""
+        return sum(shell_names(surface)[1] for surface in self.surfaces)
+
     @property
     def triangles(self) -> int:
         """Of all voids."""
         return sum(len(surface.faces) for surface in self.surfaces)
 
-    @property
+    @cached_property
     def volume(self) -> float:
-        """Of all voids, mm³."""
-        return sum(surface.volume for surface in self.surfaces)
+        """Of all voids inside the walls, mm³."""
+        if self.walls is None:
+            return sum(surface.volume for surface in self.surfaces)
+        return sum(volume_within(surface, self.walls) for surface in self.surfaces)
 
     @property
     def density(self) -> float:
         """Solid share of what lies inside the walls."""
-        return 1 - self.volume / self.space.volume
+        return 1 - self.volume / (self.space.volume if self.walls is None else self.walls.volume)
 
 
 def hollowed(
@@ -260,10 +267,13 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
     cell, width = sizes
     out = np.empty_like(space.depth)
     smoothing = _smoothing(request.radius(space.thickness), space.size)
-    surfaces, islands, specks, count = [], 0, 0, 0
+    inside, walls = space, None
+    if request.form == "project":
+        inside, walls = space.unwalled, inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
+    surfaces, islands, specks = [], 0, 0
     lost: list[Surface] = []
-    for which in range(voids.count(space, cell=cell, width=width)):
-        voids.into(out, space, which, cell=cell, width=width)
+    for which in range(voids.count(inside, cell=cell, width=width)):
+        voids.into(out, inside, which, cell=cell, width=width)
         if not (out > 0).any():
             continue
         field = smooth_bricks(on_profile(out, INTERFACE), smoothing, spacing=(space.size,) * 3, threads=threads)
@@ -278,17 +288,15 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
         if kept is not None:
             surfaces.append(kept)
     surfaces = [each for each in (_outside(surface, lost, threads) for surface in surfaces) if each is not None]
-    for surface in surfaces:
-        count += shell_names(surface)[1]
     return Hollow(
         space=space,
         cell=cell,
         width=width,
         surfaces=surfaces,
         tolerance=0.0,
-        count=count,
         islands=islands,
         specks=specks,
+        walls=walls,
     )
 
 

@@ -14,7 +14,7 @@ from infill.checks import length, positive, whole, within
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.voids import Repeating, Voids
-from infill.formats.assignments import assignments, merged
+from infill.formats.assignments import Source, assignments, merged, values
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR, no_such
 from patterns.declared import parameters
@@ -22,11 +22,12 @@ from patterns.given import nearest
 from patterns.protocol import Pattern
 from patterns.unit_cells import Bars
 
-Form = Literal["solid", "infill"]
+Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed"]
 Size = Literal["cell", "width"]
 
 DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
+SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
 BAR_CELL = 8.0  # mm: bars are as thick as the density asks for
 LOWEST, HIGHEST = 0.01, 0.9  # densities
 # Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
@@ -97,6 +98,11 @@ class Request:
     voxel: float | None
     max_triangles: int | None
 
+    @property
+    def default_width(self) -> float:
+        """Of walls inside, mm."""
+        return SLICED_WIDTH if self.form == "project" else LINE_WIDTH
+
     def radius(self, thickness: float) -> float:
         """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
         return min(RADIUS, thickness / LEAST_ROUND) if self.smooth_radius is None else self.smooth_radius
@@ -156,7 +162,7 @@ def checked(
     density: float | None,
     cell: float | None,
     line_width: float | None,
-    wall: float,
+    wall: float | None,
     overlap: float | None,
     angle: float,
     phase: tuple[float, ...],
@@ -175,8 +181,8 @@ def checked(
         raise UsageError(f"align is {align!r}; choose from {', '.join(get_args(Align))}")
     if form not in get_args(Form):
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
-    if drain is not None and form == "infill":
-        raise UsageError("drain is for a shell with its infill, and as is 'infill'; leave one of them out")
+    if drain is not None and form != "solid":
+        raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
     shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
@@ -186,8 +192,8 @@ def checked(
         bars = isinstance(CELLULAR.get(pattern), Bars)
         density = DENSITY if cell is None or bars else None
         if density is None:
-            line_width = LINE_WIDTH
-    wall = length("wall", wall)
+            line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
+    wall = (SLICED_WALL if form == "project" else WALL) if wall is None else length("wall", wall)
     return Request(
         pattern=pattern,
         parameters=own,
@@ -224,14 +230,20 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     return Drawn(pattern=pattern_of(request), anchor=anchor, threads=threads)
 
 
-def own_parameters(pattern: str, assigned: Sequence[str]) -> dict[str, Any]:
-    """Return the pattern's own parameters by name, from ``name=value``, or raise ParameterError."""
-    if pattern in CELLULAR and assigned:
-        raise ParameterError(f"--set {assigned[0]}: {pattern} has no parameters; give --cell or --line-width")
-    if not assigned:
+def own_parameters(pattern: str, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Return the pattern's own parameters by name, from ``name=value`` and a table, or raise ParameterError."""
+    if pattern in CELLULAR:
+        if assigned:
+            raise ParameterError(f"--set {assigned[0]}: {pattern} has no parameters; give --cell or --line-width")
+        return dict(table or {})  # which is refused, if it says anything
+    if not (assigned or table):
         return {}
     kind = PATTERNS.find(pattern)
-    given = merged(kind, command=assignments(kind, assigned, options=HELD), file=())
+    given = merged(
+        kind,
+        command=assignments(kind, assigned, options=HELD),
+        file=values(kind, table or {}, Source.TABLE),
+    )
     for name in given:
         if name in HELD:
             raise ParameterError(f"--set {name}: that is --{name.replace('_', '-')} here; give it instead")
@@ -274,7 +286,7 @@ def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
     if request.line_width is None and (request.cell is not None or "cell" not in request.varied):
         cell = BAR_CELL if request.cell is None else request.cell
         return cell, share * cell
-    width = LINE_WIDTH if request.line_width is None else request.line_width
+    width = request.default_width if request.line_width is None else request.line_width
     return width / share, width
 
 

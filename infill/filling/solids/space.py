@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -20,6 +20,7 @@ from infill.voxels.partial import distances_in_cells
 BAND = 2.5  # cells on either side of the wall in which depths are exact
 LEAST_OVERLAP = 1e-5  # of the volume: components that overlap by less are taken not to
 MARGIN = 3  # cells of void around the part
+BEYOND = 1.0  # cells: how far voids that no wall is to be left around reach out of the part
 BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks that are smoothed
 
 
@@ -44,6 +45,8 @@ class Space:
         united where they overlap; the last of these that was.
     overlap : float
         Share of the volume that components of `part` still enclose twice.
+    wall : float
+        mm
     """
 
     depth: NDArray[np.float32]
@@ -53,6 +56,12 @@ class Space:
     repairs: Repairs
     skin: str
     overlap: float
+    wall: float
+
+    @cached_property
+    def unwalled(self) -> Space:
+        """The same, where voids reach through the wall and a little out of the part."""
+        return replace(self, depth=self.depth + np.float32(self.wall / self.size + BEYOND), wall=0.0)
 
     @cached_property
     def cells(self) -> float:
@@ -113,6 +122,7 @@ def space_inside(
         repairs=found.repairs,
         skin=skin,
         overlap=overlap,
+        wall=wall,
     )
 
 

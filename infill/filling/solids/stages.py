@@ -22,13 +22,16 @@ class FillStages:
         The part whose skin the result has.
     voids : Surface, mm
         What was taken out of it, facing outwards.
+    shown : Surface, mm
+        What was made.
     """
 
     part: Surface
     voids: Surface
+    shown: Surface
 
-    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
-        """Return cuts through the middle."""
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
+        """Return cuts through the middle: in a project, of the infill, as the part is whole."""
         from infill.pictures.cuts import cuts
 
-        return cuts(surface, report)
+        return cuts(self.shown, report)

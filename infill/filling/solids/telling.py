@@ -20,6 +20,7 @@ from infill.surfaces.winding import winding
 
 OFF = 0.005  # of the density: what is further off is told
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
+THIN = 0.8  # mm: two lines of a nozzle of 0.4
 LEAST_WALL = 0.9  # of the wall asked for
 
 
@@ -44,9 +45,9 @@ class Measured:
 
     Parameters
     ----------
-    least : float
-        Of the wall, mm.
-    at : list of float
+    least : float or None
+        Of the wall, mm; None if a slicer makes the walls.
+    at : list of float or None
         Where that is, mm.
     astray : int
         Voids outside of the part.
@@ -60,8 +61,8 @@ class Measured:
         Density of the pattern before it was smoothed.
     """
 
-    least: float
-    at: list[float]
+    least: float | None
+    at: list[float] | None
     astray: int
     closed: list[tuple[float, list[float]]]
     crowded: int
@@ -73,13 +74,19 @@ def measured(
     solid: Surface, outer: Surface, hollow: Hollow, voids: Voids, request: Request, *, threads: int | None
 ) -> Measured:
     """Return what is measured on a solid with an outer surface and voids."""
-    least, at = least_wall(hollow.space.part, hollow.surface, threads)
+    least: float | None = None
+    at: list[float] | None = None
+    astray, crowded = 0, int(in_one_place(solid).sum())
+    if request.form != "project":
+        least, at = least_wall(hollow.space.part, hollow.surface, threads)
+        astray = outside(hollow.space.part, hollow.surfaces, threads)
+        crowded -= int(in_one_place(outer).sum())
     return Measured(
         least=least,
         at=at,
-        astray=outside(hollow.space.part, hollow.surfaces, threads),
+        astray=astray,
         closed=trapped(solid) if request.form == "solid" else [],
-        crowded=max(0, int(in_one_place(solid).sum()) - int(in_one_place(outer).sum())),
+        crowded=max(0, crowded),
         verdict=status(solid),
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
     )
@@ -95,11 +102,16 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
             f"of the infill, {facts.drawn:.1%} as drawn, {hollow.density:.1%} is left: walls or bars are too thin for "
             "the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
+    if request.form == "project" and hollow.width < THIN:
+        yield (
+            f"walls or bars inside are {hollow.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
+            "such bodies in many short moves, and extrude up to a tenth more; give a line width of 0.9 mm"
+        )
     if moved > request.tolerance:
         most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
         yield f"for so few triangles, the voids were moved by {most}; give larger cells, or more triangles"
-    if facts.least < LEAST_WALL * request.wall:
-        where = ", ".join(f"{each:.4g}" for each in facts.at)
+    if facts.least is not None and facts.least < LEAST_WALL * request.wall:
+        where = ", ".join(f"{each:.4g}" for each in facts.at or ())
         yield f"the wall is {facts.least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
     if facts.astray:
         yield f"{facts.astray} void(s) lie outside of the part"

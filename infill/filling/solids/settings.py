@@ -1,0 +1,134 @@
+"""The settings of `infill fill`: defaults, overridden by a TOML file, overridden by flags.
+
+In the file, the options have the names that they have on the command line, and the pattern's own parameters stand in a
+table `[set]`::
+
+    pattern = "gyroid"
+    density = "20%"
+    wall = 1.6
+
+A project that the command wrote has them attached, and can be given in place of the file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from infill.errors import UsageError
+from infill.filling.solids.request import TOLERANCE, Request, checked, own_parameters
+from infill.formats.assignments import table_of
+from infill.formats.options import Reader, parse_number, parse_numbers, parse_share, parse_whole, parse_word, parsed
+from infill.formats.toml import options_text, read_toml
+
+THIRDS = ("density", "line_width", "cell")  # of which two say the third; the first to go
+
+
+@dataclass(frozen=True, kw_only=True)
+class FillSettings:
+    """How to fill, described in terms of the command line.
+
+    Parameters
+    ----------
+    request : Request
+    units : str or None
+        Of the mesh.
+    slicer : str or None
+        For whom a project is.
+    """
+
+    request: Request
+    units: str | None
+    slicer: str | None
+
+    def to_toml(self) -> str:
+        """Return all settings, as a TOML document that `resolve` reads back."""
+        options = {**self.request.facts(), "units": self.units, "for": self.slicer}
+        return options_text(options, "infill fill PART --config THIS_FILE -o OUT")
+
+
+def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path | None = None) -> FillSettings:
+    """Return the settings: the command line takes precedence over the file, and the file over the defaults.
+
+    Parameters
+    ----------
+    flags : mapping
+        What was typed, by its name on the command line; None counts as not given.
+    assigned : sequence of str
+        The pattern's own parameters as ``name=value``.
+    config : Path, optional
+        A TOML file, or a project.
+
+    Raises
+    ------
+    ParameterError, patterns.PatternError
+        If a name is unknown, a value is of the wrong type or out of range, or options contradict each other.
+    FormatError
+        If the file is missing or not TOML.
+    """
+    typed = parsed("fill", READERS, {name: value for name, value in flags.items() if value is not None})
+    read = read_toml(config, example='pattern = "gyroid"') if config else {}
+    table = dict(table_of(read))
+    filed = parsed("fill", READERS, read)
+    if typed.get("pattern", filed.get("pattern")) != filed.get("pattern"):
+        table = {}  # the parameters of another pattern
+    for name in THIRDS:
+        if all(each in typed or each in filed for each in THIRDS) and name not in typed:
+            filed.pop(name, None)
+    if "wall" in typed:
+        filed.pop("overlap", None)  # that of another wall
+    both = {**filed, **typed}
+    slicer, units = both.pop("for", None), both.pop("units", None)
+    form = both.pop("as", "solid" if slicer is None else "project")
+    if slicer is not None and form != "project":
+        if "as" not in typed:
+            form = "project"
+        elif "for" in typed:
+            raise UsageError(f"for is {slicer!r}, and projects for slicers are as project, not {form}; leave one out")
+        else:
+            slicer = None
+    if form == "project" and slicer is None:
+        raise UsageError("as is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer")
+    pattern = both.pop("pattern", "gyroid")
+    values = {**DEFAULTS, **both}
+    own = own_parameters(pattern, assigned, table)
+    return FillSettings(request=checked(pattern=pattern, own=own, form=form, **values), units=units, slicer=slicer)
+
+
+DEFAULTS: dict[str, Any] = {
+    "density": None,
+    "cell": None,
+    "line_width": None,
+    "wall": None,
+    "align": "part",
+    "angle": 0.0,
+    "phase": (0.0, 0.0, 0.0),
+    "drain": None,
+    "smooth_radius": None,
+    "overlap": None,
+    "tolerance": TOLERANCE,
+    "max_triangles": None,
+    "voxel": None,
+}
+READERS: Mapping[str, Reader] = {
+    "pattern": parse_word,
+    "density": parse_share,
+    "cell": parse_number,
+    "line_width": parse_number,
+    "wall": parse_number,
+    "as": parse_word,
+    "for": parse_word,
+    "units": parse_word,
+    "align": parse_word,
+    "angle": parse_number,
+    "phase": partial(parse_numbers, counts=(2, 3)),
+    "drain": parse_number,
+    "smooth_radius": parse_number,
+    "overlap": parse_number,
+    "tolerance": parse_number,
+    "max_triangles": parse_whole,
+    "voxel": parse_number,
+}

@@ -1,0 +1,188 @@
+"""What a slicer will do with a 3MF: what it prints, with which settings, and what it would lose without a word."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from infill.errors import UsageError
+from infill.slicers import bambustudio, cura, prusaslicer
+from infill.slicers.findings import Finding, Kind, Volume, as_problem, as_warning
+from infill.slicers.project import SLICERS, Slicer
+from infill.slicers.reading import RELATIONS, Package, read_package
+from infill.slicers.rules_bambustudio import volumes_for_bambustudio
+from infill.slicers.rules_cura import volumes_for_cura
+from infill.slicers.rules_prusaslicer import volumes_for_prusaslicer
+
+NAMES = {
+    "prusaslicer": "PrusaSlicer",
+    "orcaslicer": "OrcaSlicer",
+    "bambustudio": "Bambu Studio",
+    "cura": "Cura",
+    "plain": "any slicer",
+}
+MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a command line
+KNOWN_EXTENSIONS = {"p", "m"}  # production, materials
+
+
+@dataclass(frozen=True, kw_only=True)
+class Diagnosis:
+    """What `check_project` found.
+
+    Parameters
+    ----------
+    slicer : str
+    fine : bool
+        True if there are no problems.
+    problems, warnings : tuple of str
+        What the slicer would lose or refuse, and what it does that may surprise.
+    application, unit : str
+        As the file says.
+    volumes : tuple of Volume
+        What the slicer prints, in its order.
+    """
+
+    slicer: str
+    fine: bool
+    problems: tuple[str, ...]
+    warnings: tuple[str, ...]
+    application: str
+    unit: str
+    volumes: tuple[Volume, ...] = field(default_factory=tuple)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain values, as ``--json`` prints it."""
+        return asdict(self)
+
+
+def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
+    """Say what a slicer will do with a 3MF, and what is wrong with it.
+
+    Parameters
+    ----------
+    path : str or Path
+    slicer : {"prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"}
+
+    Returns
+    -------
+    Diagnosis
+
+    Raises
+    ------
+    FormatError
+        If there is no such file, or it is no 3MF.
+    UsageError
+        For a slicer that is not known.
+
+    Notes
+    -----
+    The rules are those that the readers of the slicers follow; their own exit status is 0 in most of these cases.
+    """
+    if slicer not in SLICERS:
+        raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
+    package = read_package(Path(path))
+    findings: list[Finding] = []
+    volumes: list[Volume] = []
+    for each in _examined(package, slicer):
+        (volumes if isinstance(each, Volume) else findings).append(each)  # type: ignore[arg-type]
+    told = {kind: tuple(dict.fromkeys(each.text for each in findings if each.kind is kind)) for kind in Kind}
+    return Diagnosis(
+        slicer=slicer,
+        fine=not told[Kind.PROBLEM],
+        problems=told[Kind.PROBLEM],
+        warnings=told[Kind.WARNING],
+        application=package.metadata.get("Application", ""),
+        unit=package.unit,
+        volumes=tuple(volumes),
+    )
+
+
+def _examined(package: Package, slicer: Slicer) -> Iterator[Volume | Finding]:
+    """Yield what a slicer prints, and what is to be said of it."""
+    yield from _anywhere(package, slicer)
+    volumes = []
+    for each in READERS[slicer](package):
+        if isinstance(each, Volume):
+            volumes.append(each)
+        yield each
+    for volume in volumes:
+        yield from _shape(volume)
+    total = sum(volume.triangles for volume in volumes)
+    if slicer in ("orcaslicer", "bambustudio") and total > MOST_ON_COMMAND_LINE:
+        yield as_warning(
+            f"it has {total:,} triangles, and OrcaSlicer's command line takes a million; its window takes more"
+        )
+    if not any(volume.prints for volume in volumes):
+        yield as_problem("there is nothing in it to print")
+
+
+def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
+    """Say what holds in every slicer."""
+    if RELATIONS not in package.names:
+        yield as_problem(f"it has no {RELATIONS}, without which newer slicers do not open it")
+    if package.unit not in STATED_UNITS:
+        yield as_problem(f"its unit is {package.unit!r}, and 3MF knows {', '.join(STATED_UNITS)}")
+    elif package.unit != "millimeter":
+        yield as_warning(f"it is in units of a {package.unit}, and is scaled to millimetres")
+    for extension in package.extensions:
+        if extension not in KNOWN_EXTENSIONS:
+            yield as_problem(f"it requires the extension {extension!r}, which slicers do not know")
+    for number, _ in package.built:
+        if number not in package.bodies:
+            yield as_problem(f"it builds an object {number} that it does not hold")
+    made_for = [name for name, config in CONFIGS.items() if config in package.names]
+    if any(key.startswith(f"{{{cura.NAMESPACE}}}") for body in package.bodies.values() for key in body.settings):
+        made_for.append("cura")
+    if slicer != "plain" and made_for and FAMILY[slicer] not in made_for:
+        yield as_problem(
+            f"its settings are for {' and '.join(NAMES[each] for each in made_for)}, and {NAMES[slicer]} does not read "
+            f"them; make it again with --for {slicer}"
+        )
+
+
+def _shape(volume: Volume) -> Iterator[Finding]:
+    """Say what is wrong with a mesh."""
+    if not volume.triangles:
+        yield as_problem(f"{volume.name} has no triangles")
+    elif not volume.closed:
+        yield as_problem(f"{volume.name} is not closed: slicers leave out layers where it is open, without a word")
+    elif not volume.outward:
+        yield as_problem(f"{volume.name} faces inwards")
+    elif volume.shared:
+        yield as_warning(f"{volume.name} has {volume.shared:,} edge(s) with more than two faces: slicers mostly cope")
+
+
+def _volumes_of_any(package: Package) -> Iterator[Volume | Finding]:
+    """Yield every object that is built, each for itself."""
+
+    def under(number: str, deep: int = 0) -> Iterator[Volume]:
+        body = package.bodies.get(number)
+        if body is None or deep > len(package.bodies):
+            return
+        if body.mesh is not None:
+            yield Volume.of(body.name or f"object {number}", body.mesh, "part", {})
+        for each in body.components:
+            yield from under(each, deep + 1)
+
+    found = [volume for number, _ in package.built for volume in under(number)]
+    yield from found
+    if len(found) > 1:
+        yield as_warning(
+            f"its {len(found)} objects have no settings: a slicer fills each as its profile says, and prints what two "
+            "of them have in common twice, unless they are put together there"
+        )
+
+
+FAMILY = {"prusaslicer": "prusaslicer", "orcaslicer": "bambustudio", "bambustudio": "bambustudio", "cura": "cura"}
+CONFIGS = {"prusaslicer": prusaslicer.CONFIG, "bambustudio": bambustudio.CONFIG}
+STATED_UNITS = ("micron", "millimeter", "centimeter", "inch", "foot", "meter")
+READERS: dict[str, Callable[[Package], Iterator[Volume | Finding]]] = {
+    "prusaslicer": volumes_for_prusaslicer,
+    "orcaslicer": lambda package: volumes_for_bambustudio(package, "orcaslicer"),
+    "bambustudio": lambda package: volumes_for_bambustudio(package, "bambustudio"),
+    "cura": volumes_for_cura,
+    "plain": _volumes_of_any,
+}

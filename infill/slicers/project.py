@@ -1,0 +1,63 @@
+"""What a project for a slicer holds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from infill.formats.threemf import APPLICATION, SETTINGS, Attached
+from infill.surface import Surface
+
+Slicer = Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"]
+SLICERS: tuple[Slicer, ...] = get_args(Slicer)
+THUMBNAIL = "Metadata/thumbnail.png"
+THUMBNAIL_RELATION = "http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"
+SETTINGS_RELATION = "http://schemas.phasefill.org/package/2026/settings"
+PART, INFILL = "part", "infill"  # names of what is in the part, as slicers list them
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Project:
+    """A part and its infill, for a slicer.
+
+    Parameters
+    ----------
+    part : Surface, mm
+    infill : Surface, mm
+        A body inside the part; walls, bottoms and tops are the slicer's own.
+    title : str
+    thumbnail : bytes, optional
+        A PNG.
+    settings : str
+        TOML from which ``infill fill --config`` makes it again; empty for none.
+    """
+
+    part: Surface
+    infill: Surface
+    title: str = "part"
+    thumbnail: bytes | None = None
+    settings: str = ""
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What every model says of itself."""
+        return {"Title": self.title, "Application": APPLICATION, "Description": f"filled by {APPLICATION}"}
+
+    @property
+    def attached(self) -> list[Attached]:
+        """What goes into the package of every slicer."""
+        found = []
+        if self.thumbnail is not None:
+            found.append(
+                Attached(name=THUMBNAIL, content=self.thumbnail, media="image/png", relation=THUMBNAIL_RELATION)
+            )
+        if self.settings:
+            found.append(
+                Attached(
+                    name=SETTINGS,
+                    content=self.settings.encode(),
+                    media="application/toml",
+                    relation=SETTINGS_RELATION,
+                )
+            )
+        return found

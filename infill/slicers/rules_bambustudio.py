@@ -1,0 +1,117 @@
+"""How Bambu Studio and OrcaSlicer read a 3MF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from infill.slicers.bambustudio import CONFIG
+from infill.slicers.findings import WALL_KEYS, Finding, Volume, as_problem, as_warning, in_order, of_filling, with_walls
+from infill.slicers.reading import Body, Package
+
+ROLES = {
+    "normal_part": "part",
+    "modifier_part": "modifier",
+    "negative_part": "negative",
+    "support_enforcer": "support enforcer",
+    "support_blocker": "support blocker",
+}
+RESERVED = {
+    "name",
+    "matrix",
+    "extruder",
+    "source_file",
+    "source_object_id",
+    "source_volume_id",
+    "source_offset_x",
+    "source_offset_y",
+    "source_offset_z",
+    "source_in_inches",
+    "source_in_meters",
+}
+# By whom a file has to say that it was written, for the settings of its objects to be kept.
+KEPT_FROM = {"bambustudio": ("BambuStudio-",), "orcaslicer": ("BambuStudio-", "OrcaSlicer-")}
+NAMES = {"bambustudio": "Bambu Studio", "orcaslicer": "OrcaSlicer"}
+KEYS = WALL_KEYS["Bambu"] | {
+    "bottom_shell_layers",
+    "bottom_shell_thickness",
+    "bottom_surface_pattern",
+    "bridge_flow",
+    "enable_support",
+    "infill_combination",
+    "infill_direction",
+    "internal_solid_infill_line_width",
+    "internal_solid_infill_pattern",
+    "internal_solid_infill_speed",
+    "ironing_type",
+    "minimum_sparse_infill_area",
+    "sparse_infill_anchor",
+    "sparse_infill_anchor_max",
+    "sparse_infill_density",
+    "sparse_infill_filament",
+    "sparse_infill_line_width",
+    "sparse_infill_pattern",
+    "sparse_infill_speed",
+    "top_shell_layers",
+    "top_shell_thickness",
+    "top_surface_pattern",
+}
+
+
+def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[Volume | Finding]:
+    """Yield the volumes that one of the two makes of a file, and what it loses."""
+    who, application = NAMES[slicer], package.metadata.get("Application", "")
+    config = package.xml(CONFIG)
+    told = {} if config is None else {each.get("id", ""): each for each in config.findall("object")}
+    built = {number for number, _ in package.built}
+    if "PrusaSlicer" in application:
+        yield as_problem(f"it says that PrusaSlicer wrote it: {who} reads it as such, and drops every setting")
+    elif config is not None and not application.startswith(KEPT_FROM[slicer]):
+        only = " or ".join(each.rstrip("-") for each in KEPT_FROM[slicer])
+        yield as_problem(
+            f"it says that {application or 'nobody'} wrote it, and {who} keeps the settings of objects only from files "
+            f"of {only}; make it again with --for {slicer}"
+        )
+    if config is None and len(package.bodies) > 1:
+        yield as_warning(f"it has no {CONFIG}: every part is filled as the profile says")
+    for number in told:
+        if number not in built:
+            yield as_problem(f"{CONFIG} is about an object {number} that is not built: its settings are lost")
+    for number, _ in package.built:
+        body = package.bodies.get(number)
+        if body is not None:
+            yield from _of_object(package, body, told.get(number), who)
+
+
+def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator[Volume | Finding]:
+    """Yield the parts of an object."""
+    from xml.etree import ElementTree
+
+    parts = {}
+    if isinstance(told, ElementTree.Element):
+        parts = {each.get("id", ""): each for each in told.findall("part")}
+    members = body.components or (body.number,)
+    for number in parts:
+        if number not in members:
+            yield as_problem(
+                f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(members)}: the "
+                "settings are lost, and what was to be a modifier is printed as a part"
+            )
+    volumes: list[Volume] = []
+    for number in members:
+        member = package.bodies.get(number)
+        if member is None or member.mesh is None:
+            if member is None:
+                yield as_problem(f"object {body.number} consists of {number}, which the model does not hold")
+            continue
+        part = parts.get(number)
+        rows = {} if part is None else {each.get("key", ""): each.get("value", "") for each in part.findall("metadata")}
+        name = rows.get("name", "") or member.name or f"part {number}"
+        kind = "normal_part" if part is None else part.get("subtype", "normal_part")
+        if kind not in ROLES:
+            yield as_problem(f"{name} is a {kind!r}; {who} knows {', '.join(ROLES)}")
+        own = {key: value for key, value in rows.items() if key not in RESERVED}
+        volumes.append(Volume.of(name, member.mesh, ROLES.get(kind, kind), own))
+        yield from of_filling(name, own, "sparse_infill_density", KEYS, who)
+    yield from volumes
+    yield from in_order(volumes)
+    yield from with_walls(volumes, WALL_KEYS["Bambu"])
