@@ -58,7 +58,7 @@ default_role = "code"  # single backquotes in docstrings are names of arguments 
 # What public functions take or return and the packages do not export.
 NOT_EXPORTED = ("FeatureMotion", "Named", "Options", "Progress", "StampMethod", "SurfaceMethod", "Told")
 NOT_EXPORTED += ("ComponentStages", "FillStages", "LabelStages", "MakeStages", "SmoothStages", "Stages")
-NOT_EXPORTED += ("ComponentsReport", "FillReport", "LabelsReport", "MakeReport", "SmoothReport")
+NOT_EXPORTED += ("ComponentsReport", "FillReport", "LabelsReport", "MakeReport", "PrintedVolume", "SmoothReport")
 # Every other name of ours must resolve. Those of other projects lead nowhere, as the build needs no network.
 OTHERS = ("Image", "collections", "dataclasses", "datetime", "importlib", "manifold3d", "np", "numpy", "os", "pathlib")
 OTHERS += ("shapely", "trimesh", "typing")

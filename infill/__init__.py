@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
     from infill.result import Result
-    from infill.slicers.doctor import check_project
+    from infill.slicers.doctor import Diagnosis, check_project
     from infill.slicers.saving import save_project
     from infill.smoothing.labels import smooth_labels
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
@@ -77,7 +77,7 @@ _HOMES = {
     "surfaces.stacking": ("extrude", "stack"),
     "voxels.stamping": ("stamp", "stamp_lines"),
     "formats.volume_files": ("read_volume",),
-    "slicers.doctor": ("check_project",),
+    "slicers.doctor": ("Diagnosis", "check_project"),
     "slicers.saving": ("save_project",),
     "surface": ("Surface",),
     "surfaces.marching": ("isosurface",),
@@ -87,6 +87,7 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "Diagnosis",
     "FormatError",
     "GeometryError",
     "Grid",

@@ -504,6 +504,13 @@ class FillDrains(TypedDict):
     at: list[Vector]
 
 
+class GradedStep(TypedDict):
+    """Where about as much was asked for, of a density that changes."""
+
+    wanted: float
+    density: float
+
+
 class FillVoids(TypedDict):
     """What was taken out of it."""
 
@@ -529,6 +536,8 @@ class FillRequest(TypedDict):
     pattern: str
     parameters: dict[str, Any]
     density: float | None
+    densities: list[float] | None
+    by: str | None
     cell: float | None
     line_width: float | None
     wall: float
@@ -574,6 +583,7 @@ class FillReport(TypedDict):
     grid: GridKeys
     mesh: FillMesh
     infill: FillSizes
+    graded: list[GradedStep]
     part: FillPart
     voids: FillVoids
     drains: FillDrains

@@ -19,6 +19,7 @@ from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
 from infill.filling.solids.drains import falls
+from infill.filling.solids.grading import NONE
 from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.request import checked, voids_of
 from infill.filling.solids.roots import root
@@ -189,7 +190,7 @@ def test_kernels_are_their_definitions() -> None:
     pattern = CELLULAR["kelvin"]
     assert isinstance(pattern, Bars)
     out = np.empty_like(depth)
-    filled = from_bars(depth, -1.0, pattern.around_cell(), turn, start, period, 1.0, half, out, 0, 1)
+    filled = from_bars(depth, -1.0, pattern.around_cell(), turn, start, period, 1.0, half, *NONE, out, 0, 1)
     exact = to_edges((places % 1).reshape(-1, 3), pattern.around_cell()).reshape(depth.shape) * period - half
     wanted = np.where(depth <= -1, depth, np.minimum(exact, depth))
     assert out == pytest.approx(wanted, abs=1e-5)
@@ -199,13 +200,26 @@ def test_kernels_are_their_definitions() -> None:
     from scipy.ndimage import map_coordinates
 
     for sign in (1.0, -1.0):
-        from_period(depth, -1.0, table, turn, start, period, sign, half, out, 0, 1)
+        from_period(depth, -1.0, table, turn, start, period, sign, half, *NONE, out, 0, 1)
         there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap")
         exact = sign * there.reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     plane = rng.uniform(-2, 2, (5, 6)).astype(np.float32)
-    from_plane(depth, plane, out, 0, 1)
+    from_plane(depth, plane, 0.0, *NONE, out, 0, 1)
     assert (out == np.minimum(plane[:, :, None], depth)).all()
+    # Walls that are wider from place to place: nodes 2.5 cells apart, straight in between.
+    ratio = rng.uniform(0.5, 2, (3, 4, 4)).astype(np.float32)
+    times = map_coordinates(ratio.astype(float), cells.reshape(-1, 3).T / 2.5, order=1, mode="nearest")
+    times = times.reshape(depth.shape)
+    from_plane(depth, plane, half, ratio, 2.5, out, 0, 1)
+    assert out == pytest.approx(np.minimum(plane[:, :, None] - half * times, depth), abs=1e-5)
+    from_bars(depth, -1.0, pattern.around_cell(), turn, start, period, 1.0, half, ratio, 2.5, out, 0, 1)
+    exact = to_edges((places % 1).reshape(-1, 3), pattern.around_cell()).reshape(depth.shape) * period - half * times
+    assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
+    from_period(depth, -1.0, table, turn, start, period, 1.0, half, ratio, 2.5, out, 0, 1)
+    there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap").reshape(depth.shape)
+    exact = there * period - half * times
+    assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     segments = rng.uniform(0, 9, (6, 2, 2))
     squared = np.full((10, 11), np.float32(9.0))
     lower_to_segments(segments, 3.0, squared)

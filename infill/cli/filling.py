@@ -88,7 +88,17 @@ def fill(
         str | None,
         typer.Option(
             metavar="SHARE",
-            help="Solid share of what lies inside the walls: 20%, or 0.2. (default: 20%)",
+            help="Solid share of what lies inside the walls: 20%, or 0.2; two, such as 15%:40%, for one that changes. "
+            "(default: 20%)",
+            rich_help_panel=PATTERN,
+        ),
+    ] = None,
+    by: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FIELD",
+            help="What the density follows from its first value to its second: x, y, z, skin (from the walls inwards), "
+            "a .csv of x, y, z, value, a .npy, a picture from above, or module.py:name. (default: z)",
             rich_help_panel=PATTERN,
         ),
     ] = None,
@@ -250,6 +260,7 @@ def fill(
     flags = {
         "pattern": pattern,
         "density": density,
+        "by": by,
         "cell": cell,
         "line_width": line_width,
         "wall": wall,
@@ -362,6 +373,7 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
     skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
     if report["drains"]["count"]:
         skin += ", but for the drains"
+    graded = report["graded"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
         "solid": f"{report['volume']:.6g} mm³, {report['volume'] / report['part']['volume']:.1%} of the part",
@@ -374,6 +386,10 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
         rows["solid"] = f"{report['volume']:.6g} mm³ of infill"
         del rows["walls"], rows["voids"]
+    if graded:
+        ends = f"{graded[0]['density']:.0%} to {graded[-1]['density']:.0%}"
+        wanted = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
+        rows["graded"] = f"{ends} by {request['by']}, where {wanted} was asked for"
     if voids["islands"]:
         rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
     if report["problems"]:

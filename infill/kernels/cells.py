@@ -12,8 +12,33 @@ import numpy as np
 from infill.kernels.compiling import njit
 
 
+@njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def local(ratio, step, i, j, k):
+    """Return the number at a cell, from nodes that are `step` cells apart; straight in between.
+
+    Parameters
+    ----------
+    ratio : (n, m, l) float32
+        A single node says it for all cells.
+    """
+    n, m, l = ratio.shape  # noqa: E741
+    if n == 1 and m == 1 and l == 1:
+        return ratio[0, 0, 0]
+    x, y, z = i / step, j / step, k / step
+    a, b, c = min(int(x), n - 1), min(int(y), m - 1), min(int(z), l - 1)
+    d, e, f = min(a + 1, n - 1), min(b + 1, m - 1), min(c + 1, l - 1)
+    x, y, z = min(x - a, 1.0), min(y - b, 1.0), min(z - c, 1.0)
+    low = (ratio[a, b, c] * (1 - z) + ratio[a, b, f] * z) * (1 - y) + (
+        ratio[a, e, c] * (1 - z) + ratio[a, e, f] * z
+    ) * y
+    high = (ratio[d, b, c] * (1 - z) + ratio[d, b, f] * z) * (1 - y) + (
+        ratio[d, e, c] * (1 - z) + ratio[d, e, f] * z
+    ) * y
+    return low * (1 - x) + high * x
+
+
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_period(depth, least, table, turn, start, period, sign, half, out, thread, threads):
+def from_period(depth, least, table, turn, start, period, sign, half, ratio, step, out, thread, threads):
     """Fill `out` with the lesser of the depth and the distance into the void beside a surface that repeats, in cells.
 
     Parameters
@@ -33,6 +58,8 @@ def from_period(depth, least, table, turn, start, period, sign, half, out, threa
         1 for the side where the table is above 0, -1 for the other.
     half : float
         Of the width of the walls, in cells.
+    ratio, step
+        Of the width of the walls at a cell to that: see `local`.
     out : (nx, ny, nz) float32
     thread, threads : int
         This call fills every `threads`-th layer, and returns how many cells the void fills.
@@ -61,21 +88,21 @@ def from_period(depth, least, table, turn, start, period, sign, half, out, threa
                 high = (table[d, b, c] * (1 - z) + table[d, b, f] * z) * (1 - y) + (
                     table[d, e, c] * (1 - z) + table[d, e, f] * z
                 ) * y
-                value = min(sign * (low * (1 - x) + high * x) * period - half, deep)
+                value = min(sign * (low * (1 - x) + high * x) * period - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_bars(depth, least, edges, turn, start, period, sign, half, out, thread, threads):
+def from_bars(depth, least, edges, turn, start, period, sign, half, ratio, step, out, thread, threads):
     """Fill `out` with the lesser of the depth and the distance from round bars that repeat, in cells.
 
     Parameters
     ----------
     edges : (E, 2, 3) float64
         The axes of the bars that may be the nearest in one period, in periods.
-    depth, least, turn, start, period, sign, half, out, thread, threads
+    depth, least, turn, start, period, sign, half, ratio, step, out, thread, threads
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
@@ -103,20 +130,23 @@ def from_bars(depth, least, edges, turn, start, period, sign, half, out, thread,
                     along = min(1.0, max(0.0, along))
                     vx, vy, vz = vx - along * ux, vy - along * uy, vz - along * uz
                     nearest = min(nearest, vx * vx + vy * vy + vz * vz)
-                value = min(sign * (math.sqrt(nearest) * period - half), deep)
+                value = min(sign * (math.sqrt(nearest) * period - half * local(ratio, step, i, j, k)), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_plane(depth, plane, out, thread, threads):
+def from_plane(depth, plane, half, ratio, step, out, thread, threads):
     """Fill `out` with the lesser of the depth and a distance that is the same at every height, in cells.
 
     Parameters
     ----------
     depth, out : (nx, ny, nz) float32
     plane : (nx, ny) float32
+        From the lines.
+    half, ratio, step
+        As in `from_period`.
     thread, threads : int
         This call fills every `threads`-th layer, and returns how many cells the void fills.
     """
@@ -126,7 +156,7 @@ def from_plane(depth, plane, out, thread, threads):
         for j in range(ny):
             here = plane[i, j]
             for k in range(nz):
-                value = min(here, depth[i, j, k])
+                value = min(here - half * local(ratio, step, i, j, k), depth[i, j, k])
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

@@ -10,7 +10,7 @@ from typing import Any
 
 from infill.errors import UsageError
 from infill.slicers import bambustudio, cura, prusaslicer
-from infill.slicers.findings import Finding, Kind, Volume, as_problem, as_warning
+from infill.slicers.findings import Finding, Kind, PrintedVolume, as_problem, as_warning
 from infill.slicers.project import SLICERS, Slicer
 from infill.slicers.reading import RELATIONS, Package, read_package
 from infill.slicers.rules_bambustudio import volumes_for_bambustudio
@@ -41,7 +41,7 @@ class Diagnosis:
         What the slicer would lose or refuse, and what it does that may surprise.
     application, unit : str
         As the file says.
-    volumes : tuple of Volume
+    volumes : tuple of PrintedVolume
         What the slicer prints, in its order.
     """
 
@@ -51,7 +51,7 @@ class Diagnosis:
     warnings: tuple[str, ...]
     application: str
     unit: str
-    volumes: tuple[Volume, ...] = field(default_factory=tuple)
+    volumes: tuple[PrintedVolume, ...] = field(default_factory=tuple)
 
     def to_dict(self) -> dict[str, Any]:
         """Return it as plain values, as ``--json`` prints it."""
@@ -85,9 +85,9 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
         raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
     package = read_package(Path(path))
     findings: list[Finding] = []
-    volumes: list[Volume] = []
+    volumes: list[PrintedVolume] = []
     for each in _examined(package, slicer):
-        (volumes if isinstance(each, Volume) else findings).append(each)  # type: ignore[arg-type]
+        (volumes if isinstance(each, PrintedVolume) else findings).append(each)  # type: ignore[arg-type]
     told = {kind: tuple(dict.fromkeys(each.text for each in findings if each.kind is kind)) for kind in Kind}
     return Diagnosis(
         slicer=slicer,
@@ -100,12 +100,12 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     )
 
 
-def _examined(package: Package, slicer: Slicer) -> Iterator[Volume | Finding]:
+def _examined(package: Package, slicer: Slicer) -> Iterator[PrintedVolume | Finding]:
     """Yield what a slicer prints, and what is to be said of it."""
     yield from _anywhere(package, slicer)
     volumes = []
     for each in READERS[slicer](package):
-        if isinstance(each, Volume):
+        if isinstance(each, PrintedVolume):
             volumes.append(each)
         yield each
     for volume in volumes:
@@ -143,7 +143,7 @@ def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
         )
 
 
-def _shape(volume: Volume) -> Iterator[Finding]:
+def _shape(volume: PrintedVolume) -> Iterator[Finding]:
     """Say what is wrong with a mesh."""
     if not volume.triangles:
         yield as_problem(f"{volume.name} has no triangles")
@@ -155,15 +155,15 @@ def _shape(volume: Volume) -> Iterator[Finding]:
         yield as_warning(f"{volume.name} has {volume.shared:,} edge(s) with more than two faces: slicers mostly cope")
 
 
-def _volumes_of_any(package: Package) -> Iterator[Volume | Finding]:
+def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield every object that is built, each for itself."""
 
-    def under(number: str, deep: int = 0) -> Iterator[Volume]:
+    def under(number: str, deep: int = 0) -> Iterator[PrintedVolume]:
         body = package.bodies.get(number)
         if body is None or deep > len(package.bodies):
             return
         if body.mesh is not None:
-            yield Volume.of(body.name or f"object {number}", body.mesh, "part", {})
+            yield PrintedVolume.of(body.name or f"object {number}", body.mesh, "part", {})
         for each in body.components:
             yield from under(each, deep + 1)
 
@@ -179,7 +179,7 @@ def _volumes_of_any(package: Package) -> Iterator[Volume | Finding]:
 FAMILY = {"prusaslicer": "prusaslicer", "orcaslicer": "bambustudio", "bambustudio": "bambustudio", "cura": "cura"}
 CONFIGS = {"prusaslicer": prusaslicer.CONFIG, "bambustudio": bambustudio.CONFIG}
 STATED_UNITS = ("micron", "millimeter", "centimeter", "inch", "foot", "meter")
-READERS: dict[str, Callable[[Package], Iterator[Volume | Finding]]] = {
+READERS: dict[str, Callable[[Package], Iterator[PrintedVolume | Finding]]] = {
     "prusaslicer": volumes_for_prusaslicer,
     "orcaslicer": lambda package: volumes_for_bambustudio(package, "orcaslicer"),
     "bambustudio": lambda package: volumes_for_bambustudio(package, "bambustudio"),

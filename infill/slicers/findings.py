@@ -60,7 +60,7 @@ class Finding:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Volume:
+class PrintedVolume:
     """A mesh that a slicer knows by a name.
 
     Parameters
@@ -86,7 +86,7 @@ class Volume:
     settings: Mapping[str, str]
 
     @classmethod
-    def of(cls, name: str, mesh: Surface, role: str, settings: Mapping[str, str]) -> Volume:
+    def of(cls, name: str, mesh: Surface, role: str, settings: Mapping[str, str]) -> PrintedVolume:
         """Return the volume of a mesh."""
         edges = Edges.of(mesh.faces) if len(mesh.faces) else None
         return cls(
@@ -132,7 +132,7 @@ def of_filling(name: str, settings: Mapping[str, str], density: str, known: set[
             yield as_warning(f"{key} of {name} is no setting of a volume that {slicer} is known to read: it is ignored")
 
 
-def in_order(volumes: list[Volume]) -> Iterator[Finding]:
+def in_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
     """Say which modifiers come before the part that they are to change."""
     last = max((number for number, volume in enumerate(volumes) if volume.prints), default=-1)
     for volume in volumes[: max(last, 0)]:
@@ -142,7 +142,7 @@ def in_order(volumes: list[Volume]) -> Iterator[Finding]:
             )
 
 
-def with_walls(volumes: list[Volume], keys: set[str]) -> Iterator[Finding]:
+def with_walls(volumes: list[PrintedVolume], keys: set[str]) -> Iterator[Finding]:
     """Say which modifiers get walls of their own."""
     for volume in volumes:
         if volume.role == "modifier" and (own := sorted(keys & set(volume.settings))):

@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from infill.slicers.bambustudio import CONFIG
-from infill.slicers.findings import WALL_KEYS, Finding, Volume, as_problem, as_warning, in_order, of_filling, with_walls
+from infill.slicers.findings import (
+    WALL_KEYS,
+    Finding,
+    PrintedVolume,
+    as_problem,
+    as_warning,
+    in_order,
+    of_filling,
+    with_walls,
+)
 from infill.slicers.reading import Body, Package
 
 ROLES = {
@@ -57,7 +66,7 @@ KEYS = WALL_KEYS["Bambu"] | {
 }
 
 
-def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[Volume | Finding]:
+def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes that one of the two makes of a file, and what it loses."""
     who, application = NAMES[slicer], package.metadata.get("Application", "")
     config = package.xml(CONFIG)
@@ -82,7 +91,7 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[Volume | 
             yield from _of_object(package, body, told.get(number), who)
 
 
-def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator[Volume | Finding]:
+def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
     from xml.etree import ElementTree
 
@@ -96,7 +105,7 @@ def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator
                 f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(members)}: the "
                 "settings are lost, and what was to be a modifier is printed as a part"
             )
-    volumes: list[Volume] = []
+    volumes: list[PrintedVolume] = []
     for number in members:
         member = package.bodies.get(number)
         if member is None or member.mesh is None:
@@ -110,7 +119,7 @@ def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator
         if kind not in ROLES:
             yield as_problem(f"{name} is a {kind!r}; {who} knows {', '.join(ROLES)}")
         own = {key: value for key, value in rows.items() if key not in RESERVED}
-        volumes.append(Volume.of(name, member.mesh, ROLES.get(kind, kind), own))
+        volumes.append(PrintedVolume.of(name, member.mesh, ROLES.get(kind, kind), own))
         yield from of_filling(name, own, "sparse_infill_density", KEYS, who)
     yield from volumes
     yield from in_order(volumes)

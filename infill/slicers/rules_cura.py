@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from infill.slicers.cura import NAMESPACE
-from infill.slicers.findings import Finding, Volume, as_problem, as_warning
+from infill.slicers.findings import Finding, PrintedVolume, as_problem, as_warning
 from infill.slicers.reading import Body, Package
 
 INSIDE = f"{{{NAMESPACE}}}"
@@ -34,9 +34,9 @@ KEYS = {
 }
 
 
-def volumes_for_cura(package: Package) -> Iterator[Volume | Finding]:
+def volumes_for_cura(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes that Cura makes of a file, and what it loses."""
-    found: list[tuple[Body, Volume]] = []
+    found: list[tuple[Body, PrintedVolume]] = []
     for number, _ in package.built:
         body = package.bodies.get(number)
         if body is None:
@@ -51,7 +51,7 @@ def volumes_for_cura(package: Package) -> Iterator[Volume | Finding]:
                     key.removeprefix(INSIDE): value for key, value in member.settings.items() if key.startswith(INSIDE)
                 }
                 role = next((role for key, role in ROLES.items() if own.get(key) == "True"), "part")
-                found.append((member, Volume.of(name, member.mesh, role, own)))
+                found.append((member, PrintedVolume.of(name, member.mesh, role, own)))
     yield from (volume for _, volume in found)
     for body, volume in found:
         yield from _of_volume(body, volume)
@@ -65,7 +65,7 @@ def volumes_for_cura(package: Package) -> Iterator[Volume | Finding]:
                 yield as_warning(f"{part.name} has infill of its own around {modifier.name}: its density is not 0")
 
 
-def _of_volume(body: Body, volume: Volume) -> Iterator[Finding]:
+def _of_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
     """Say what is wrong with the settings of a volume."""
     for key, value in volume.settings.items():
         if key not in KEYS:

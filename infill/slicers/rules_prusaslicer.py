@@ -6,7 +6,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from xml.etree import ElementTree
 
-from infill.slicers.findings import WALL_KEYS, Finding, Volume, as_problem, as_warning, in_order, of_filling, with_walls
+from infill.slicers.findings import (
+    WALL_KEYS,
+    Finding,
+    PrintedVolume,
+    as_problem,
+    as_warning,
+    in_order,
+    of_filling,
+    with_walls,
+)
 from infill.slicers.prusaslicer import CONFIG
 from infill.slicers.reading import Body, Package
 from infill.surface import Surface
@@ -86,7 +95,7 @@ KEYS = WALL_KEYS["PrusaSlicer"] | {
 }
 
 
-def volumes_for_prusaslicer(package: Package) -> Iterator[Volume | Finding]:
+def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes that PrusaSlicer makes of a file, and what it loses."""
     if PROFILE in package.names:
         yield as_warning(f"it holds a print profile, {PROFILE}, which takes the place of the user's own")
@@ -111,23 +120,23 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[Volume | Finding]:
             )
             for each in body.components:
                 if (part := package.bodies.get(each)) is not None and part.mesh is not None:
-                    yield Volume.of(part.name or f"object {each}", part.mesh, "part", {})
+                    yield PrintedVolume.of(part.name or f"object {each}", part.mesh, "part", {})
         elif body.mesh is not None:
             found = list(_of_object(body, body.mesh, told.get(number)))
             yield from found
-            if not versioned and not stays and sum(isinstance(each, Volume) for each in found) > 1:
+            if not versioned and not stays and sum(isinstance(each, PrintedVolume) for each in found) > 1:
                 yield as_problem(
                     f"it says no {VERSION}, and moves object {number}: only the first volume is moved; say it"
                 )
 
 
-def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> Iterator[Volume | Finding]:
+def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes of an object."""
     whole = body.name or f"object {body.number}"
     if told is None or told.find("volume") is None:
-        yield Volume.of(whole, mesh, "part", {})
+        yield PrintedVolume.of(whole, mesh, "part", {})
         return
-    volumes: list[Volume] = []
+    volumes: list[PrintedVolume] = []
     covered = 0
     yield from _metadata(told, "object")
     common = {key: value for key, value in _settings(told).items() if key not in RESERVED}
@@ -148,7 +157,7 @@ def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> I
             yield as_problem(f"{name} is a {kind!r}; PrusaSlicer knows {', '.join(ROLES)}")
         own = {key: value for key, value in rows.items() if key not in RESERVED}
         part = replace(mesh, faces=mesh.faces[first : last + 1])
-        volumes.append(Volume.of(name, part, ROLES.get(kind, kind), own))
+        volumes.append(PrintedVolume.of(name, part, ROLES.get(kind, kind), own))
         yield from of_filling(name, own, "fill_density", KEYS, "PrusaSlicer")
         yield from _at_full_density(name, {**common, **own})
     yield from volumes

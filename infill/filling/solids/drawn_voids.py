@@ -11,9 +11,10 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.filling.solids.grading import Grading
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import BAND, Space
-from infill.filling.solids.voids import FIELD
+from infill.filling.solids.voids import FIELD, local_widths
 from infill.kernels.threads import in_threads, thread_count
 from patterns.protocol import Pattern, lines_of
 
@@ -38,11 +39,15 @@ class Drawn:
     anchor : (3,) float64
         The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
     threads : int, optional
+    grading : Grading, optional
+    known : dict
+        What lies between the lines, for a space and a cell.
     """
 
     pattern: Pattern
     anchor: NDArray[np.float64]
     threads: int | None = None
+    grading: Grading | None = None
     known: dict[tuple[Any, ...], _Faces] = field(default_factory=dict)
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
@@ -53,8 +58,10 @@ class Drawn:
         """See `Voids`."""
         from infill.kernels.cells import from_plane
 
-        plane = self._faces(space, cell, width).colours[which] - np.float32(width / 2 / space.size)
-        return float(sum(in_threads(from_plane, space.depth, plane, out, threads=thread_count(self.threads))))
+        plane = self._faces(space, cell, width).colours[which]
+        half, ratio = width / 2 / space.size, local_widths(self, space)
+        threads = thread_count(self.threads)
+        return float(sum(in_threads(from_plane, space.depth, plane, half, *ratio, out, threads=threads)))
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -78,11 +85,18 @@ class Drawn:
 
     def _faces(self, space: Space, cell: float, width: float) -> _Faces:
         """Return what lies between the lines, whatever their width."""
-        reach, key = width / 2 / space.size + 2 * BAND, (id(space), cell)
+        widest, thinnest = self._range(space)
+        reach, key = widest * width / 2 / space.size + 2 * BAND, (id(space), cell)
+        width = thinnest * width
         if key not in self.known or not self.known[key].fits(reach, width):
             self.known.clear()
             self.known[key] = self._found(space, cell, width, WIDER_LINES * reach)
         return self.known[key]
+
+    def _range(self, space: Space) -> tuple[float, float]:
+        """Return how many times as wide lines are where they are widest, and where thinnest."""
+        ratio, _ = local_widths(self, space)
+        return float(ratio.max()), float(ratio.min())
 
     def _found(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
         used = (space.depth > -BAND).any(axis=2)

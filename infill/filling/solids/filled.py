@@ -48,7 +48,8 @@ def fill(
     part: Surface | trimesh.Trimesh,
     pattern: str = "gyroid",
     *,
-    density: float | None = None,
+    density: float | tuple[float, float] | None = None,
+    by: object = None,
     cell: float | None = None,
     line_width: float | None = None,
     wall: float | None = None,
@@ -79,6 +80,12 @@ def fill(
     density : float, optional
         Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
         and a line width of 0.45 mm (0.9 in a project) if nothing is given, or for bars, 0.2 and a cell of 8 mm.
+        Two densities are those where `by` is lowest and where it is highest.
+    by : str, Path, array or callable, optional
+        What the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of x, y, z
+        and a value; a .npy of three axes, or a picture seen from above, over the box around the part;
+        "module.py:name"; or such an array, or a function of points (N, 3), mm, that returns (N,). Walls are wider where
+        it is denser, and cells stay as they are.
     cell : float, optional
         Period of the pattern, mm.
     line_width : float, optional
@@ -140,6 +147,7 @@ def fill(
         pattern=pattern,
         own=parameters,
         density=density,
+        by=by,
         cell=cell,
         line_width=line_width,
         wall=wall,
@@ -218,6 +226,7 @@ def _result(
             "tolerance": hollow.tolerance if math.isfinite(hollow.tolerance) else None,
         },
         "infill": {"cell": hollow.cell, "line_width": hollow.width, "radius": request.radius(space.thickness)},
+        "graded": facts.graded,
         "part": {
             "triangles": len(given.faces),
             "volume": space.repairs.volume,

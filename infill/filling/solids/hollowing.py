@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -10,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.solids.grading import Grading
 from infill.filling.solids.inside import INTERFACE, SHARE, inner_side
+from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.request import RIGHT_ANGLE, Request, Size, coarsest_for, sizes_for, voxel_for
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import Space, space_inside
@@ -28,6 +31,7 @@ from infill.surfaces.simplification import simplified
 from infill.surfaces.solids import shortened, volume_within
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.surfaces.winding import winding
+from patterns.unit_cells import Bars
 
 CLOSE = 0.002  # of the density: nearer than this, no other cell or width is tried
 LEAST = 1e-6  # densities below this are none
@@ -37,6 +41,7 @@ FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 COLLAPSE_BYTES = 4000  # for each triangle, at most
+GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
 SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
@@ -198,6 +203,13 @@ def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> flo
     return max(1 - filled / space.cells, LEAST)
 
 
+def wanted(request: Request, space: Space, voids: Voids) -> float | None:
+    """Return the density that is asked for inside the walls, on average; None if cell and line width say it."""
+    if request.grading is None:
+        return request.density
+    return request.grading.over(space, voids.widths).mean
+
+
 def _sized(
     space: Space, voids: Voids, request: Request, sizes: tuple[float, float], varied: tuple[Size, ...]
 ) -> tuple[tuple[float, float], tuple[Size, ...]]:
@@ -208,7 +220,7 @@ def _sized(
     """
     if not varied:
         return sizes, varied
-    density = request.density or LEAST
+    density = wanted(request, space, voids) or LEAST
     if request.cell is None and request.line_width is None and sizes[0] > (most := space.across):
         sizes, varied = (most, sizes[1] * most / sizes[0]), ("width",)
     vary = varied[0]
@@ -230,6 +242,8 @@ def _corrected(
 ) -> Hollow:
     """Return voids whose meshes leave the density asked for: smoothing and the grid fill corners of voids."""
     found = _surfaces(space, voids, request, sizes, threads)
+    if voids.grading is not None:
+        return _graded(found, voids, voids.grading, request, threads)
     density = request.density or LEAST
     for vary in varied:
         tried = {1.0: found}
@@ -244,6 +258,28 @@ def _corrected(
 
         found = tried[root(off, CLOSE / density, ROUNDS)]
     return found
+
+
+def _graded(found: Hollow, voids: Voids, grading: Grading, request: Request, threads: int | None) -> Hollow:
+    """Return voids whose meshes leave everywhere the density asked for there."""
+    space, sizes = found.space, (found.cell, found.width)
+    power = 2 if isinstance(voids, Repeating) and isinstance(voids.pattern, Bars) else 1
+    for _ in range(GRADING_ROUNDS):
+        local = grading.over(space, voids.widths)
+        asked, there = densities_by_share(space, found.surface, local, GRADING_STEPS, mean=found.density)
+        # Steps are thinner than cells of the pattern, so only the straight line through all of them counts.
+        off = np.log(asked / np.maximum(there, LEAST))
+        line = np.polynomial.Polynomial.fit(asked, off, 1)
+        if np.abs(line(asked)).max() < GRADING_CLOSE and abs(found.density / local.mean - 1) < GRADING_CLOSE:
+            break
+        grading.correct(_factors(line, power))
+        found = _surfaces(space, voids, request, sizes, threads)
+    return found
+
+
+def _factors(line: np.polynomial.Polynomial, power: int) -> Callable[[NDArray[np.float32]], NDArray[np.floating]]:
+    """Return by how much walls are to be wider where a density is asked for, if it is off by a line, in logarithms."""
+    return lambda shares: np.exp(np.clip(line(shares.astype(np.float64)), -MOST_OFF, MOST_OFF) / power)
 
 
 def _scaled(sizes: tuple[float, float], times: float, vary: Size) -> tuple[float, float]:

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from infill.checks import length, positive, whole, within
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.fields import field_of
+from infill.filling.solids.grading import Grading
 from infill.filling.solids.voids import Repeating, Voids
 from infill.formats.assignments import Source, assignments, merged, values
 from patterns import PATTERNS
@@ -61,7 +63,9 @@ class Request:
     parameters : mapping
         The pattern's own, by name.
     density : float or None
-        Solid share inside the walls; None if cell and line width say it.
+        Solid share inside the walls; None if cell and line width say it. With a grading, its middle.
+    grading : Grading or None
+        How the density changes from place to place.
     cell, line_width : float or None
         mm; None for what follows from the density.
     wall, overlap, tolerance : float
@@ -97,11 +101,17 @@ class Request:
     tolerance: float
     voxel: float | None
     max_triangles: int | None
+    grading: Grading | None = None
 
     @property
     def default_width(self) -> float:
-        """Of walls inside, mm."""
-        return SLICED_WIDTH if self.form == "project" else LINE_WIDTH
+        """Of walls inside, mm: where the density changes, of those of its middle, so that the thinnest are as wide."""
+        return (SLICED_WIDTH if self.form == "project" else LINE_WIDTH) / self.thinnest
+
+    @property
+    def thinnest(self) -> float:
+        """How many times as wide as the line width walls are at least."""
+        return 1.0 if self.grading is None else self.grading.thinnest
 
     def radius(self, thickness: float) -> float:
         """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
@@ -112,6 +122,8 @@ class Request:
         """What may be changed for the density, in this order."""
         if self.density is None:
             return ()
+        if self.grading is not None:
+            return ("width",) if self.line_width is None or self.cell is not None else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
         return ("width",) if isinstance(CELLULAR.get(self.pattern), Bars) else ("cell", "width")
@@ -138,7 +150,9 @@ class Request:
         return {
             "pattern": self.pattern,
             "parameters": dict(self.parameters),
-            "density": self.density,
+            "density": None if self.grading is not None else self.density,
+            "densities": None if self.grading is None else [self.grading.first, self.grading.last],
+            "by": None if self.grading is None else self.grading.name,
             "cell": self.cell,
             "line_width": self.line_width,
             "wall": self.wall,
@@ -159,7 +173,8 @@ def checked(
     *,
     pattern: str,
     own: Mapping[str, Any],
-    density: float | None,
+    density: float | tuple[float, ...] | None,
+    by: object,
     cell: float | None,
     line_width: float | None,
     wall: float | None,
@@ -186,7 +201,13 @@ def checked(
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
     shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
-    if density is not None:
+    grading = None
+    if isinstance(density, (tuple, list)):
+        grading = graded(density, by)
+        density = grading.middle
+    elif by is not None:
+        raise UsageError("by is given with one density; give two, such as 15%:40%, or leave it out")
+    elif density is not None:
         density = within("density", density, LOWEST, HIGHEST)
     elif cell is None or line_width is None:
         bars = isinstance(CELLULAR.get(pattern), Bars)
@@ -211,7 +232,17 @@ def checked(
         tolerance=within("tolerance", tolerance, 0.0, 100.0, "mm"),
         voxel=None if voxel is None else positive("voxel", voxel, "mm"),
         max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
+        grading=grading,
     )
+
+
+def graded(densities: Sequence[float], by: object) -> Grading:
+    """Return two densities, where a field is lowest and where it is highest, checked."""
+    if len(densities) != 2:
+        raise UsageError(f"density has {len(densities)} numbers; give one, or two such as 15%:40%")
+    first, last = (within("density", each, LOWEST, HIGHEST) for each in densities)
+    field, name = field_of("z" if by is None else by)
+    return Grading(first=first, last=last, by=field, name=name)
 
 
 def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None) -> Voids:
@@ -226,8 +257,10 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
         if request.parameters:
             name = next(iter(request.parameters))
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
-        return Repeating(pattern=CELLULAR[request.pattern], turn=turn, anchor=anchor, threads=threads)
-    return Drawn(pattern=pattern_of(request), anchor=anchor, threads=threads)
+        return Repeating(
+            pattern=CELLULAR[request.pattern], turn=turn, anchor=anchor, threads=threads, grading=request.grading
+        )
+    return Drawn(pattern=pattern_of(request), anchor=anchor, threads=threads, grading=request.grading)
 
 
 def own_parameters(pattern: str, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -294,6 +327,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
     """Return the side of the cells of the grid, mm."""
     if request.voxel is not None:
         return request.voxel
+    width *= request.thinnest
     size = request.wall / ACROSS
     if isinstance(voids, Drawn):
         size = min(size, cell / FINE_LINES, COARSEST_LINES)
@@ -307,7 +341,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
             f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
             f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit"
         )
-    if size > (most := coarsest_for(request, voids, cell, width)):
+    if size > (most := coarsest_for(request, voids, cell, width / request.thinnest)):
         raise GeometryError(
             f"cell is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
             f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density"
@@ -329,6 +363,7 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
     """Return the largest side of the cells of a grid that still has the pattern in it, mm."""
     if request.voxel is not None:
         return request.voxel
+    width *= request.thinnest
     size = request.wall / LEAST_ACROSS
     if isinstance(voids, Drawn):
         return min(size, cell / LEAST_FINE_LINES)

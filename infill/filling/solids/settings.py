@@ -75,11 +75,15 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
     filed = parsed("fill", READERS, read)
     if typed.get("pattern", filed.get("pattern")) != filed.get("pattern"):
         table = {}  # the parameters of another pattern
+    if "densities" in filed:
+        filed.setdefault("density", filed.pop("densities"))  # as reports call two of them
     for name in THIRDS:
         if all(each in typed or each in filed for each in THIRDS) and name not in typed:
             filed.pop(name, None)
     if "wall" in typed:
         filed.pop("overlap", None)  # that of another wall
+    if isinstance(typed.get("density"), float):
+        filed.pop("by", None)  # that of two
     both = {**filed, **typed}
     slicer, units = both.pop("for", None), both.pop("units", None)
     form = both.pop("as", "solid" if slicer is None else "project")
@@ -98,8 +102,20 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
     return FillSettings(request=checked(pattern=pattern, own=own, form=form, **values), units=units, slicer=slicer)
 
 
+def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
+    """Return one density, or two with a colon between, or raise UsageError.
+
+    >>> parse_densities("density", "15%:40%"), parse_densities("density", 0.2)
+    ((0.15, 0.4), 0.2)
+    """
+    parts = value.split(":") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
+    found = tuple(parse_share(name, each, "give a share such as 20%, or two such as 15%:40%") for each in parts)
+    return found if len(found) > 1 else found[0]
+
+
 DEFAULTS: dict[str, Any] = {
     "density": None,
+    "by": None,
     "cell": None,
     "line_width": None,
     "wall": None,
@@ -115,7 +131,9 @@ DEFAULTS: dict[str, Any] = {
 }
 READERS: Mapping[str, Reader] = {
     "pattern": parse_word,
-    "density": parse_share,
+    "density": parse_densities,
+    "densities": parse_densities,
+    "by": parse_word,
     "cell": parse_number,
     "line_width": parse_number,
     "wall": parse_number,

@@ -47,6 +47,8 @@ class Space:
         Share of the volume that components of `part` still enclose twice.
     wall : float
         mm
+    walled : Space or None
+        What lies inside the walls, if voids reach through them here.
     """
 
     depth: NDArray[np.float32]
@@ -57,11 +59,12 @@ class Space:
     skin: str
     overlap: float
     wall: float
+    walled: Space | None = None
 
     @cached_property
     def unwalled(self) -> Space:
         """The same, where voids reach through the wall and a little out of the part."""
-        return replace(self, depth=self.depth + np.float32(self.wall / self.size + BEYOND), wall=0.0)
+        return replace(self, depth=self.depth + np.float32(self.wall / self.size + BEYOND), wall=0.0, walled=self)
 
     @cached_property
     def cells(self) -> float:

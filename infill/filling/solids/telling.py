@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.filling.solids.drains import trapped
-from infill.filling.solids.hollowing import Hollow, share_of_cells
+from infill.filling.solids.hollowing import Hollow, share_of_cells, wanted
+from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.request import Request
 from infill.filling.solids.space import LEAST_OVERLAP
 from infill.filling.solids.voids import Voids
@@ -19,6 +20,8 @@ from infill.surfaces.solids import FINE, in_one_place, status
 from infill.surfaces.winding import winding
 
 OFF = 0.005  # of the density: what is further off is told
+OFF_LOCAL = 0.03  # of the density in a step: chance alone is off by a hundredth, in three of a thousand
+STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
 LEAST_WALL = 0.9  # of the wall asked for
@@ -59,6 +62,10 @@ class Measured:
         Of manifold3d.
     drawn : float
         Density of the pattern before it was smoothed.
+    wanted : float or None
+        Density asked for, on average.
+    graded : list of dict
+        Of a density that changes: what was asked for and what is there, in steps.
     """
 
     least: float | None
@@ -68,6 +75,8 @@ class Measured:
     crowded: int
     verdict: str
     drawn: float
+    wanted: float | None
+    graded: list[dict[str, float]]
 
 
 def measured(
@@ -89,14 +98,31 @@ def measured(
         crowded=max(0, crowded),
         verdict=status(solid),
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
+        wanted=wanted(request, hollow.space, voids),
+        graded=[] if voids.grading is None else steps(hollow, voids),
     )
+
+
+def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
+    """Return the density where about as much was asked for, by rising density."""
+    if voids.grading is None:
+        return []
+    local = voids.grading.over(hollow.space, voids.widths)
+    asked, there = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
+    return [{"wanted": one, "density": other} for one, other in zip(asked.tolist(), there.tolist(), strict=True)]
 
 
 def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved = hollow.space.overlap, hollow.tolerance
-    if request.density is not None and abs(hollow.density - request.density) > OFF:
-        yield f"the density is {hollow.density:.1%}, and {request.density:.1%} was asked for"
+    if facts.wanted is not None and abs(hollow.density - facts.wanted) > OFF:
+        yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
+    for each in facts.graded:
+        if abs(each["density"] - each["wanted"]) > OFF_LOCAL:
+            yield (
+                f"where {each['wanted']:.1%} was asked for, the density is {each['density']:.1%}; cells that are small "
+                "beside the field's changes follow it better"
+            )
     if hollow.density < LEAST_LEFT * facts.drawn:
         yield (
             f"of the infill, {facts.drawn:.1%} as drawn, {hollow.density:.1%} is left: walls or bars are too thin for "

@@ -12,6 +12,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.space import BAND, Space
 from infill.kernels.threads import in_threads, thread_count
 from patterns.unit_cells import Bars, Cellular, Surfaces
@@ -35,6 +36,11 @@ class Voids(Protocol):
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
         ...
 
+    @property
+    def grading(self) -> Grading | None:
+        """How the width changes from place to place; what is called the width is that of the middle."""
+        ...
+
 
 @dataclass(frozen=True, kw_only=True)
 class Repeating:
@@ -48,12 +54,14 @@ class Repeating:
     anchor : (3,) float64
         The point of the part at which a cell of the pattern begins, mm.
     threads : int, optional
+    grading : Grading, optional
     """
 
     pattern: Cellular
     turn: NDArray[np.float64]
     anchor: NDArray[np.float64]
     threads: int | None = None
+    grading: Grading | None = None
 
     def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
         """Two beside a surface, one around bars."""
@@ -75,6 +83,7 @@ class Repeating:
             cell / space.size,
             1.0 if which == 0 else -1.0,
             width / 2 / space.size,
+            *local_widths(self, space),
             out,
             threads=thread_count(self.threads),
         )
@@ -83,6 +92,14 @@ class Repeating:
     def widths(self, density: float) -> float:
         """See `Voids`."""
         return float(2 * np.quantile(_samples(self.pattern), density))
+
+
+def local_widths(voids: Voids, space: Space) -> tuple[NDArray[np.float32], float]:
+    """Return how many times as wide walls are from place to place, as kernels take it."""
+    if voids.grading is None:
+        return NONE
+    found = voids.grading.over(space, voids.widths)
+    return found.ratio, found.step
 
 
 @cache
@@ -105,5 +122,5 @@ def _samples(pattern: Cellular) -> NDArray[np.floating]:
     from infill.kernels.cells import from_bars
 
     deep, found = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
-    from_bars(deep, 0.0, _bars(pattern), np.eye(3), np.full(3, 0.5), float(NODES), 1.0, 0.0, found, 0, 1)
+    from_bars(deep, 0.0, _bars(pattern), np.eye(3), np.full(3, 0.5), float(NODES), 1.0, 0.0, *NONE, found, 0, 1)
     return found.ravel() / NODES

@@ -1,0 +1,121 @@
+"""A density that changes from place to place: where it is higher, walls or bars are wider, and cells stay the same."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.filling.solids.fields import Field
+from infill.filling.solids.space import Space
+
+NODES = 48  # along the longest side of a part: where the field is asked for; it is straight in between
+TABLE = 9  # densities of which widths are computed; they are straight in between
+AT_ONCE = 100_000
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Local:
+    """How many times as wide as the line width walls are, at nodes of a grid of its own.
+
+    Parameters
+    ----------
+    ratio : (n, m, k) float32
+        The nodes are `step` cells of the space apart, and the first lies at its first.
+    step : float
+    mean : float
+        The density that is asked for, on average inside the walls.
+    shares : (n, m, k) float32
+        The density that is asked for.
+    """
+
+    ratio: NDArray[np.float32]
+    step: float
+    mean: float
+    shares: NDArray[np.float32]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Grading:
+    """A density that follows a field.
+
+    Parameters
+    ----------
+    first, last : float
+        Where the field is lowest, and where it is highest, inside the walls.
+    by : Field
+    name : str
+        What the field is called.
+    known : dict
+        What was found for a space.
+    """
+
+    first: float
+    last: float
+    by: Field
+    name: str
+    known: dict[tuple[object, ...], Local] = field(default_factory=dict)
+
+    @property
+    def middle(self) -> float:
+        """The density whose walls are as wide as the line width."""
+        return (self.first + self.last) / 2
+
+    @property
+    def thinnest(self) -> float:
+        """The lower density, over the middle: about how many times as wide as the line width walls are there."""
+        return min(self.first, self.last) / self.middle
+
+    def over(self, space: Space, widths: Callable[[float], float]) -> Local:
+        """Return the widths of walls in a space; `widths` says which gives a density, in cells of the pattern."""
+        space = space.walled or space
+        key = (space.depth.shape, space.size, *space.origin.tolist())
+        if key not in self.known:
+            self.known.clear()
+            self.known[key] = self._found(space, widths)
+        return self.known[key]
+
+    def _found(self, space: Space, widths: Callable[[float], float]) -> Local:
+        shape = np.array(space.depth.shape)
+        step = max(1.0, float((shape.max() - 1) / NODES))
+        counts = np.ceil((shape - 1) / step).astype(int) + 1
+        nodes = [step * np.arange(count) for count in counts]
+        points = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3)
+        where = space.origin + space.size * points
+        found = np.concatenate([self.by.at(where[low : low + AT_ONCE], space) for low in range(0, len(where), AT_ONCE)])
+        inside = _inside(space, points)
+        if not np.isfinite(found[inside]).all():
+            raise GeometryError(f"by is {self.name}, which is not finite everywhere in the part; check it")
+        low, high = float(found[inside].min()), float(found[inside].max())
+        if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
+            raise GeometryError(
+                f"by is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
+            )
+        share = np.clip((np.nan_to_num(found, nan=low) - low) / (high - low), 0, 1)
+        shares = self.first + (self.last - self.first) * share
+        table = np.linspace(min(self.first, self.last), max(self.first, self.last), TABLE)
+        wide = np.array([widths(each) for each in table]) / widths(self.middle)
+        return Local(
+            ratio=np.interp(shares, table, wide).reshape(counts).astype(np.float32),
+            step=step,
+            mean=float(shares[inside].mean()),
+            shares=shares.reshape(counts).astype(np.float32),
+        )
+
+    def correct(self, factors: Callable[[NDArray[np.float32]], NDArray[np.floating]]) -> None:
+        """Make walls wider by what a function of the shares asked for returns."""
+        ((key, local),) = self.known.items()
+        self.known[key] = replace(local, ratio=(local.ratio * factors(local.shares)).astype(np.float32))
+
+
+def _inside(space: Space, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which points, in cells, lie inside the walls; all, if the part is too thin for any of them to."""
+    at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
+    inside = space.depth[at] > 0
+    return inside if inside.any() else np.ones(len(points), dtype=bool)
+
+
+NONE = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it
