@@ -20,29 +20,29 @@ from infill.surfaces.solids import solid_of
 pytestmark = pytest.mark.usefixtures("compiled")
 
 WALL, CELL = 1.2, 7.0
-SIZE = (33.0, 33.0, 47.0)
+SIDE = 2 * CELL
 LOW, HIGH = 0.1, 0.4
 
 
-@pytest.mark.parametrize("pattern", ["gyroid", "schwarz-p", "octet", "honeycomb"])
-def test_the_local_density_follows_a_linear_field(pattern: str) -> None:
-    """In boxes of two cells, to two percentage points; and nothing comes apart where walls are thin."""
-    result = fill(box(*SIZE), pattern, density=(LOW, HIGH), by="z", cell=CELL, wall=WALL, voxel=0.36)
-    report = result.report
+@pytest.mark.parametrize(
+    ("pattern", "voxel"), [("gyroid", None), ("schwarz-p", 0.4), ("octet", 0.36), ("honeycomb", None)]
+)
+def test_the_local_density_follows_a_linear_field(pattern: str, voxel: float | None) -> None:
+    """In boxes of two cells that make up all of the inside, to two percentage points; and nothing comes apart."""
+    block = box(2 * SIDE + 2 * WALL, 2 * SIDE + 2 * WALL, 3 * SIDE + 2 * WALL)
+    result = fill(block, pattern, density=(LOW, HIGH), by="z", cell=CELL, wall=WALL, voxel=voxel)
+    report, voids = result.report, solid_of(result.stages.voids)
     assert report["problems"] == []
-    voids = solid_of(result.stages.voids)
-    bottom, top = -SIZE[2] / 2 + WALL, SIZE[2] / 2 - WALL
-    side = 2 * CELL
-    for x in (-side, 0.0):
-        for y in (-side, 0.0):
-            for z in np.linspace(bottom + 0.5, top - 0.5 - side, 4):
-                block = manifold3d.Manifold.cube([side] * 3).translate([x, y, float(z)])
-                density = 1 - (voids ^ block).volume() / side**3
-                wanted = LOW + (HIGH - LOW) * (z + side / 2 - bottom) / (top - bottom)
-                assert density == pytest.approx(wanted, abs=0.02)
-    even = fill(box(*SIZE), pattern, density=(LOW + HIGH) / 2, cell=CELL, wall=WALL, voxel=0.36).report
-    assert report["voids"]["count"] == even["voids"]["count"]
-    assert report["voids"]["islands"] == even["voids"]["islands"] == 0
+    for level in range(3):
+        wanted = LOW + (HIGH - LOW) * (level + 0.5) / 3
+        for x in (-SIDE, 0.0):
+            for y in (-SIDE, 0.0):
+                cells = manifold3d.Manifold.cube([SIDE] * 3).translate([x, y, (level - 1.5) * SIDE])
+                assert 1 - (voids ^ cells).volume() / SIDE**3 == pytest.approx(wanted, abs=0.02)
+    # No wall is broken that is whole where all are as thin: voids would hang together that do not there.
+    thin = fill(block, pattern, density=LOW, cell=CELL, wall=WALL, voxel=voxel).report
+    assert report["voids"]["count"] >= thin["voids"]["count"]
+    assert report["voids"]["islands"] == 0
     assert report["density"] == pytest.approx((LOW + HIGH) / 2, abs=0.006)
     steps = report["graded"]
     assert [step["wanted"] for step in steps] == sorted(step["wanted"] for step in steps)
@@ -89,9 +89,9 @@ def test_the_other_way_round_is_the_mirror_image() -> None:
     """The gyroid is its own mirror image only with its hand changed; Schwarz P is in every plane through its middle."""
     one = fill(box(24, 20, 16), "schwarz-p", density=(0.15, 0.4), by="x", wall=1, voxel=0.5, cell=8.0, tolerance=0)
     other = fill(box(24, 20, 16), "schwarz-p", density=(0.4, 0.15), by="x", wall=1, voxel=0.5, cell=8.0, tolerance=0)
-    assert other.surface.volume == pytest.approx(one.surface.volume, rel=1e-3)
+    assert other.surface.volume == pytest.approx(one.surface.volume, rel=5e-3)
     left, right = (solid_of(each.stages.voids).trim_by_plane([sign, 0, 0], 0) for each, sign in ((one, 1), (other, -1)))
-    assert left.volume() == pytest.approx(right.volume(), rel=2e-3)
+    assert left.volume() == pytest.approx(right.volume(), rel=1e-2)
 
 
 def test_the_skin_is_where_its_field_begins() -> None:
@@ -161,5 +161,7 @@ def test_the_command_grades_and_remembers(tmp_path: Path, monkeypatch: pytest.Mo
     one_line_error(run(*words[:4], "--by", "bad.py:field", "-o", "c.stl"), "bad.py cannot be loaded")
     Path("bad.py").write_text("def field(points):\n    return 1 / 0\n")
     one_line_error(run(*words[:4], "--by", "bad.py:other", "-o", "c.stl"), "bad.py has no function 'other'")
-    one_line_error(run(*words[:4], "--by", "bad.py:field", "-o", "c.stl"), "ZeroDivisionError|division by zero")
+    one_line_error(
+        run(*words[:4], "--by", "bad.py:field", "-o", "c.stl"), "by is bad.py:field, which fails: division by zero"
+    )
     assert not Path("c.stl").exists()

@@ -11,10 +11,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError, UsageError
+from infill.errors import FormatError, ParameterError, UsageError
 from infill.filling.solids.space import Space
 from infill.formats.bitmaps import read_grey
-from infill.formats.broken import readable, told_broken
+from infill.formats.broken import one_line, readable, told_broken
 
 Floats = NDArray[np.float64]
 AXES = ("x", "y", "z")
@@ -116,7 +116,10 @@ class Computed:
 
     def at(self, points: Floats, space: Space) -> Floats:  # noqa: ARG002 - of the protocol
         """See `Field`."""
-        found = np.asarray(self.function(points), dtype=np.float64)
+        try:
+            found = np.asarray(self.function(points), dtype=np.float64)
+        except Exception as error:
+            raise ParameterError(f"by is {self.name}, which fails: {one_line(error)}") from error
         if found.shape != (len(points),):
             raise UsageError(f"by is {self.name}, which returns {found.shape} for {points.shape} points; return (N,)")
         return found

@@ -267,9 +267,10 @@ def _graded(found: Hollow, voids: Voids, grading: Grading, request: Request, thr
     for _ in range(GRADING_ROUNDS):
         local = grading.over(space, voids.widths)
         asked, there = densities_by_share(space, found.surface, local, GRADING_STEPS, mean=found.density)
-        # Steps are thinner than cells of the pattern, so only the straight line through all of them counts.
-        off = np.log(asked / np.maximum(there, LEAST))
-        line = np.polynomial.Polynomial.fit(asked, off, 1)
+        # Steps are thinner than cells of the pattern, so only the slope of the line through all of them counts; where
+        # it lies, the density of the whole says.
+        line = np.polynomial.Polynomial.fit(asked, np.log(asked / np.maximum(there, LEAST)), 1)
+        line += math.log(local.mean / max(found.density, LEAST)) - float(np.average(line(asked), weights=there))
         if np.abs(line(asked)).max() < GRADING_CLOSE and abs(found.density / local.mean - 1) < GRADING_CLOSE:
             break
         grading.correct(_factors(line, power))
