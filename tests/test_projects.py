@@ -221,7 +221,7 @@ RULES: dict[str, tuple[str, str, Callable[[str], str | None], str]] = {
     "no order": ("cura", MODEL, lambda text: re.sub("<metadata name=.cura:infill_mesh_order.*?</metadata>", "", text), "order of at least 1"),
 }  # fmt: skip
 WARNED: dict[str, tuple[str, str, Callable[[str], str | None], str]] = {
-    "inches": ("plain", MODEL, to("millimeter", "inch"), "in units of a inch"),
+    "inches": ("plain", MODEL, to("millimeter", "inch"), "its unit is the inch"),
     "no settings": ("prusaslicer", PRUSA, to('"fill_pattern"', '"fill_patern"'), "fill_patern of infill is no setting"),
     "no sign": ("prusaslicer", PRUSA, to('"0%"', '"0"'), "without a % sign"),
     "walls": ("prusaslicer", PRUSA, to('"fill_pattern" value="concentric"', '"perimeters" value="1"'), "walls are made"),
@@ -260,6 +260,28 @@ def test_edges_with_four_faces_are_a_warning(project: Project, tmp_path: Path) -
     found = check_project(saved(replace(project, part=surface(touching)), tmp_path / "a.3mf", "plain"), "plain")
     assert found.fine
     assert "part has 1 edge(s) with more than two faces" in found.warnings[1] + found.warnings[0]
+
+
+def test_parts_in_files_of_their_own_are_found(project: Project, tmp_path: Path) -> None:
+    """As OrcaSlicer and Bambu Studio write them, by the production extension."""
+    path = saved(project, tmp_path / "a.3mf", "orcaslicer")
+    with zipfile.ZipFile(path) as package:
+        files = {name: package.read(name).decode() for name in package.namelist() if not name.endswith(".png")}
+    root, found = files[MODEL], re.findall(r'<object id="[12]".*?</object>', files[MODEL], flags=re.DOTALL)
+    assert len(found) == 2
+    for each in found:
+        root = root.replace(each, "")
+    root = root.replace("<model ", '<model xmlns:p="http://schemas.microsoft.com/3dmanufacturing/production/2015/06" ')
+    root = root.replace("<component ", '<component p:path="/3D/Objects/object_1.model" ')
+    files[MODEL] = root
+    head = root[: root.index("<resources>")]
+    files["3D/Objects/object_1.model"] = f"{head}<resources>{''.join(found)}</resources><build/></model>"
+    with zipfile.ZipFile(tmp_path / "b.3mf", "w") as package:
+        for name, text in files.items():
+            package.writestr(name, text)
+    one, other = (check_project(tmp_path / name, "orcaslicer") for name in ("a.3mf", "b.3mf"))
+    assert (other.problems, other.volumes) == ((), one.volumes)
+    assert [volume.role for volume in other.volumes] == ["part", "modifier"]
 
 
 def test_a_profile_and_components_are_told(project: Project, tmp_path: Path) -> None:
@@ -443,6 +465,7 @@ def test_hostile_packages_are_refused_in_a_line(tmp_path: Path) -> None:
     mesh = '<mesh><vertices><vertex x="0" y="0" z="0"/></vertices><triangles/></mesh>'
     bombs = {
         "unpack": packaged(tmp_path / "zip.3mf", START + " " * 400_000_000),
+        "unpack to": packaged(tmp_path / "rels.3mf", START, **{"_rels/.rels": "<a>" + " " * 400_000_000}),
         "document type": packaged(tmp_path / "entities.3mf", entities),
         "places its objects": packaged(
             tmp_path / "nested.3mf",
@@ -459,7 +482,7 @@ def test_hostile_packages_are_refused_in_a_line(tmp_path: Path) -> None:
             read_mesh(path)
         assert "\n" not in str(told.value)
     for says, path in bombs.items():
-        if says in ("unpack", "document type"):
+        if says in ("unpack", "unpack to", "document type"):
             with pytest.raises(FormatError, match=says):
                 check_project(path, "prusaslicer")
         else:

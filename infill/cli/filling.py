@@ -335,10 +335,10 @@ def _writer(
     path: Path, settings: FillSettings, *, ascii_stl: bool
 ) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
     """Return what writes a result with a title to a file of this format, or raise FormatError."""
-    if settings.slicer is None:
-        from infill.formats.mesh_files import writer
+    from infill.formats.mesh_files import writer
 
-        write = writer(path, ascii=ascii_stl)
+    write = writer(path, ascii=ascii_stl)
+    if settings.slicer is None:
         return lambda result, title, file: write(result.surface, file)  # noqa: ARG005 - as projects are written
     from infill.slicers.saving import check_suffix, project_of, project_writer
 

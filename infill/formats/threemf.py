@@ -34,7 +34,7 @@ TYPES = {
 SETTINGS = "Metadata/phasefill.toml"  # what we attach: the options that make it again
 MOST_PLACED = 100_000  # objects: components of components may say any number in a few lines
 LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
-MOST_BYTES = 4 << 30  # of a file in a package, unpacked: a zip of some megabytes may unpack to terabytes
+MOST_BYTES = 4 << 30  # of a package, unpacked: a zip of some megabytes may unpack to terabytes
 APPLICATION = f"phasefill-{__version__}"
 
 
@@ -64,7 +64,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     with told_broken(path, "is not a 3MF file", AGAIN), zipfile.ZipFile(path) as package:
         models = [name for name in package.namelist() if name.lower().endswith(".model")]
         roots = {f"/{name}": parsed_xml(unpacked(package, name, path)) for name in models}
-        start = _start_part(package)
+        start = _start_part(package, path)
     built = [part for part, each in roots.items() if each.find("{*}build/{*}item") is not None]
     main = start if start in roots else next(iter(built), "")
     root = roots.get(main)
@@ -118,15 +118,11 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
 
 
 def unpacked(package: zipfile.ZipFile, name: str, path: Path) -> bytes:
-    """Return a file in a package, or raise FormatError if it would unpack to more than memory should be asked for."""
-    most = min(MOST_BYTES, LARGEST_RATIO * max(path.stat().st_size, SMALL))
-    if package.getinfo(name).file_size > most:
-        raise FormatError(
-            f"{path} would unpack to {package.getinfo(name).file_size / 1e6:,.0f} MB, and it has "
-            f"{path.stat().st_size / 1e6:,.1f} MB; {AGAIN}"
-        )
-    with package.open(name) as file:  # which reads no more than the size above says
-        return file.read(most + 1)
+    """Return a file in a package, or raise FormatError if all of it unpacks to more than memory should be asked for."""
+    packed, whole = path.stat().st_size, sum(each.file_size for each in package.infolist())
+    if whole > min(MOST_BYTES, LARGEST_RATIO * max(packed, SMALL)):
+        raise FormatError(f"{path} would unpack to {whole / 1e6:,.0f} MB, and it has {packed / 1e6:,.1f} MB; {AGAIN}")
+    return package.read(name)  # which reads no more than the sizes above say
 
 
 def parsed_xml(text: bytes) -> ElementTree.Element:
@@ -159,11 +155,11 @@ def attached_settings(path: Path) -> str:
     raise FormatError(f"{path} holds no options of ours; give a project that 'infill fill' wrote, or a TOML file")
 
 
-def _start_part(package: zipfile.ZipFile) -> str:
+def _start_part(package: zipfile.ZipFile, path: Path) -> str:
     """Return the part that the package says to start with, or an empty string."""
     if "_rels/.rels" not in package.namelist():
         return ""
-    relations = parsed_xml(package.read("_rels/.rels"))
+    relations = parsed_xml(unpacked(package, "_rels/.rels", path))
     targets = [each.get("Target", "") for each in relations if each.get("Type", "").endswith("/3dmodel")]
     return "/" + targets[0].lstrip("/") if targets else ""
 

@@ -126,7 +126,7 @@ def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
     if package.unit not in STATED_UNITS:
         yield as_problem(f"its unit is {package.unit!r}, and 3MF knows {', '.join(STATED_UNITS)}")
     elif package.unit != "millimeter":
-        yield as_warning(f"it is in units of a {package.unit}, and is scaled to millimetres")
+        yield as_warning(f"its unit is the {package.unit}, and it is scaled to millimetres")
     for extension in package.extensions:
         if extension not in KNOWN_EXTENSIONS:
             yield as_problem(f"it requires the extension {extension!r}, which slicers do not know")

@@ -19,7 +19,6 @@ from infill.surface import Surface
 
 AGAIN = "write the file again"
 RELATIONS = "_rels/.rels"
-SMALL_FILES = (".config", ".xml", ".rels", ".toml")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -33,7 +32,7 @@ class Body:
     name : str
     mesh : Surface or None
     components : tuple of str
-        Ids of the objects that it consists of.
+        The objects that it consists of, as `Package.bodies` has them.
     settings : mapping of str to str
         Metadata of its own, by full name: ``{address}key``, or ``prefix:key`` where the prefix is not declared.
     """
@@ -63,6 +62,7 @@ class Package:
     spaces : mapping of str to str
         Addresses of namespaces by prefix.
     bodies : mapping of str to Body
+        By number, and by ``number of /path`` for those in other files of the package.
     built : tuple of (str, bool)
         Objects to print, and whether each stays where it is.
     """
@@ -92,14 +92,23 @@ def read_package(path: Path) -> Package:
         names = frozenset(package.namelist())
         if MODEL not in names:
             raise FormatError(f"{source} has no {MODEL}; {AGAIN}")
+        texts = {name: unpacked(package, name, source) for name in names if name.endswith(".config")}
         model = unpacked(package, MODEL, source)
-        texts = {name: unpacked(package, name, source) for name in names if name.endswith(SMALL_FILES)}
         root = parsed_xml(model)
+        others = {
+            f"/{name}": parsed_xml(unpacked(package, name, source))
+            for name in sorted(names - {MODEL})
+            if name.endswith(".model")
+        }
     # The parser keeps no prefixes: those of the root are as it was written.
     start = re.search(rb"<model\b[^>]*>", model)
     spaces = dict(re.findall(r'xmlns:(\w+)="([^"]*)"', start[0].decode(errors="replace") if start else ""))
     with told_broken(source, "holds a number that is not one", AGAIN):
-        bodies = [_body(each, spaces) for each in root.findall("{*}resources/{*}object")]
+        bodies = {
+            key_of(part, each.get("id", "")): _body(each, spaces)
+            for part, model_root in {"": root, **others}.items()
+            for each in model_root.findall("{*}resources/{*}object")
+        }
     return Package(
         path=source,
         names=names,
@@ -108,12 +117,23 @@ def read_package(path: Path) -> Package:
         extensions=tuple(root.get("requiredextensions", "").split()),
         metadata={each.get("name", ""): each.text or "" for each in root.findall("{*}metadata")},
         spaces=spaces,
-        bodies={each.number: each for each in bodies},
+        bodies=bodies,
         built=tuple(
-            (item.get("objectid", ""), item.get("transform", IDENTITY).split() == IDENTITY.split())
+            (_key(item), item.get("transform", IDENTITY).split() == IDENTITY.split())
             for item in root.findall("{*}build/{*}item")
         ),
     )
+
+
+def key_of(part: str, number: str) -> str:
+    """Return how an object is known in the package: by its number, and by its file, if that is another one."""
+    return f"{number} of {part}" if part else number
+
+
+def _key(element: ElementTree.Element) -> str:
+    """Return the object that a component or an item refers to; the production extension lets it be in another file."""
+    part = next((value for name, value in element.items() if name.endswith("}path")), "")
+    return key_of("" if part == f"/{MODEL}" else part, element.get("objectid", ""))
 
 
 def _body(element: ElementTree.Element, spaces: Mapping[str, str]) -> Body:
@@ -126,7 +146,7 @@ def _body(element: ElementTree.Element, spaces: Mapping[str, str]) -> Body:
         number=element.get("id", ""),
         name=element.get("name", ""),
         mesh=None if mesh is None else _mesh(mesh),
-        components=tuple(each.get("objectid", "") for each in element.findall("{*}components/{*}component")),
+        components=tuple(_key(each) for each in element.findall("{*}components/{*}component")),
         settings=settings,
     )
 

@@ -99,19 +99,21 @@ def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator
     if isinstance(told, ElementTree.Element):
         parts = {each.get("id", ""): each for each in told.findall("part")}
     members = body.components or (body.number,)
+    held = {package.bodies[key].number for key in members if key in package.bodies}
     for number in parts:
-        if number not in members:
+        if number not in held:
             yield as_problem(
-                f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(members)}: the "
-                "settings are lost, and what was to be a modifier is printed as a part"
+                f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(sorted(held))}: "
+                "the settings are lost, and what was to be a modifier is printed as a part"
             )
     volumes: list[PrintedVolume] = []
-    for number in members:
-        member = package.bodies.get(number)
+    for key in members:
+        member = package.bodies.get(key)
         if member is None or member.mesh is None:
             if member is None:
-                yield as_problem(f"object {body.number} consists of {number}, which the model does not hold")
+                yield as_problem(f"object {body.number} consists of {key}, which the model does not hold")
             continue
+        number = member.number
         part = parts.get(number)
         rows = {} if part is None else {each.get("key", ""): each.get("value", "") for each in part.findall("metadata")}
         name = rows.get("name", "") or member.name or f"part {number}"

@@ -112,7 +112,11 @@ class Request:
     @property
     def thinnest(self) -> float:
         """How many times as wide as the line width walls are at least."""
-        return 1.0 if self.grading is None else self.grading.thinnest
+        if self.grading is None:
+            return 1.0
+        # The density of walls grows as their width, that of bars as its square.
+        bars = isinstance(CELLULAR.get(self.pattern), Bars)
+        return math.sqrt(self.grading.thinnest) if bars else self.grading.thinnest
 
     def radius(self, thickness: float) -> float:
         """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
