@@ -495,6 +495,7 @@ def test_a_hollow_knows_its_density() -> None:
         own={},
         drain=None,
         density=0.3,
+        by=None,
         cell=None,
         line_width=None,
         wall=1.0,
@@ -522,6 +523,8 @@ def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> Non
         "lines": fill(part, "zigzag", waves=5, cell=5, line_width=0.5, voxel=0.5, max_triangles=10**6),
         "drained": fill(part, drain=2, **FEW),
         "infill": fill(part, BAR, as_="infill", smooth_radius=0.3, voxel=0.5, density=0.3),
+        "graded": fill(part, density=(0.2, 0.4), by="x", voxel=0.5, wall=1.5),
+        "project": fill(part, as_="project", voxel=0.5),
     }
     reports = {name: result.report for name, result in results.items()}
     assert differences(described(text), reports, ("fill",)) == []
