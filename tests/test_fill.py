@@ -69,6 +69,7 @@ def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(patter
     assert status(solid) == FINE
     assert solid.volume == pytest.approx(part.volume - voids.volume)
     assert report["density"] == pytest.approx(0.25, abs=0.005)
+    assert report["voids"]["count"] == len(report["voids"]["closed"])  # all of which are closed, as there is no drain
     # The density again, by points: those at least a wall below the skin that lie in no void.
     points = np.random.default_rng(1).uniform(*part.bounds, (24000, 3))
     away = np.where(winding(points, surface(part)) > 0, Tree.of(surface(part)).nearest(points)[0], 0.0)

@@ -11,19 +11,12 @@ from typing import Any
 from infill.errors import UsageError
 from infill.slicers import bambustudio, cura, prusaslicer
 from infill.slicers.findings import Finding, Kind, PrintedVolume, as_problem, as_warning
-from infill.slicers.project import SLICERS, Slicer
+from infill.slicers.project import NAMES, SLICERS, Slicer
 from infill.slicers.reading import RELATIONS, Package, read_package
 from infill.slicers.rules_bambustudio import volumes_for_bambustudio
 from infill.slicers.rules_cura import volumes_for_cura
 from infill.slicers.rules_prusaslicer import volumes_for_prusaslicer
 
-NAMES = {
-    "prusaslicer": "PrusaSlicer",
-    "orcaslicer": "OrcaSlicer",
-    "bambustudio": "Bambu Studio",
-    "cura": "Cura",
-    "plain": "any slicer",
-}
 MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a command line
 KNOWN_EXTENSIONS = {"p", "m"}  # production, materials
 

@@ -10,6 +10,13 @@ from infill.surface import Surface
 
 Slicer = Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"]
 SLICERS: tuple[Slicer, ...] = get_args(Slicer)
+NAMES = {
+    "prusaslicer": "PrusaSlicer",
+    "orcaslicer": "OrcaSlicer",
+    "bambustudio": "Bambu Studio",
+    "cura": "Cura",
+    "plain": "any slicer",
+}
 THUMBNAIL = "Metadata/thumbnail.png"
 THUMBNAIL_RELATION = "http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"
 SETTINGS_RELATION = "http://schemas.phasefill.org/package/2026/settings"

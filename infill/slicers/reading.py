@@ -125,6 +125,11 @@ def read_package(path: Path) -> Package:
     )
 
 
+def rows_of(element: ElementTree.Element) -> dict[str, str]:
+    """Return the rows of a file of settings, by key."""
+    return {each.get("key", ""): each.get("value", "") for each in element.findall("metadata")}
+
+
 def key_of(part: str, number: str) -> str:
     """Return how an object is known in the package: by its number, and by its file, if that is another one."""
     return f"{number} of {part}" if part else number

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from xml.etree import ElementTree
 
 from infill.slicers.bambustudio import CONFIG
 from infill.slicers.findings import (
@@ -15,7 +16,8 @@ from infill.slicers.findings import (
     of_filling,
     with_walls,
 )
-from infill.slicers.reading import Body, Package
+from infill.slicers.project import NAMES
+from infill.slicers.reading import Body, Package, rows_of
 
 ROLES = {
     "normal_part": "part",
@@ -39,7 +41,6 @@ RESERVED = {
 }
 # By whom a file has to say that it was written, for the settings of its objects to be kept.
 KEPT_FROM = {"bambustudio": ("BambuStudio-",), "orcaslicer": ("BambuStudio-", "OrcaSlicer-")}
-NAMES = {"bambustudio": "Bambu Studio", "orcaslicer": "OrcaSlicer"}
 KEYS = WALL_KEYS["Bambu"] | {
     "bottom_shell_layers",
     "bottom_shell_thickness",
@@ -91,13 +92,11 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVo
             yield from _of_object(package, body, told.get(number), who)
 
 
-def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator[PrintedVolume | Finding]:
+def _of_object(
+    package: Package, body: Body, told: ElementTree.Element | None, who: str
+) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
-    from xml.etree import ElementTree
-
-    parts = {}
-    if isinstance(told, ElementTree.Element):
-        parts = {each.get("id", ""): each for each in told.findall("part")}
+    parts = {} if told is None else {each.get("id", ""): each for each in told.findall("part")}
     members = body.components or (body.number,)
     held = {package.bodies[key].number for key in members if key in package.bodies}
     for number in parts:
@@ -115,7 +114,7 @@ def _of_object(package: Package, body: Body, told: object, who: str) -> Iterator
             continue
         number = member.number
         part = parts.get(number)
-        rows = {} if part is None else {each.get("key", ""): each.get("value", "") for each in part.findall("metadata")}
+        rows = {} if part is None else rows_of(part)
         name = rows.get("name", "") or member.name or f"part {number}"
         kind = "normal_part" if part is None else part.get("subtype", "normal_part")
         if kind not in ROLES:

@@ -17,7 +17,7 @@ from infill.slicers.findings import (
     with_walls,
 )
 from infill.slicers.prusaslicer import CONFIG
-from infill.slicers.reading import Body, Package
+from infill.slicers.reading import Body, Package, rows_of
 from infill.surface import Surface
 
 VERSION = "slic3rpe:Version3mf"
@@ -139,10 +139,10 @@ def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> I
     volumes: list[PrintedVolume] = []
     covered = 0
     yield from _metadata(told, "object")
-    common = {key: value for key, value in _settings(told).items() if key not in RESERVED}
+    common = {key: value for key, value in rows_of(told).items() if key not in RESERVED}
     for each in told.findall("volume"):
         first, last = (_whole(each.get(name)) for name in ("firstid", "lastid"))
-        rows = _settings(each)
+        rows = rows_of(each)
         name = rows.get("name", "") or f"volume {len(volumes) + 1}"
         yield from _metadata(each, "volume")
         if not 0 <= first <= last < len(mesh.faces):
@@ -182,10 +182,6 @@ def _metadata(element: ElementTree.Element, kind: str) -> Iterator[Finding]:
     for each in element.findall("metadata"):
         if each.get("type") != kind:
             yield as_problem(f'{CONFIG} has a row {each.get("key")!r} without type="{kind}": the file is not opened')
-
-
-def _settings(element: ElementTree.Element) -> dict[str, str]:
-    return {each.get("key", ""): each.get("value", "") for each in element.findall("metadata")}
 
 
 def _whole(text: str | None) -> int:

@@ -21,7 +21,7 @@ AXES = ("x", "y", "z")
 SKIN = "skin"
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
 TABLES, ARRAYS = (".csv", ".txt"), (".npy",)
-LEAST_COLUMNS = 4  # x, y, z and a value
+COLUMNS = 4  # x, y, z and a value
 MOST_CELLS = 2e6  # in which the distance from the skin is measured
 
 
@@ -174,7 +174,7 @@ def _of_array(values: NDArray[Any], name: str) -> Field:
         raise FormatError(f"by is {name}, which holds nothing, or numbers that are not finite; check it")
     if values.ndim == 3:
         return Boxed(values=values)
-    if values.ndim == 2 and values.shape[1] == LEAST_COLUMNS:
+    if values.ndim == 2 and values.shape[1] == COLUMNS:
         return Scattered(points=values[:, :3], values=values[:, 3])
     raise FormatError(f"by is {name} of shape {values.shape}; give rows of x, y, z and a value, or three axes")
 

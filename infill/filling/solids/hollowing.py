@@ -44,6 +44,7 @@ COLLAPSE_BYTES = 4000  # for each triangle, at most
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
 SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
+FLAT = 0.01  # cells: the triangles of a void smaller than a cube of this side lie on one another
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 
 
@@ -178,10 +179,12 @@ def _coarser(
 
 
 def _shortened(found: Hollow, tolerance: float) -> Hollow:
-    """Return the voids without the triangles that flat places need not."""
+    """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
     if tolerance == 0:
         return found
-    return replace(found, surfaces=[shortened(each, SHARE * tolerance) for each in found.surfaces], tolerance=tolerance)
+    few = (shortened(each, SHARE * tolerance) for each in found.surfaces)
+    kept = (_useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
+    return replace(found, surfaces=[each for each in kept if each is not None], tolerance=tolerance)
 
 
 def _about(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:

@@ -115,10 +115,10 @@ def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
 def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved = hollow.space.overlap, hollow.tolerance
-    if facts.wanted is not None and abs(hollow.density - facts.wanted) > OFF:
+    if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
         yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
     for each in facts.graded:
-        if abs(each["density"] - each["wanted"]) > OFF_LOCAL:
+        if not abs(each["density"] - each["wanted"]) <= OFF_LOCAL:
             yield (
                 f"where {each['wanted']:.1%} was asked for, the density is {each['density']:.1%}; cells that are small "
                 "beside the field's changes follow it better"
