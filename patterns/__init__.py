@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from patterns.errors import PatternError, PatternUsageError
     from patterns.heart import ConcentricHeart
     from patterns.honeycomb import Honeycomb
+    from patterns.octagons import Octagons
     from patterns.protocol import LevelSet, Pattern, gives, lacking
     from patterns.registry import PatternWarning, Registry
     from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+    from patterns.straight import Grid, Rectilinear, Triangles, TriHexagon
+    from patterns.voronoi import Voronoi
     from patterns.zigzag import Zigzag
 
 _HOMES = {
@@ -30,9 +33,12 @@ _HOMES = {
     "errors": ("PatternError", "PatternUsageError"),
     "heart": ("ConcentricHeart",),
     "honeycomb": ("Honeycomb",),
+    "octagons": ("Octagons",),
     "protocol": ("LevelSet", "Pattern", "gives", "lacking"),
     "registry": ("PatternWarning", "Registry"),
     "shared": ("angle_parameter", "cell_parameter", "frame_parameter", "phase_parameter"),
+    "straight": ("Grid", "Rectilinear", "Triangles", "TriHexagon"),
+    "voronoi": ("Voronoi",),
     "zigzag": ("Zigzag",),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
@@ -40,14 +46,20 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "PATTERNS",
     "ConcentricHeart",
+    "Grid",
     "Honeycomb",
     "LevelSet",
+    "Octagons",
     "Parameter",
     "Pattern",
     "PatternError",
     "PatternUsageError",
     "PatternWarning",
+    "Rectilinear",
     "Registry",
+    "TriHexagon",
+    "Triangles",
+    "Voronoi",
     "Zigzag",
     "angle_parameter",
     "cell_parameter",

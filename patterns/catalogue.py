@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from patterns.heart import ConcentricHeart
 from patterns.honeycomb import Honeycomb
+from patterns.octagons import Octagons
 from patterns.registry import Registry
+from patterns.straight import Grid, Rectilinear, Triangles, TriHexagon
+from patterns.voronoi import Voronoi
 from patterns.zigzag import Zigzag
 
 PATTERNS = Registry(
@@ -12,5 +15,11 @@ PATTERNS = Registry(
         ConcentricHeart,
         Zigzag,
         Honeycomb,
+        Rectilinear,
+        Grid,
+        Triangles,
+        TriHexagon,
+        Octagons,
+        Voronoi,
     )
 )

@@ -14,9 +14,9 @@ class _Catalogue(Mapping[str, Cellular]):
 
     def _all(self) -> dict[str, Cellular]:
         from patterns.struts import STRUTS
-        from patterns.tpms import TPMS
+        from patterns.tpms import NETWORKS, TPMS
 
-        return {each.name: each for each in (*TPMS, *STRUTS)}
+        return {each.name: each for each in (*TPMS, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> Cellular:
         return self._all()[name]

@@ -6,6 +6,7 @@ import itertools
 import math
 from collections.abc import Iterable
 
+from patterns.foam import Foam
 from patterns.unit_cells import Bars
 
 Node = tuple[float, float, float]
@@ -69,4 +70,6 @@ KELVIN = Bars(
     edges=_between(OCTAHEDRON, OCTAHEDRON, math.sqrt(0.125)),
 )
 
-STRUTS = (CUBIC, OCTET, BCC, FCC, DIAMOND, KELVIN)
+FOAM = Foam(name="voronoi-foam", summary="irregular cells, as in sponge and bone; no direction is weaker than another")
+
+STRUTS = (CUBIC, OCTET, BCC, FCC, DIAMOND, KELVIN, FOAM)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from patterns.unit_cells import Surfaces
+from patterns.unit_cells import Network, Surfaces
 
 if TYPE_CHECKING:
     import numpy as np
@@ -77,3 +77,18 @@ NEOVIUS = Surfaces(name="neovius", summary="chambers with twelve openings; stiff
 I_WP = Surfaces(name="i-wp", summary="a wrapped package: chambers along the diagonals", value=_i_wp)
 
 TPMS = (GYROID, SCHWARZ_P, SCHWARZ_D, FISCHER_KOCH_S, LIDINOID, NEOVIUS, I_WP)
+
+
+def _network(surfaces: Surfaces, summary: str, *, thinnest: float, side: int = 1) -> Network:
+    name = f"{surfaces.name}-network"
+    return Network(name=name, summary=summary, surfaces=surfaces, side=side, thinnest=thinnest)
+
+
+# Neovius's surface and the lidinoid have none: bars along their channels break at densities that are asked for.
+NETWORKS = (
+    _network(GYROID, "bars that wind, three at every node; prints without support", thinnest=0.02),
+    _network(SCHWARZ_P, "thick bars along x, y and z that flow into one another", thinnest=0.08),
+    _network(SCHWARZ_D, "the bars of diamond, as if cast", thinnest=0.04),
+    _network(FISCHER_KOCH_S, "many thin winding bars", thinnest=0.06),
+    _network(I_WP, "bars to the corners of a cube, as if cast", thinnest=0.04, side=-1),
+)

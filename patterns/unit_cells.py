@@ -1,4 +1,4 @@
-"""Patterns that repeat in space: walls along a minimal surface, or round bars along the edges of a unit cell.
+"""Patterns that repeat in space: walls along a minimal surface, one side of it, or round bars along edges.
 
 Both are given for one unit cell, of side 1, that repeats along x, y and z; whoever fills a part scales and turns it.
 """
@@ -6,9 +6,10 @@ Both are given for one unit cell, of side 1, that repeats along x, y and z; whoe
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,8 +23,11 @@ NEAR = 1e-3  # values that count as 0
 DIFFERENCE = 1e-6  # of a cell, for slopes
 LONGEST, MOVED = 0.2, 2e-3  # steps, in cells: the longest, and what changes nothing
 STEEPEST = 0.5  # of a cell: distances beyond this are cut off
-REACH = 0.8  # of a cell: further from the unit cell, no bar is the nearest of any point in it
-SAMPLES, TIE = 24, 1e-12  # points along a cell that are looked at, and what counts as equally near
+REACH = 0.8  # of a period: further from the unit cell, no bar is the nearest of any point in it
+FURTHEST = 1.5  # cells: nor is one this far
+DEEPEST = 48  # points along a cell, among which the deepest is looked for
+ROUNDING = 1e-9
+BINS, BINS_PER_CELL = 12, 6  # along a period, in each of which the edges that may be the nearest are known, at least
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +40,9 @@ class Surfaces:
     value : callable
         Takes x, y and z, of one shape, in radians: 2 pi is a cell. Its zeros are the surface.
     """
+
+    bars: ClassVar[bool] = False
+    cells: ClassVar[int] = 1
 
     name: str
     summary: str
@@ -107,6 +114,61 @@ def _unit(vectors: Floats) -> Floats:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Network:
+    """One side of a surface that repeats: solid where it is deepest, with one void around all of it.
+
+    What is called its width is twice how far the void is from the deepest places: how thick it is where it is thickest.
+
+    Parameters
+    ----------
+    name, summary : str
+    surfaces : Surfaces
+    side : {1, -1}
+        Where the value is above 0, or below.
+    thinnest : float
+        Density at which its bars break.
+    """
+
+    bars: ClassVar[bool] = True
+    cells: ClassVar[int] = 1
+
+    name: str
+    summary: str
+    surfaces: Surfaces
+    side: int
+    thinnest: float
+
+    def distance(self, points: Floats) -> Floats:
+        """Return how much less deep points (N, 3), in cells, lie than the deepest of a grid: (N,), in cells."""
+        import numpy as np
+
+        line = np.arange(DEEPEST) / DEEPEST
+        grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+        found: Floats = self._deep(grid).max() - self._deep(np.asarray(points, dtype=np.float64))
+        return found
+
+    def _deep(self, points: Floats) -> Floats:
+        return self.side * self.surfaces.distance(points)
+
+
+class Binned(NamedTuple):
+    """Edges, and which of them may be the nearest of a point in each of equal cubes that make up a period.
+
+    Parameters
+    ----------
+    edges : (E, 2, 3) float64
+        In periods.
+    first : (n³ + 1,) int32
+        Where the numbers of the edges of each cube begin.
+    which : (M,) int32
+    """
+
+    edges: Floats
+    first: NDArray[np.int32]
+    which: NDArray[np.int32]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Bars:
     """Round bars along edges that repeat, with one void around all of them.
 
@@ -114,35 +176,48 @@ class Bars:
     ----------
     name, summary : str
     edges : tuple of ((x, y, z), (x, y, z))
-        In cells; each repeats along x, y and z.
+        In periods; each repeats along x, y and z.
+    cells : int
+        How many cells lie along a period.
     """
+
+    bars: ClassVar[bool] = True
 
     name: str
     summary: str
     edges: tuple[tuple[tuple[float, float, float], tuple[float, float, float]], ...]
+    cells: int = 1
 
-    def around_cell(self) -> Floats:
-        """Return the edges, and copies of them, that are the nearest of some point in the unit cell: (E, 2, 3).
+    def axes(self) -> Floats:
+        """Return the edges: (E, 2, 3), in periods."""
+        import numpy as np
+
+        return np.array(self.edges, dtype=np.float64)
+
+    def around_cell(self) -> Binned:
+        """Return the edges, and copies of them, that may be the nearest of some point in the unit cell.
 
         >>> from patterns.struts import CUBIC
-        >>> len(CUBIC.around_cell())
-        12
+        >>> len(CUBIC.around_cell().edges)
+        36
         """
         import numpy as np
 
         shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)), dtype=np.float64)
-        every = (np.array(self.edges)[None] + shifts[:, None, None]).reshape(-1, 2, 3)
-        near = ((every.max(axis=1) > -REACH) & (every.min(axis=1) < 1 + REACH)).all(axis=1)
+        every = (self.axes()[None] + shifts[:, None, None]).reshape(-1, 2, 3)
+        reach = min(REACH, FURTHEST / self.cells)
+        near = ((every.max(axis=1) > -reach) & (every.min(axis=1) < 1 + reach)).all(axis=1)
         every = every[near]
-        line = (np.arange(SAMPLES) + 0.5) / SAMPLES
-        points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-        nearest, which = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
-        for number, edge in enumerate(every):
-            away = _squared(points, edge)
-            nearer = away < nearest - TIE
-            nearest[nearer], which[nearer] = away[nearer], number
-        chosen: Floats = every[np.unique(which)]
-        return chosen
+        bins = max(BINS, BINS_PER_CELL * self.cells)
+        line = (np.arange(bins) + 0.5) / bins
+        centres = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+        away = np.sqrt([_squared(centres, edge) for edge in every])
+        # From the centre to a corner of a cube, and once more as much, may speak for an edge further away.
+        close = away <= away.min(axis=0) + math.sqrt(3) / bins + ROUNDING
+        used = close.any(axis=1)
+        cube, which = np.nonzero(close[used].T)
+        first = np.searchsorted(cube, np.arange(len(centres) + 1))
+        return Binned(edges=every[used], first=first.astype(np.int32), which=which.astype(np.int32))
 
 
 def _squared(points: Floats, edge: Floats) -> Floats:
@@ -155,4 +230,4 @@ def _squared(points: Floats, edge: Floats) -> Floats:
     return found
 
 
-Cellular = Surfaces | Bars
+Cellular = Surfaces | Network | Bars

@@ -13,8 +13,14 @@ from shapely import Point, Polygon, box
 from patterns import (
     PATTERNS,
     ConcentricHeart,
+    Grid,
     Honeycomb,
+    Octagons,
     Pattern,
+    Rectilinear,
+    Triangles,
+    TriHexagon,
+    Voronoi,
     Zigzag,
     angle_parameter,
     cell_parameter,
@@ -35,6 +41,14 @@ DESIGNS: list[Pattern] = [
     ConcentricHeart(hearts=3, angle=23),
     ConcentricHeart(cell=5, frame=True),
     ConcentricHeart(cell=7, phase=(3.0, -2.0)),
+    Rectilinear(),
+    Grid(cell=5, angle=17, frame=False),
+    Triangles(cell=8, phase=(1.0, -2.0)),
+    TriHexagon(frame=False),
+    Octagons(),
+    Octagons(cell=9, angle=7, phase=(1.0, -0.5), frame=False),
+    Voronoi(),
+    Voronoi(cell=8, seed=5, even=0, angle=23, frame=False),
 ]
 
 
@@ -86,6 +100,7 @@ LEVEL_SETS: list[Pattern] = [
     Ripples(cell=7, angle=23, phase=(1.0, -2.0)),
 ]
 BUILT_IN = list(PATTERNS.built_in)
+OF_THE_PAPER = ("honeycomb", "zigzag", "concentric-heart")  # walls a cell apart, or more, everywhere
 REGIONS: list[Polygon] = [
     box(-30, -30, 30, 30),
     box(5, -10, 45, 20),

@@ -32,7 +32,7 @@ from infill.surfaces.winding import winding
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
-from patterns.unit_cells import Bars, Surfaces
+from patterns.unit_cells import Bars, Network, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -96,11 +96,12 @@ def test_more_is_denser(pattern: str, part: trimesh.Trimesh) -> None:
 
 
 @pytest.mark.parametrize("name", CELLULAR)
-def test_a_shift_by_a_cell_changes_nothing(name: str) -> None:
+def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     given = {"cell": 6.0, "line_width": 0.7, "voxel": 0.4, "wall": 1.0}
     block = box(15, 15, 15)
     one = fill(block, name, **given).surface
-    other = fill(block, name, phase=(6.0, -12.0, 6.0), **given).surface
+    period = 6.0 * CELLULAR[name].cells
+    other = fill(block, name, phase=(period, -2 * period, period), **given).surface
     assert other.volume == pytest.approx(one.volume, rel=1e-5)
     assert len(other.faces) == pytest.approx(len(one.faces), rel=0.01)
 
@@ -165,11 +166,18 @@ def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
 def test_the_bars_of_a_cell_repeat_and_none_that_is_near_is_missing(name: str) -> None:
     pattern = CELLULAR[name]
     assert isinstance(pattern, Bars)
-    edges = pattern.around_cell()
+    edges, first, which = pattern.around_cell()
     shifts = np.stack(np.meshgrid(*[np.arange(-2, 3)] * 3), axis=-1).reshape(-1, 1, 1, 3)
-    every = (np.array(pattern.edges)[None] + shifts).reshape(-1, 2, 3)
+    every = (pattern.axes()[None] + shifts).reshape(-1, 2, 3)
     points = np.random.default_rng(5).random((500, 3))
-    assert to_edges(points, edges) == pytest.approx(to_edges(points, every), abs=1e-12)
+    exact = to_edges(points, every)
+    assert to_edges(points, edges) == pytest.approx(exact, abs=1e-12)
+    # Nor in the cube that a point lies in.
+    bins = round((len(first) - 1) ** (1 / 3))
+    cubes = np.ravel_multi_index((points * bins).astype(int).T, (bins,) * 3)
+    for cube, point, away in zip(cubes, points, exact, strict=True):
+        held = edges[which[first[cube] : first[cube + 1]]]
+        assert to_edges(point[None], held)[0] == pytest.approx(away, abs=1e-12)
 
 
 def to_edges(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
@@ -177,6 +185,66 @@ def to_edges(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
     along, beside = edges[:, 1] - edges[:, 0], points[:, None] - edges[None, :, 0]
     share = np.clip((beside * along).sum(axis=2) / (along**2).sum(axis=1), 0, 1)
     return np.linalg.norm(beside - share[..., None] * along, axis=2).min(axis=1)
+
+
+@pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Network)])
+def test_a_network_hangs_together_from_its_lowest_density_on(name: str) -> None:
+    """Also across the border of a period: every piece of 2 x 2 x 2 of them touches another, or is a speck."""
+    from scipy.ndimage import label
+
+    pattern = CELLULAR[name]
+    assert isinstance(pattern, Network)
+    line = np.arange(64) / 64
+    core = pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
+    solid = np.tile((core <= np.quantile(core, pattern.thinnest)).reshape(64, 64, 64), (2, 2, 2))
+    names, _ = label(solid, np.ones((3, 3, 3)))
+    sizes = np.bincount(names.ravel())[1:]
+    whole = names == 1 + sizes.argmax()
+    assert sizes.max() > 0.95 * solid.sum()
+    for axis in range(3):
+        assert (whole.take(0, axis) & whole.take(-1, axis)).any()
+    # The solid lies on one side of the surface, and deepest there first.
+    away = pattern.side * pattern.surfaces.distance(np.argwhere(core.reshape(64, 64, 64) < 0.02) / 64)
+    assert away.min() > 0.15
+
+
+def test_the_edges_of_foam_are_as_far_from_three_seeds_as_from_no_other() -> None:
+    from patterns.foam import evened, voronoi_edges
+
+    period = 3
+    seeds = np.random.default_rng(8).random((27, 3)) * period
+    for _ in range(2):
+        edges = voronoi_edges(seeds, period)
+        shifts = np.stack(np.meshgrid(*[np.arange(-2, 3)] * 3), axis=-1).reshape(-1, 1, 3) * period
+        images = (seeds[None] + shifts).reshape(-1, 3)
+        for share in (0.0, 0.3, 0.5, 1.0):
+            points = edges[:, 0] * (1 - share) + edges[:, 1] * share
+            away = np.sort(np.linalg.norm(points[:, None] - images, axis=2), axis=1)[:, :4]
+            equal = 4 if share in (0.0, 1.0) else 3
+            assert np.ptp(away[:, :equal], axis=1).max() < 1e-9
+        # Four edges end at every vertex, and a torus has as many vertices and faces as edges and cells.
+        ends = np.round(edges.reshape(-1, 3) % period, 6) % period
+        assert (np.unique(ends, axis=0, return_counts=True)[1] == 4).all()
+        seeds = evened(seeds, period)
+
+
+def test_foam_of_another_seed_is_another() -> None:
+    given = {"density": 0.2, "cell": 5.0, "voxel": 0.4, "wall": 1.0}
+    block = box(15, 15, 15)
+    one, same, other = (fill(block, "voronoi-foam", seed=seed, **given) for seed in (3, 3, 4))
+    assert one.report["request"]["parameters"] == {"seed": 3}
+    assert one.surface.volume == same.surface.volume != other.surface.volume
+    with pytest.raises(ParameterError, match="no parameter 'sead'.*seed"):
+        fill(block, "voronoi-foam", sead=3)
+    with pytest.raises(PatternError, match="seed of voronoi-foam is -1.*whole number"):
+        fill(block, "voronoi-foam", seed=-1)
+
+
+def test_a_network_that_would_break_is_refused() -> None:
+    with pytest.raises(ParameterError, match=r"density is 0\.05, and the bars of schwarz-p-network break below 0\.08"):
+        fill(box(15, 15, 15), "schwarz-p-network", density=0.05)
+    with pytest.raises(ParameterError, match=r"density is 0\.03"):
+        fill(box(15, 15, 15), "schwarz-p-network", density=(0.3, 0.03))
 
 
 def test_kernels_are_their_definitions() -> None:
@@ -190,9 +258,9 @@ def test_kernels_are_their_definitions() -> None:
     places = (start + cells @ turn.T) / period
     pattern = CELLULAR["kelvin"]
     assert isinstance(pattern, Bars)
-    out = np.empty_like(depth)
-    filled = from_bars(depth, -1.0, pattern.around_cell(), turn, start, period, 1.0, half, *NONE, out, 0, 1)
-    exact = to_edges((places % 1).reshape(-1, 3), pattern.around_cell()).reshape(depth.shape) * period - half
+    binned, out = pattern.around_cell(), np.empty_like(depth)
+    filled = from_bars(depth, -1.0, *binned, turn, start, period, half, *NONE, out, 0, 1)
+    exact = to_edges((places % 1).reshape(-1, 3), binned.edges).reshape(depth.shape) * period - half
     wanted = np.where(depth <= -1, depth, np.minimum(exact, depth))
     assert out == pytest.approx(wanted, abs=1e-5)
     assert filled == pytest.approx(np.clip(wanted + 0.5, 0, 1).sum(), abs=1e-3)
@@ -214,8 +282,8 @@ def test_kernels_are_their_definitions() -> None:
     times = times.reshape(depth.shape)
     from_plane(depth, plane, half, ratio, 2.5, out, 0, 1)
     assert out == pytest.approx(np.minimum(plane[:, :, None] - half * times, depth), abs=1e-5)
-    from_bars(depth, -1.0, pattern.around_cell(), turn, start, period, 1.0, half, ratio, 2.5, out, 0, 1)
-    exact = to_edges((places % 1).reshape(-1, 3), pattern.around_cell()).reshape(depth.shape) * period - half * times
+    from_bars(depth, -1.0, *binned, turn, start, period, half, ratio, 2.5, out, 0, 1)
+    exact = to_edges((places % 1).reshape(-1, 3), binned.edges).reshape(depth.shape) * period - half * times
     assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     from_period(depth, -1.0, table, turn, start, period, 1.0, half, ratio, 2.5, out, 0, 1)
     there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap").reshape(depth.shape)

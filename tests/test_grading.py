@@ -160,7 +160,7 @@ def test_the_command_grades_and_remembers(tmp_path: Path, monkeypatch: pytest.Mo
     Path("bad.py").write_text("def field(points):\n    return 1 / 0\n\n\ndef none(:\n")
     one_line_error(run(*words[:4], "--by", "bad.py:field", "-o", "c.stl"), "bad.py cannot be loaded")
     Path("bad.py").write_text("def field(points):\n    return 1 / 0\n")
-    one_line_error(run(*words[:4], "--by", "bad.py:other", "-o", "c.stl"), "bad.py has no function 'other'")
+    one_line_error(run(*words[:4], "--by", "bad.py:other", "-o", "c.stl"), "bad.py has nothing called 'other'")
     one_line_error(
         run(*words[:4], "--by", "bad.py:field", "-o", "c.stl"), "by is bad.py:field, which fails: division by zero"
     )

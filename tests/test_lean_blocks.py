@@ -280,6 +280,11 @@ def test_a_large_block_is_expected_from_samples(name: str, stamp: Any) -> None:
 def test_the_report_tells_what_the_exact_stamp_would_give(name: str) -> None:
     report = make(name, size=40).report
     exact = make(name, size=40, stamp="exact").report
-    assert abs(report["wall_width"]["mean"] / 0.45 - 1) > 0.05
-    assert report["walls"]["exact"] == pytest.approx(exact["wall_width"]["mean"], rel=0.01)
+    wrong = abs(report["wall_width"]["mean"] / 0.45 - 1)
+    if name in ("rectilinear", "grid"):  # lines along cells, all of them, are stamped too well to tell
+        assert wrong < 0.05
+        assert report["walls"]["exact"] is None
+    else:
+        assert wrong > 0.05
+        assert report["walls"]["exact"] == pytest.approx(exact["wall_width"]["mean"], rel=0.01)
     assert exact["walls"]["exact"] is None

@@ -78,8 +78,9 @@ def fill(
         typer.Option(
             metavar="NAME",
             show_default=False,
-            help="In space: gyroid, schwarz-p, schwarz-d, fischer-koch-s, lidinoid, neovius, i-wp; bars: cubic-bars, "
-            "octet, bcc, fcc, diamond, kelvin; upright walls: whatever 'infill list' shows. (default: gyroid)",
+            help="Any that 'infill list' shows: walls in space, such as gyroid; bars, such as octet, voronoi-foam or "
+            "gyroid-network; upright walls, such as honeycomb. Or a drawing that is repeated (.svg .dxf .wkt .png .jpg "
+            ".bmp), or module.py:name. (default: gyroid)",
             autocompletion=fill_names,
             rich_help_panel=PATTERN,
         ),
@@ -144,13 +145,20 @@ def fill(
             rich_help_panel=PATTERN,
         ),
     ] = (0.0, 0.0, 0.0),
+    seed: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="Which of all patterns of a kind, where chance has a part: voronoi, voronoi-foam. (default: 0)",
+            rich_help_panel=PATTERN,
+        ),
+    ] = None,
     assigned: Annotated[
         list[str] | None,
         typer.Option(
             "--set",
             metavar="NAME=VALUE",
-            help="Any further parameter of a pattern of upright walls; may be given again. 'infill list PATTERN' shows "
-            "them.",
+            help="Any further parameter of a pattern; may be given again. 'infill list PATTERN' shows them.",
             autocompletion=fill_assignments,
             rich_help_panel=PATTERN,
         ),
@@ -270,6 +278,7 @@ def fill(
         "align": align,
         "angle": angle,
         "phase": phase,
+        "seed": seed,
         "drain": drain,
         "smooth_radius": smooth_radius,
         "overlap": overlap,
@@ -278,7 +287,9 @@ def fill(
         "voxel": voxel,
     }
     settings = resolve(
-        {name: value for name, value in flags.items() if is_typed(context, name)}, assigned or [], config
+        {name: value for name, value in flags.items() if is_typed(context, name)},
+        assigned or [],
+        config,
     )
     writers = {path: _writer(path, settings, ascii_stl=ascii_stl) for path in outputs}
     if preview is not None:

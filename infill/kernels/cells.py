@@ -95,17 +95,21 @@ def from_period(depth, least, table, turn, start, period, sign, half, ratio, ste
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_bars(depth, least, edges, turn, start, period, sign, half, ratio, step, out, thread, threads):
+def from_bars(depth, least, edges, first, which, turn, start, period, half, ratio, step, out, thread, threads):
     """Fill `out` with the lesser of the depth and the distance from round bars that repeat, in cells.
 
     Parameters
     ----------
     edges : (E, 2, 3) float64
         The axes of the bars that may be the nearest in one period, in periods.
-    depth, least, turn, start, period, sign, half, ratio, step, out, thread, threads
+    first : (n³ + 1,) int32
+    which : (M,) int32
+        The bars that may be the nearest in each of n³ equal cubes: those of cube c are which[first[c]:first[c + 1]].
+    depth, least, turn, start, period, half, ratio, step, out, thread, threads
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
+    n = round((len(first) - 1) ** (1 / 3))
     filled = 0.0
     for i in range(thread, nx, threads):
         for j in range(ny):
@@ -118,8 +122,10 @@ def from_bars(depth, least, edges, turn, start, period, sign, half, ratio, step,
                 y = (start[1] + turn[1, 0] * i + turn[1, 1] * j + turn[1, 2] * k) / period
                 z = (start[2] + turn[2, 0] * i + turn[2, 1] * j + turn[2, 2] * k) / period
                 x, y, z = x - math.floor(x), y - math.floor(y), z - math.floor(z)
+                cube = (min(int(x * n), n - 1) * n + min(int(y * n), n - 1)) * n + min(int(z * n), n - 1)
                 nearest = np.inf
-                for e in range(len(edges)):
+                for at in range(first[cube], first[cube + 1]):
+                    e = which[at]
                     ux, uy, uz = (
                         edges[e, 1, 0] - edges[e, 0, 0],
                         edges[e, 1, 1] - edges[e, 0, 1],
@@ -130,7 +136,7 @@ def from_bars(depth, least, edges, turn, start, period, sign, half, ratio, step,
                     along = min(1.0, max(0.0, along))
                     vx, vy, vz = vx - along * ux, vy - along * uy, vz - along * uz
                     nearest = min(nearest, vx * vx + vy * vy + vz * vz)
-                value = min(sign * (math.sqrt(nearest) * period - half * local(ratio, step, i, j, k)), deep)
+                value = min(math.sqrt(nearest) * period - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

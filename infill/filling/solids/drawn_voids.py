@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from infill.filling.solids.roots import root
 from infill.filling.solids.space import BAND, Space
 from infill.filling.solids.voids import FIELD, local_widths
 from infill.kernels.threads import in_threads, thread_count
+from patterns.errors import PatternError
 from patterns.protocol import Pattern, lines_of
 
 APART = 3.0  # cells of the grid: voids that are nearer get fields of their own
@@ -63,19 +65,32 @@ class Drawn:
         threads = thread_count(self.threads)
         return float(sum(in_threads(from_plane, space.depth, plane, half, *ratio, out, threads=threads)))
 
+    @cached_property
+    def apart(self) -> float:
+        """How far lines are apart on average, as those of a grid would be, in cells; at most one."""
+        region, lines = self._sample
+        return min(1.0, float(2 * region.area / lines.length))
+
+    @cached_property
+    def _sample(self) -> tuple[shapely.Polygon, shapely.Geometry]:
+        """Return some cells of a pattern whose cell is 1, and the lines in them."""
+        side = SAMPLE / 2
+        region = _square(side)
+        lines = shapely.intersection(self._lines(_square(WIDER * side * 2**0.5), 1.0), region)
+        if not lines.length:
+            raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
+        return region, lines
+
     def widths(self, density: float) -> float:
         """See `Voids`."""
-        side = SAMPLE / 2
-        region = shapely.box(-side, -side, side, side)
-        lines = self._lines(_square(WIDER * side * 2**0.5), 1.0)
-        lines = shapely.intersection(lines, region)
+        region, lines = self._sample
 
         def off(times: float) -> float:
-            walls = shapely.buffer(lines, times * density / 4, quad_segs=1)
+            walls = shapely.buffer(lines, times * self.apart * density / 4, quad_segs=1)
             return math.log(shapely.intersection(walls, region).area / (density * region.area))
 
         # Lines a cell apart in one direction would be as wide as the density; most run in two.
-        return density / 2 * root(off, NEAR, TRIES)
+        return self.apart * density / 2 * root(off, NEAR, TRIES)
 
     def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
         changed: dict[str, Any] = {"cell": cell} if hasattr(self.pattern, "cell") else {}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from infill.errors import FormatError, ParameterError, UsageError
 from infill.filling.solids.space import Space
 from infill.formats.bitmaps import read_grey
 from infill.formats.broken import one_line, readable, told_broken
+from infill.formats.modules import MARK, object_in
 
 Floats = NDArray[np.float64]
 AXES = ("x", "y", "z")
@@ -155,7 +155,7 @@ def field_of(by: object) -> tuple[Field, str]:
         return BelowSkin(), text
     path = Path(text)
     suffix = path.suffix.lower()
-    if ".py:" in text:
+    if MARK in text:
         return Computed(function=_function(text), name=text), text
     if suffix in PICTURES:
         grey = read_grey(readable(path, PICTURES, "a picture"))
@@ -196,15 +196,7 @@ def _table(path: Path) -> Floats:
 
 def _function(text: str) -> Callable[[Floats], Any]:
     """Return a function by the file and the name in ``module.py:name``."""
-    file, _, name = text.rpartition(":")
-    path = readable(file, [".py"], "a module")
-    spec = importlib.util.spec_from_file_location(path.stem, path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    with told_broken(path, "cannot be loaded", "run it by itself first"):
-        spec.loader.exec_module(module)
-    found = getattr(module, name, None)
+    found = object_in(text)
     if not callable(found):
-        raise FormatError(f"{path} has no function {name!r}; check the name")
-    return found  # type: ignore[no-any-return]
+        raise FormatError(f"{text} is no function; check the name")
+    return found

@@ -46,7 +46,7 @@ INTO_WALL = 0.75  # how far infill reaches into the walls of a part from which i
 
 def fill(
     part: Surface | trimesh.Trimesh,
-    pattern: str = "gyroid",
+    pattern: object = "gyroid",
     *,
     density: float | tuple[float, float] | None = None,
     by: object = None,
@@ -74,9 +74,10 @@ def fill(
     ----------
     part : Surface or trimesh.Trimesh, mm
         Closed; holes in it are closed first, and that is told.
-    pattern : str
+    pattern : str, Path, Pattern, Surfaces, Network, Bars or callable
         A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
-        the same at every height.
+        the same at every height; a drawing, which is repeated; "module.py:name"; a pattern itself; or a function of x,
+        y and z, of one shape, in radians (2 pi is a cell): walls are where it is 0.
     density : float, optional
         Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
         and a line width of 0.45 mm (0.9 in a project) if nothing is given, or for bars, 0.2 and a cell of 8 mm (in

@@ -31,7 +31,6 @@ from infill.surfaces.simplification import simplified
 from infill.surfaces.solids import shortened, volume_within
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.surfaces.winding import winding
-from patterns.unit_cells import Bars
 
 CLOSE = 0.002  # of the density: nearer than this, no other cell or width is tried
 LEAST = 1e-6  # densities below this are none
@@ -266,7 +265,7 @@ def _corrected(
 def _graded(found: Hollow, voids: Voids, grading: Grading, request: Request, threads: int | None) -> Hollow:
     """Return voids whose meshes leave everywhere the density asked for there."""
     space, sizes = found.space, (found.cell, found.width)
-    power = 2 if isinstance(voids, Repeating) and isinstance(voids.pattern, Bars) else 1
+    power = 2 if isinstance(voids, Repeating) and voids.pattern.bars else 1
     for _ in range(GRADING_ROUNDS):
         local = grading.over(space, voids.widths)
         asked, there = densities_by_share(space, found.surface, local, GRADING_STEPS, mean=found.density)

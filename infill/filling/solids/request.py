@@ -15,14 +15,14 @@ from infill.errors import GeometryError, ParameterError, UsageError
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading
+from infill.filling.solids.naming import Kind, kind_of
 from infill.filling.solids.voids import Repeating, Voids
 from infill.formats.assignments import Source, assignments, merged, values
-from patterns import PATTERNS
-from patterns.cellular import CELLULAR, no_such
+from patterns.cellular import CELLULAR
 from patterns.declared import parameters
 from patterns.given import nearest
 from patterns.protocol import Pattern
-from patterns.unit_cells import Bars
+from patterns.unit_cells import Bars, Cellular, Network, Surfaces
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed"]
@@ -43,6 +43,7 @@ MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by def
 FURTHEST = 1e4  # mm
 SLACK = 1.01
 FEWEST_TRIANGLES = 1000  # of voids
+SEED = "seed"
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or no use
 LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
 FIFTH = 0.2
@@ -61,6 +62,9 @@ class Request:
     Parameters
     ----------
     pattern : str
+        Its name.
+    kind : Surfaces, Network, Bars, Pattern or class of patterns
+        What the name stands for.
     parameters : mapping
         The pattern's own, by name.
     density : float or None
@@ -87,6 +91,7 @@ class Request:
     """
 
     pattern: str
+    kind: Kind
     parameters: Mapping[str, Any]
     density: float | None
     cell: float | None
@@ -115,12 +120,16 @@ class Request:
         if self.grading is None:
             return 1.0
         # The density of walls grows as their width, that of bars as its square.
-        bars = isinstance(CELLULAR.get(self.pattern), Bars)
-        return math.sqrt(self.grading.thinnest) if bars else self.grading.thinnest
+        return math.sqrt(self.grading.thinnest) if barred(self.kind) else self.grading.thinnest
 
     def radius(self, thickness: float) -> float:
         """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
         return min(RADIUS, thickness / LEAST_ROUND) if self.smooth_radius is None else self.smooth_radius
+
+    @property
+    def lowest(self) -> float | None:
+        """The lowest density that is asked for."""
+        return self.density if self.grading is None else min(self.grading.first, self.grading.last)
 
     @property
     def varied(self) -> tuple[Size, ...]:
@@ -131,7 +140,7 @@ class Request:
             return ("width",) if self.line_width is None or self.cell is not None else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
-        return ("width",) if isinstance(CELLULAR.get(self.pattern), Bars) else ("cell", "width")
+        return ("width",) if barred(self.kind) else ("cell", "width")
 
     def room(self, taken: int) -> int:
         """Return how many triangles voids may have, if the part has taken so many.
@@ -174,9 +183,14 @@ class Request:
         }
 
 
+def barred(kind: Kind) -> bool:
+    """Return whether a pattern is made of bars, which are as thick as the density asks for."""
+    return isinstance(kind, (Network, Bars))
+
+
 def checked(
     *,
-    pattern: str,
+    pattern: object,
     own: Mapping[str, Any],
     density: float | tuple[float, ...] | None,
     by: object,
@@ -206,6 +220,7 @@ def checked(
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
     shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
+    kind, name = kind_of(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
         grading = graded(density, by)
@@ -215,13 +230,13 @@ def checked(
     elif density is not None:
         density = within("density", density, LOWEST, HIGHEST)
     elif cell is None or line_width is None:
-        bars = isinstance(CELLULAR.get(pattern), Bars)
-        density = DENSITY if cell is None or bars else None
+        density = DENSITY if cell is None or barred(kind) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
     wall = (SLICED_WALL if form == "project" else WALL) if wall is None else length("wall", wall)
     return Request(
-        pattern=pattern,
+        pattern=name,
+        kind=kind,
         parameters=own,
         density=density,
         cell=None if cell is None else length("cell", cell),
@@ -258,25 +273,21 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     anchor = middle + request.phase
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
-    if request.pattern in CELLULAR:
-        if request.parameters:
-            name = next(iter(request.parameters))
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
-        return Repeating(
-            pattern=CELLULAR[request.pattern], turn=turn, anchor=anchor, threads=threads, grading=request.grading
-        )
-    return Drawn(pattern=pattern_of(request), anchor=anchor, threads=threads, grading=request.grading)
+    if isinstance(request.kind, (Surfaces, Network, Bars)):
+        pattern = cellular_of(request.kind, request)
+        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=request.grading)
+    return Drawn(pattern=pattern_of(request.kind, request), anchor=anchor, threads=threads, grading=request.grading)
 
 
-def own_parameters(pattern: str, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Return the pattern's own parameters by name, from ``name=value`` and a table, or raise ParameterError."""
-    if pattern in CELLULAR:
-        if assigned:
-            raise ParameterError(f"--set {assigned[0]}: {pattern} has no parameters; give --cell or --line-width")
-        return dict(table or {})  # which is refused, if it says anything
     if not (assigned or table):
         return {}
-    kind = PATTERNS.find(pattern)
+    kind, name = kind_of(pattern)
+    if not parameters(kind):
+        if assigned:
+            raise ParameterError(f"--set {assigned[0]}: {name} has no parameters; give --cell or --line-width")
+        return dict(table or {})  # which is refused
     given = merged(
         kind,
         command=assignments(kind, assigned, options=HELD),
@@ -288,17 +299,42 @@ def own_parameters(pattern: str, assigned: Sequence[str], table: Mapping[str, An
     return given
 
 
-def pattern_of(request: Request) -> Pattern:
+def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]:
+    """Return the pattern's own parameters with a seed, or raise ParameterError if chance has no part in it."""
+    kind, name = kind_of(pattern)
+    if SEED not in parameters(kind):
+        raise ParameterError(f"seed is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam")
+    if own.get(SEED, seed) != seed:
+        raise ParameterError(f"seed is {seed}, and --set says {own[SEED]}; give one of them")
+    return {**own, SEED: seed}
+
+
+def cellular_of(kind: Cellular, request: Request) -> Cellular:
+    """Return the pattern in space that is asked for, or raise ParameterError."""
+    known = list(parameters(kind))
+    for name in request.parameters:
+        if not known:
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
+        if name not in known:
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, known)}")
+    if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
+        raise ParameterError(
+            f"density is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
+            f"higher one, or choose {kind.surfaces.name}"
+        )
+    return replace(kind, **request.parameters) if request.parameters else kind
+
+
+def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     """Return the pattern of lines that is asked for, or raise ParameterError."""
-    if request.pattern not in PATTERNS:
-        raise no_such(request.pattern, [*CELLULAR, *PATTERNS])
-    kind = PATTERNS[request.pattern]
     known = parameters(kind)
     own = [name for name in known if name not in HELD]
     for name in request.parameters:
         if name not in own:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, own)}")
-    made: Pattern = kind(**{**request.parameters, **({"angle": request.angle} if "angle" in known else {})})
+    turned = {"angle": request.angle} if "angle" in known else {}
+    changed = {**request.parameters, **turned}
+    made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
     if not made.prismatic:
         raise ParameterError(f"the lines of {made.name} change with height; choose from {', '.join(CELLULAR)}")
     return made
@@ -337,7 +373,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
     width *= request.thinnest
     size = request.wall / ACROSS
     if isinstance(voids, Drawn):
-        size = min(size, cell / FINE_LINES, COARSEST_LINES)
+        size = min(size, voids.apart * cell / FINE_LINES, COARSEST_LINES)
     elif _has_bars(voids):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
     else:
@@ -373,11 +409,11 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
     width *= request.thinnest
     size = request.wall / LEAST_ACROSS
     if isinstance(voids, Drawn):
-        return min(size, cell / LEAST_FINE_LINES)
+        return min(size, voids.apart * cell / LEAST_FINE_LINES)
     if _has_bars(voids):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell / LEAST_FINE)
 
 
 def _has_bars(voids: Voids) -> bool:
-    return isinstance(voids, Repeating) and isinstance(voids.pattern, Bars)
+    return isinstance(voids, Repeating) and voids.pattern.bars

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import UsageError
-from infill.filling.solids.request import TOLERANCE, Request, checked, own_parameters
+from infill.filling.solids.request import TOLERANCE, Request, checked, own_parameters, seeded
 from infill.formats.assignments import table_of
 from infill.formats.options import Reader, parse_number, parse_numbers, parse_share, parse_whole, parse_word, parsed
 from infill.formats.toml import options_text, read_toml
@@ -97,8 +97,11 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
     if form == "project" and slicer is None:
         raise UsageError("as is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer")
     pattern = both.pop("pattern", "gyroid")
-    values = {**DEFAULTS, **both}
+    seed = both.pop("seed", None)
     own = own_parameters(pattern, assigned, table)
+    if seed is not None:
+        own = seeded(pattern, own, seed)
+    values = {**DEFAULTS, **both}
     return FillSettings(request=checked(pattern=pattern, own=own, form=form, **values), units=units, slicer=slicer)
 
 
@@ -143,6 +146,7 @@ READERS: Mapping[str, Reader] = {
     "align": parse_word,
     "angle": parse_number,
     "phase": partial(parse_numbers, counts=(2, 3)),
+    "seed": parse_whole,
     "drain": parse_number,
     "smooth_radius": parse_number,
     "overlap": parse_number,

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.space import BAND, Space
 from infill.kernels.threads import in_threads, thread_count
-from patterns.unit_cells import Bars, Cellular, Surfaces
+from patterns.unit_cells import Bars, Binned, Cellular, Network, Surfaces
 
 NODES = 48  # of the table of a period, along each axis
 FIELD = NDArray[np.float32]
@@ -48,7 +48,7 @@ class Repeating:
 
     Parameters
     ----------
-    pattern : Surfaces or Bars
+    pattern : Surfaces, Network or Bars
     turn : (3, 3) float64
         From the part to the pattern.
     anchor : (3,) float64
@@ -65,28 +65,44 @@ class Repeating:
 
     def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
         """Two beside a surface, one around bars."""
-        return 2 if isinstance(self.pattern, Surfaces) else 1
+        return 1 if self.pattern.bars else 2
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
         from infill.kernels.cells import from_bars, from_period
 
-        surface = isinstance(self.pattern, Surfaces)
-        table = _period(self.pattern) if isinstance(self.pattern, Surfaces) else _bars(self.pattern)
-        filled = in_threads(
-            from_period if surface else from_bars,
-            space.depth,
-            -BAND,
-            table,
-            self.turn,
-            self.turn @ (space.origin - self.anchor) / space.size,
-            cell / space.size,
-            1.0 if which == 0 else -1.0,
-            width / 2 / space.size,
-            *local_widths(self, space),
-            out,
-            threads=thread_count(self.threads),
-        )
+        start = self.turn @ (space.origin - self.anchor) / space.size
+        period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
+        sizes, threads = local_widths(self, space), thread_count(self.threads)
+        if isinstance(self.pattern, Bars):
+            filled = in_threads(
+                from_bars,
+                space.depth,
+                -BAND,
+                *_binned(self.pattern),
+                self.turn,
+                start,
+                period,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        else:
+            filled = in_threads(
+                from_period,
+                space.depth,
+                -BAND,
+                _period(self.pattern),
+                self.turn,
+                start,
+                period,
+                1.0 if which == 0 else -1.0,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
         return float(sum(filled))
 
     def widths(self, density: float) -> float:
@@ -103,24 +119,25 @@ def local_widths(voids: Voids, space: Space) -> tuple[NDArray[np.float32], float
 
 
 @cache
-def _period(pattern: Surfaces) -> NDArray[np.float32]:
+def _period(pattern: Surfaces | Network) -> NDArray[np.float32]:
     line = np.arange(NODES) / NODES
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
 
 
 @cache
-def _bars(pattern: Bars) -> NDArray[np.float64]:
+def _binned(pattern: Bars) -> Binned:
     return pattern.around_cell()
 
 
 @cache
 def _samples(pattern: Cellular) -> NDArray[np.floating]:
-    """Return how far points spread evenly over a cell lie from the walls or bars, in cells."""
-    if isinstance(pattern, Surfaces):
+    """Return how far points spread evenly over a period lie from the walls or bars, in cells."""
+    if not isinstance(pattern, Bars):
         return np.abs(_period(pattern)).ravel()
     from infill.kernels.cells import from_bars
 
-    deep, found = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
-    from_bars(deep, 0.0, _bars(pattern), np.eye(3), np.full(3, 0.5), float(NODES), 1.0, 0.0, *NONE, found, 0, 1)
+    nodes = NODES * pattern.cells
+    deep, found = np.full((nodes,) * 3, np.float32(np.inf)), np.empty((nodes,) * 3, dtype=np.float32)
+    from_bars(deep, 0.0, *_binned(pattern), np.eye(3), np.full(3, 0.5), float(nodes), 0.0, *NONE, found, 0, 1)
     return found.ravel() / NODES

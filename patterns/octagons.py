@@ -1,0 +1,62 @@
+"""Octagons with squares between them: the truncated tiling of squares, an octagon centred on (0, 0)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+
+if TYPE_CHECKING:
+    from shapely import MultiLineString, MultiPolygon, Polygon
+
+
+@dataclass(frozen=True, kw_only=True)
+class Octagons(Pattern):
+    """Regular octagons, `cell` wide, and squares, in a frame.
+
+    There are 6 (sqrt(2) - 1) / `cell` mm of wall per square millimetre.
+    """
+
+    name: ClassVar[str] = "octagons"
+    summary: ClassVar[str] = "octagons and squares: round cells, three walls at every corner"
+
+    cell: float = cell_parameter(7.0)
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=True)
+
+    def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
+        """Return the walls as segments from node to node, and the frame."""
+        import numpy as np
+        import shapely
+
+        from patterns.linework import clip, framed, turn
+
+        corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
+        low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
+        first, last = np.floor(low / self.cell) - 1, np.ceil(high / self.cell) + 1
+        column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
+        centres = np.stack([column, row], axis=-1).reshape(-1, 1, 1, 2) * self.cell
+        far = self.cell / 2
+        near = far * (math.sqrt(2) - 1)  # half a side
+        # Of every octagon, the side to the right, the one on top, and the four that it shares with squares.
+        own = np.array(
+            [
+                [(far, -near), (far, near)],
+                [(-near, far), (near, far)],
+                [(far, near), (near, far)],
+                [(-near, far), (-far, near)],
+                [(-far, -near), (-near, -far)],
+                [(near, -far), (far, -near)],
+            ]
+        )
+        walls = turn((centres + own).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
+        lines = clip(shapely.linestrings(walls), region)
+        return framed(lines, region) if self.frame else lines
+
+    def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
+        """Return the distance between opposite walls of an octagon, mm."""
+        return self.cell

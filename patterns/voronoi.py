@@ -1,0 +1,59 @@
+"""Voronoi cells of seeds scattered at random, the same wherever and however large the region is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from patterns.declared import parameter
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+
+if TYPE_CHECKING:
+    from shapely import MultiLineString, MultiPolygon, Polygon
+
+BEYOND, PER_ROUND = 4, 3  # cells around a region in which seeds have a say, and more for every round that evens them
+
+
+@dataclass(frozen=True, kw_only=True)
+class Voronoi(Pattern):
+    """Voronoi cells in a frame, one for every square of `cell` mm, evened out by Lloyd's method.
+
+    Source: Lloyd, "Least squares quantization in PCM", IEEE Trans. Inf. Theory 28 (1982) 129-137.
+    """
+
+    name: ClassVar[str] = "voronoi"
+    summary: ClassVar[str] = "irregular cells; no direction is weaker than another"
+
+    cell: float = cell_parameter(8.0)
+    seed: int = parameter(0, "which of all such patterns", unit="", low=0, high=2**31 - 1, whole=True)
+    even: int = parameter(2, "how often cells are evened out", unit="", low=0, high=20, whole=True)
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=True)
+
+    def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
+        """Return the borders of the cells, and the frame."""
+        import numpy as np
+        import shapely
+
+        from patterns.linework import clip, framed, turn
+        from patterns.scattering import scattered
+
+        corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / self.cell
+        beyond = BEYOND + PER_ROUND * self.even
+        low, high = np.floor(corners.min(axis=0)) - beyond, np.ceil(corners.max(axis=0)) + beyond
+        points = scattered(low.astype(np.int64), high.astype(np.int64), self.seed)
+        for _ in range(self.even):
+            cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
+            # Cells on the rim reach as far as the box; they are left out, ever further in, as nothing of them is seen.
+            points = shapely.get_coordinates(shapely.centroid(cells))
+            points = points[((points > low) & (points < high)).all(axis=1)]
+        borders = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points), only_edges=True))
+        placed = shapely.transform(borders, lambda ends: turn(ends * self.cell, self.angle) + np.array(self.phase))
+        lines = clip(placed, region)
+        return framed(lines, region) if self.frame else lines
+
+    def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
+        """Return the side of a square as large as a cell is on average, mm."""
+        return self.cell
