@@ -13,6 +13,7 @@ from infill.cli.console import can_show, print_json, say, table
 
 if TYPE_CHECKING:
     from patterns import Pattern
+    from patterns.unit_cells import Cellular
 
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
@@ -38,9 +39,9 @@ def list_patterns(
         raise typer.BadParameter("a preview shows a single pattern; name one")
     from patterns.cellular import CELLULAR
 
-    in_space = {name: each.summary for name, each in CELLULAR.items() if pattern in (None, name)}
-    if pattern is not None and in_space:
-        _show_in_space(pattern, in_space, pictured=preview is not None, as_json=as_json)
+    in_space = {name: each.summary for name, each in CELLULAR.items()}
+    if pattern in CELLULAR:
+        _show_in_space(str(pattern), CELLULAR[str(pattern)], pictured=preview is not None, as_json=as_json)
         return
     kinds = PATTERNS if pattern is None else {pattern: PATTERNS.find(pattern)}
     if preview is not None:
@@ -56,14 +57,15 @@ def list_patterns(
         typer.echo(_shown(kinds[pattern]))
 
 
-def _show_in_space(name: str, found: dict[str, str], *, pictured: bool, as_json: bool) -> None:
-    """Print what a pattern that repeats in space is for."""
+def _show_in_space(name: str, kind: Cellular, *, pictured: bool, as_json: bool) -> None:
+    """Print what a pattern that repeats in space is for, and its parameters."""
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
     if as_json:
-        print_json({"patterns": {}, "in_space": found})
+        print_json({"patterns": {}, "in_space": {name: kind.summary}})
     else:
-        typer.echo(f"{name}: {found[name]}\n  repeats in space, for 'infill fill': see its --cell and --line-width")
+        title = f"{name}: {kind.summary}\n  repeats in space, for 'infill fill': see its --cell and --line-width\n"
+        typer.echo(_parameters(type(kind), title).rstrip("\n"))
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
@@ -92,17 +94,24 @@ def _described(kind: type[Pattern]) -> dict[str, Any]:
 def _shown(kind: type[Pattern]) -> str:
     """Return a pattern in a form for the terminal: what it is, its parameters, a picture."""
     from infill.pictures.drawing import text_drawing
-    from patterns import gives, parameters
-    from patterns.declared import wanted
-    from patterns.given import default_text
-    from patterns.shared import SHARED
+    from patterns import gives
 
     heights = "the same at every height" if kind.prismatic else "changing with height"
     title = f"{kind.name}: {kind.summary}\n  {' and '.join(gives(kind))}, {heights}\n"
     drawing = text_drawing(kind(), braille=can_show(BRAILLE_BLANK))
+    return f"{_parameters(kind, title)}\n{drawing}"
+
+
+def _parameters(kind: type[Any], title: str) -> str:
+    """Return a table of a pattern's parameters, with what each may be, or the title alone."""
+    from patterns import parameters
+    from patterns.declared import wanted
+    from patterns.given import default_text
+    from patterns.shared import SHARED
+
     found = parameters(kind)
     if not found:
-        return f"{title}\n{drawing}"
+        return title
     flags = {name: name.replace("_", "-") for name in found}
     words = {name: f"--{flag}" if name in SHARED else f"--set {flag}" for name, flag in flags.items()}
     indent = " " * (max(map(len, words.values())) + 4)
@@ -110,4 +119,4 @@ def _shown(kind: type[Pattern]) -> str:
         words[name]: f"{described.help}\n{indent}{default_text(found[name])}; {wanted(field.default, described)}"
         for name, (field, described) in found.items()
     }
-    return "\n".join([table(rows, title=title), "", drawing])
+    return table(rows, title=title) + "\n"
