@@ -21,8 +21,8 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from benchmarks.fill_parts import FOLDER, LEAST, WALL
-from benchmarks.pairs import Run, process
+from benchmarks.fill_parts import FOLDER, LEAST, MEASURE, WALL, solids
+from benchmarks.pairs import Run
 from infill import Surface, check, read_mesh
 from infill.surfaces.distance import Tree
 from infill.surfaces.winding import winding
@@ -50,25 +50,21 @@ def judge(part: Surface, path: Path) -> Judged:
     own, tree = Tree.of(part), Tree.of(solid)
     skin = trimesh.sample.sample_surface(part.to_trimesh(), POINTS, seed=1)[0]
     to_solid = tree.nearest(np.concatenate([part.vertices, skin]))[0].max()
-    points = np.random.default_rng(2).uniform(*part.bounds, (20 * POINTS, 3))
-    outside = points[(winding(points, part) <= 0)]
+    points = np.random.default_rng(2).uniform(*part.bounds, (2 * POINTS, 3))
     # What sticks out of the part: points of the result that lie outside it, by how far.
     stray = solid.vertices[winding(solid.vertices, part) <= 0]
     to_part = own.nearest(stray)[0].max() if len(stray) else 0.0
     inner = points[winding(points, part) > 0]
-    deep = inner[own.nearest(inner)[0] > WALL]
-    shallow = inner[own.nearest(inner)[0] <= WALL]
-    solid_there = winding(deep, solid) > 0
-    empty = shallow[winding(shallow, solid) <= 0]
-    wall = own.nearest(empty)[0].min() if len(empty) else WALL
-    assert len(outside)
+    away = own.nearest(inner)[0]
+    filled = winding(inner, solid) > 0
+    empty = away[(away <= WALL) & ~filled]
     return Judged(
         triangles=len(solid.faces),
-        manifold="yes" if verdict.closed and verdict.manifold == "NoError" else f"no: {verdict.manifold}",
+        manifold=verdict.manifold if verdict.closed else "not closed",
         skin=float(max(to_solid, to_part)),
-        density=float(solid_there.mean()),
-        wall=float(wall),
-        loose=sum(each.volume > 0 for each in solid.to_trimesh().split(only_watertight=False)) - 1,
+        density=float(filled[away > WALL].mean()),
+        wall=float(empty.min(initial=WALL)),
+        loose=solids(solid) - solids(part),
     )
 
 
@@ -88,6 +84,15 @@ def told(name: str, run: Run, found: Judged) -> None:
     print(f"| {' | '.join(cells)} |", flush=True)
 
 
+def measured(command: list[str]) -> Run:
+    """Run a command below a small process, so that the memory is its own and not that of whoever judges."""
+    done = subprocess.run([sys.executable, "-c", MEASURE, *command], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{command} ended with {done.returncode}: {done.stderr}")
+    seconds, peak = map(float, done.stderr.split()[-2:])
+    return Run(seconds=seconds, memory=int(peak * 1024))
+
+
 def both(one: Run, other: Run) -> Run:
     """Return two runs, one after the other, as one."""
     return Run(seconds=one.seconds + other.seconds, memory=max(one.memory, other.memory))
@@ -99,24 +104,24 @@ def compared(path: Path, pattern: str, folder: Path, microgen: str | None) -> No
     ours, theirs, inside, lattice = (folder / f"{each}.stl" for each in ("ours", "theirs", "inside", "lattice"))
     words = ["fill", str(path), "--pattern", pattern, "--density", f"{DENSITY}", "--wall", f"{WALL}", "-q", "--force"]
     command = [sys.executable, "-m", "infill", *words, "-o", str(ours)]
-    process(command)  # kernels are compiled
-    told(f"{name}, infill fill", process(command), judge(part, ours))
+    measured(command)  # kernels are compiled
+    told(f"{name}, infill fill", measured(command), judge(part, ours))
     done = subprocess.run([*command, "--json"], capture_output=True, text=True, check=True)
     sizes = json.loads(done.stdout)["infill"]
     common = [str(path), str(theirs), "--cell", str(sizes["cell"]), "--wall", str(WALL), "--density", str(DENSITY)]
     made = ["--lattice", pattern, *(["--diameter", str(sizes["line_width"])] if pattern == "octet" else [])]
-    told(f"{name}, trimesh and manifold3d", process([*PEER, *common, *made]), judge(part, theirs))
+    told(f"{name}, trimesh and manifold3d", measured([*PEER, *common, *made]), judge(part, theirs))
     if microgen and pattern == "gyroid":
-        hollow = process([*PEER, *common, "--inside", str(inside)])
+        hollow = measured([*PEER, *common, "--inside", str(inside)])
         script = str(Path(__file__).parent / "peers" / "fill_microgen.py")
         run = both(
             hollow,
-            process([microgen, script, str(inside), str(lattice), str(sizes["cell"]), str(DENSITY), "20"]),
+            measured([microgen, script, str(inside), str(lattice), str(sizes["cell"]), str(DENSITY), "20"]),
         )
         try:
-            run = both(run, process([*PEER, *common, "--lattice", str(lattice)]))
+            run = both(run, measured([*PEER, *common, "--lattice", str(lattice)]))
         except RuntimeError as error:
-            said = str(error).strip().splitlines()[-1]
+            said = str(error).strip().splitlines()[-2]
             print(f"| {name}, microgen | {run.seconds:.1f} | {run.memory / 2**30:.2f} | no union: {said} |")
         else:
             told(f"{name}, microgen", run, judge(part, theirs))
@@ -129,7 +134,7 @@ def compared(path: Path, pattern: str, folder: Path, microgen: str | None) -> No
             "--output",
             str(folder / "x.sl1"),
         ]
-        run = process([prusa, *sla, str(path)])
+        run = measured([prusa, *sla, str(path)])
         print(f"| {name}, PrusaSlicer, hollowed layers | {run.seconds:.1f} | {run.memory / 2**30:.2f} | no mesh |")
 
 

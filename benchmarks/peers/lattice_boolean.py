@@ -89,9 +89,11 @@ def main() -> None:
         lattice = octet(inside.bounds, given.cell, given.diameter)
     else:
         lattice = trimesh.load_mesh(given.lattice)
-    shell = trimesh.boolean.difference([part, inside], engine="manifold")
-    within = trimesh.boolean.intersection([lattice, part], engine="manifold")
-    trimesh.boolean.union([shell, within], engine="manifold").export(given.output)
+        if lattice.volume < 0:
+            lattice.invert()
+    shell = trimesh.boolean.difference([part, inside], engine="manifold", check_volume=False)
+    within = trimesh.boolean.intersection([lattice, part], engine="manifold", check_volume=False)
+    trimesh.boolean.union([shell, within], engine="manifold", check_volume=False).export(given.output)
 
 
 if __name__ == "__main__":
