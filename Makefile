@@ -28,10 +28,11 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make smooth-report  what smooth does with real files, beside its peers, and docs/smooth-report.md
 ## make paper     the paper's figures and tables, and docs/paper.md
 ## make pictures  the pictures of README and docs
+## make gallery   the patterns that fill parts, and docs/gallery.md
 ## make clean     removes what these made
 
 .DELETE_ON_ERROR:
-.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures help clean
+.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures gallery help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -128,6 +129,10 @@ paper: .venv/test
 # The pictures of README and docs, made by the program itself.
 pictures: .venv/test
 	@$(BIN)/python docs/pictures.py
+
+# The patterns that fill parts, with their stiffness.
+gallery: .venv/test
+	@$(BIN)/python docs/gallery.py
 
 help:
 	@sed -n 's/^## //p' Makefile

@@ -1,0 +1,121 @@
+"""Make the gallery of patterns that fill parts, docs/gallery.md and its pictures: ``make gallery``, some minutes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import trimesh
+from PIL import Image
+
+from infill import Surface, fill
+from infill.inspection.stiffness import Stiffness, stiffness
+from infill.pictures.render import render
+from patterns import PATTERNS, parameters
+from patterns.cellular import CELLULAR
+from patterns.unit_cells import Bars, Cellular, Surfaces
+
+FOLDER = Path(__file__).parent / "pictures" / "gallery"
+PAGE = Path(__file__).parent / "gallery.md"
+SIDE, WALL, DENSITY = 30.0, 1.2, 0.2  # of the cube, mm
+FINE = 32  # voxels along a cell, for its stiffness
+AMONG = (0.38, 0.46, 0.57)  # of a voxel: where it is sampled; symmetry would have many points as far away
+STEEP = np.cos(np.radians(45))  # what hangs over by more than this needs support
+INTRODUCTION = """# Gallery
+
+Every pattern that [fill](fill.md) knows, in a cube of {side:g} mm at {density:.0%}, cut open; made by `make gallery`.
+Drawings and patterns of your own join them.
+
+* *Cell* and *line* are what gives the density of {density:.0%}, in mm: walls are 0.45 mm wide unless asked otherwise,
+  and bars come from a cell of 8 mm. Another density has another cell: with walls, twice the density is about half the
+  cell. A network's line is its thickest place.
+* *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
+  the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
+  Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet comes
+  within 16 % of what theory has for slender bars (Deshpande, Fleck & Ashby, 2001).
+* *Overhang* is the share of the surfaces of the voids that hang over by more than 45°: what a printer without support
+  bridges.
+* *Voids* is how many there are in this cube. Each needs a drain of its own in resin and powder.
+
+| pattern | cell | line | stiffness x | z | weakest | stiffest | overhang | voids |
+|---|---|---|---|---|---|---|---|---|
+"""
+
+
+def cell_of(pattern: Cellular) -> np.ndarray:
+    """Return the voxels of a period at the density of the gallery."""
+    count = FINE * pattern.cells if pattern.cells == 1 else 24 * pattern.cells
+    line = (np.arange(count) + np.reshape(AMONG, (3, 1))) / count
+    points = np.stack(np.meshgrid(*line, indexing="ij"), axis=-1).reshape(-1, 3)
+    if isinstance(pattern, Bars):
+        away = distance_to_bars(pattern, points * pattern.cells)
+    else:
+        away = pattern.distance(points)
+        away = np.abs(away) if isinstance(pattern, Surfaces) else away
+    return (away <= np.quantile(away, DENSITY)).reshape(count, count, count)
+
+
+def distance_to_bars(pattern: Bars, points: np.ndarray) -> np.ndarray:
+    """Return distances (N,) in cells to the bars of a period, and to those around it."""
+    nearest = np.full(len(points), np.inf)
+    shifts = np.stack(np.meshgrid(*[(-1, 0, 1)] * 3), axis=-1).reshape(-1, 3) * pattern.cells
+    edges = (pattern.axes() * pattern.cells)[None] + shifts[:, None, None]
+    for start, end in edges.reshape(-1, 2, 3):
+        low, high = np.minimum(start, end) - 0.5, np.maximum(start, end) + 0.5
+        near = ((points >= low) & (points <= high)).all(axis=1)
+        along, there = end - start, points[near] - start
+        share = np.clip(there @ along / (along @ along), 0, 1)
+        nearest[near] = np.minimum(nearest[near], np.linalg.norm(there - share[:, None] * along, axis=1))
+    return nearest
+
+
+def modulus(found: Stiffness | None) -> list[str]:
+    """Return the columns of the stiffness; upright walls are as stiff along z as there is of them."""
+    if found is None:
+        return ["", f"{DENSITY:.0%}", "", ""]
+    along = found.modulus([(1, 0, 0), (0, 0, 1)])
+    return [f"{each:.1%}" for each in (*along, *found.extremes())]
+
+
+def overhang(voids: Surface) -> float:
+    """Return the share of the surface of voids under which nothing is, and which looks down too steeply."""
+    mesh = voids.to_trimesh()  # faces look out of the voids: a ceiling looks up
+    return float(mesh.area_faces[mesh.face_normals[:, 2] > STEEP].sum() / mesh.area)
+
+
+def shown(name: str, solid: Surface) -> None:
+    """Write a picture of the cube, a corner of it cut away."""
+    corner = trimesh.creation.box((SIDE, SIDE, SIDE)).apply_translation((SIDE / 2, -SIDE / 2, SIDE / 2))
+    cut = trimesh.boolean.difference([solid.to_trimesh(), corner], engine="manifold")
+    picture = Image.fromarray(render(Surface(vertices=cut.vertices, faces=cut.faces), width=320, height=300))
+    picture.quantize(32).save(FOLDER / f"{name}.png", optimize=True)
+
+
+def main() -> None:
+    """Fill a cube with every pattern, and write the page."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    cube = trimesh.creation.box((SIDE, SIDE, SIDE))
+    kinds: dict[str, Any] = {**CELLULAR, **{name: kind for name, kind in PATTERNS.built_in.items() if kind.prismatic}}
+    rows, sections = [], []
+    for name, kind in kinds.items():
+        result = fill(cube, name, density=DENSITY, wall=WALL)
+        shown(name, result.surface)
+        sizes, voids = result.report["infill"], result.report["voids"]["count"]
+        found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
+        columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found)]
+        columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
+        rows.append(f"| {' | '.join(columns)} |")
+        own = [each for each in parameters(type(kind) if isinstance(kind, Cellular) else kind) if each not in GIVEN]
+        options = f" Its own parameters: {', '.join(f'`--set {each}`' for each in own)}." if own else ""
+        picture = f"![{name}](pictures/gallery/{name}.png)"
+        sections.append(f"## {name}\n\n{kind.summary[0].upper()}{kind.summary[1:]}.{options}\n\n{picture}\n")
+        print(rows[-1], flush=True)
+    head = INTRODUCTION.format(side=SIDE, density=DENSITY, fine=FINE)
+    PAGE.write_text(head + "\n".join(rows) + "\n\n" + "\n".join(sections), encoding="utf-8")
+
+
+GIVEN = ("cell", "angle", "phase", "frame")  # options of the command, or of no use in a part
+
+if __name__ == "__main__":
+    main()
