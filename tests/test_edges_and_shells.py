@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from infill import check
 from infill.surface import Edges, Surface
 from infill.surfaces.capping import open_edges
-from infill.surfaces.shells import vertex_components
+from infill.surfaces.shells import in_batches, shell_volumes, vertex_components, with_faces
 
 faces_of = st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=20).map(
     lambda faces: np.array(faces, dtype=np.int32)
@@ -143,3 +143,36 @@ def test_distances_from_triangles_are_those_of_trimesh(rng: np.random.Generator)
     for n in range(20):
         a, b = corners[n, :2]
         assert found[n] == pytest.approx(np.linalg.norm(a + along * (b - a) - points[n], axis=1).min(), abs=1e-4)
+
+
+def several() -> Surface:
+    """Return three balls, the last of them inside out, far from the origin."""
+    balls = [trimesh.creation.icosphere(2, radius).apply_translation((1e3 + 9 * radius, 0, 5)) for radius in (1, 2, 3)]
+    balls[2].invert()
+    whole = trimesh.util.concatenate(balls)
+    return Surface(vertices=whole.vertices, faces=whole.faces)
+
+
+def test_the_volume_of_every_shell_is_that_of_its_mesh() -> None:
+    surface = several()
+    names, count = vertex_components(surface.faces, len(surface.vertices))
+    each = surface.to_trimesh().split(only_watertight=False)
+    np.testing.assert_allclose(shell_volumes(surface, names, count), [ball.volume for ball in each], rtol=1e-9)
+
+
+def test_batches_hold_every_face_once_and_whole_shells() -> None:
+    surface = several()
+    batches = in_batches(surface, len(surface.faces) // 3 + 1)
+    assert len(batches) > 1
+    assert all(batch.closed for batch in batches)
+    corners = np.concatenate([batch.vertices[batch.faces] for batch in batches])
+    np.testing.assert_array_equal(corners, surface.vertices[surface.faces])
+    assert in_batches(surface, len(surface.faces)) == [surface]
+
+
+def test_some_faces_keep_their_corners_and_only_these() -> None:
+    surface = several()
+    kept = np.arange(len(surface.faces)) % 3 == 0
+    some = with_faces(surface, kept)
+    np.testing.assert_array_equal(some.vertices[some.faces], surface.vertices[surface.faces[kept]])
+    assert len(np.unique(some.faces)) == len(some.vertices)

@@ -96,3 +96,14 @@ def sum_up(vertices, faces, middle, sums, thread, threads):
             area += np.sqrt(nx * nx + ny * ny + nz * nz)
         sums[block, 0] = volume
         sums[block, 1] = area
+
+
+@njit(nogil=True, cache=True)
+def sum_shells(vertices, faces, names, middle, sums):
+    """Add six times the volume between each face and the middle to the sum of its shell, (n,)."""
+    for f in range(len(faces)):
+        i, j, k = faces[f]
+        ax, ay, az = vertices[i, 0] - middle[0], vertices[i, 1] - middle[1], vertices[i, 2] - middle[2]
+        bx, by, bz = vertices[j, 0] - middle[0], vertices[j, 1] - middle[1], vertices[j, 2] - middle[2]
+        cx, cy, cz = vertices[k, 0] - middle[0], vertices[k, 1] - middle[1], vertices[k, 2] - middle[2]
+        sums[names[i]] += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)

@@ -22,6 +22,13 @@ def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
     threads : int, optional
         See `infill.kernels.threads.thread_count`.
     """
+    volume, area = volume_and_area(surface, threads=threads)
+    closed = surface.closed if surface.knows_closed else _is_closed(surface, thread_count(threads))
+    return surface.knowing(closed=closed, volume=volume, area=area)
+
+
+def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[float, float]:
+    """Return what a surface encloses, mm³, and its area, mm²."""
     from infill.kernels.measures import BLOCK, sum_up
 
     vertices, faces = np.ascontiguousarray(surface.vertices, dtype=np.float64), surface.faces
@@ -29,11 +36,7 @@ def with_measures(surface: Surface, *, threads: int | None = None) -> Surface:
     sums = np.empty((-(-len(faces) // BLOCK), 2))
     in_threads(sum_up, vertices, faces, middle, sums, threads=thread_count(threads))
     sixfold, doubled = sums.sum(axis=0).tolist()
-    return surface.knowing(
-        closed=surface.closed if surface.knows_closed else _is_closed(surface, thread_count(threads)),
-        volume=sixfold / 6,
-        area=doubled / 2,
-    )
+    return sixfold / 6, doubled / 2
 
 
 def _is_closed(surface: Surface, threads: int) -> bool:

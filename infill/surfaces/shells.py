@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -45,6 +47,43 @@ def first_of_shells(surface: Surface) -> NDArray[np.int64]:
     names, _ = vertex_components(surface.faces, len(surface.vertices), compiled=True)
     found, first = np.unique(names, return_index=True)
     return first[found >= 0]
+
+
+def shell_volumes(surface: Surface, names: Names, count: int) -> NDArray[np.float64]:
+    """Return the volume of every component, (N,), mm³; negative where faces point inwards.
+
+    Parameters
+    ----------
+    names : (V,) int32
+        The component of every vertex.
+    count : int
+    """
+    from infill.kernels.measures import sum_shells
+
+    sums = np.zeros(count)
+    if count:
+        middle = np.asarray(surface.vertices[len(surface.vertices) // 2], dtype=np.float64)
+        sum_shells(surface.vertices, surface.faces, names, middle, sums)
+    return sums / 6
+
+
+def with_faces(surface: Surface, kept: NDArray[np.bool_]) -> Surface:
+    """Return some of the faces, with the vertices that they use, both in their order."""
+    faces = surface.faces[kept]
+    used = np.zeros(len(surface.vertices), dtype=bool)
+    used[faces.ravel()] = True
+    number = np.cumsum(used, dtype=faces.dtype) - 1
+    return replace(surface, vertices=surface.vertices[used], faces=number.astype(faces.dtype, copy=False)[faces])
+
+
+def in_batches(surface: Surface, most: int) -> list[Surface]:
+    """Return a surface as several, none with more faces than a number unless a single component has; all in order."""
+    if len(surface.faces) <= most:
+        return [surface]
+    names, count = vertex_components(surface.faces, len(surface.vertices), compiled=True)
+    shell = names[surface.faces[:, 0]]
+    batch = np.cumsum(np.bincount(shell, minlength=count)) // most
+    return [with_faces(surface, batch[shell] == each) for each in np.unique(batch)]
 
 
 def _by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:

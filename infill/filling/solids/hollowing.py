@@ -25,8 +25,9 @@ from infill.phasefield.sparse import smooth_bricks
 from infill.result import Clock
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
+from infill.surfaces.measuring import volume_and_area
 from infill.surfaces.parting import joined
-from infill.surfaces.shells import first_of_shells
+from infill.surfaces.shells import first_of_shells, in_batches, shell_volumes, with_faces
 from infill.surfaces.simplification import simplified
 from infill.surfaces.solids import shortened, volume_within
 from infill.surfaces.sparse_marching import extract_bricks
@@ -39,6 +40,7 @@ MOST_LARGER = 3.0  # than cells and walls were before, where there were too many
 FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of its cells, ask for
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
+AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: so much less memory
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
@@ -95,7 +97,7 @@ class Hollow:
     def volume(self) -> float:
         """Of all voids inside the walls, mm³."""
         if self.walls is None:
-            return sum(surface.volume for surface in self.surfaces)
+            return sum(volume_and_area(surface)[0] for surface in self.surfaces)
         return sum(volume_within(surface, self.walls) for surface in self.surfaces)
 
     @property
@@ -181,7 +183,9 @@ def _shortened(found: Hollow, tolerance: float) -> Hollow:
     """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
     if tolerance == 0:
         return found
-    few = (shortened(each, SHARE * tolerance) for each in found.surfaces)
+    few = (
+        joined([shortened(batch, SHARE * tolerance) for batch in in_batches(each, AT_ONCE)]) for each in found.surfaces
+    )
     kept = (_useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
     return replace(found, surfaces=[each for each in kept if each is not None], tolerance=tolerance)
 
@@ -246,19 +250,29 @@ def _corrected(
     found = _surfaces(space, voids, request, sizes, threads)
     if voids.grading is not None:
         return _graded(found, voids, voids.grading, request, threads)
-    density = request.density or LEAST
     for vary in varied:
-        tried = {1.0: found}
+        start = (found.cell, found.width)
 
-        def off(times: float, tried: dict[float, Hollow] = tried, vary: Size = vary) -> float:
-            if times not in tried:
-                start = tried[1.0]
-                tried[times] = _surfaces(
-                    space, voids, request, _scaled((start.cell, start.width), times, vary), threads
-                )
-            return math.log(max(tried[times].density, LEAST) / density)
+        def made(times: float, start: tuple[float, float] = start, vary: Size = vary) -> Hollow:
+            return _surfaces(space, voids, request, _scaled(start, times, vary), threads)
 
-        found = tried[root(off, CLOSE / density, ROUNDS)]
+        found = _nearest(found, made, request.density or LEAST)
+    return found
+
+
+def _nearest(found: Hollow, made: Callable[[float], Hollow], density: float) -> Hollow:
+    """Return what comes nearest to a density, of what was found and what is made; two at most are kept meanwhile."""
+
+    def off(hollow: Hollow) -> float:
+        return math.log(max(hollow.density, LEAST) / density)
+
+    def tried(times: float) -> float:
+        nonlocal found
+        now = found if times == 1 else made(times)
+        found = min(found, now, key=lambda each: abs(off(each)))
+        return off(now)
+
+    root(tried, CLOSE / density, ROUNDS)
     return found
 
 
@@ -342,28 +356,15 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
 def _useful(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
     """Return the voids larger than a volume, mm³, filled where solid hangs free, and how many were neither."""
     names, count = shell_names(surface)
-    corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
-    shell = names[surface.faces[:, 0]]
-    six = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
-    volume = np.bincount(shell, weights=six, minlength=count) / 6
+    volume = shell_volumes(surface, names, count)
     islands, specks = volume < 0, (volume >= 0) & (volume < least)
     if not (islands.any() or specks.any()):
         return surface, 0, 0, []
-    loose = [_part(surface, shell == each, turned=True) for each in np.flatnonzero(islands)]
-    kept = volume >= least
-    return (
-        _part(surface, kept[shell]) if kept.any() else None,
-        int(islands.sum()),
-        int(specks.sum()),
-        loose,
-    )
-
-
-def _part(surface: Surface, faces: NDArray[np.bool_], *, turned: bool = False) -> Surface:
-    chosen = surface.faces[faces]
-    used, own = np.unique(chosen, return_inverse=True)
-    own = own.reshape(-1, 3)
-    return replace(surface, vertices=surface.vertices[used], faces=own[:, ::-1] if turned else own)
+    shell, kept = names[surface.faces[:, 0]], volume >= least
+    pieces = [with_faces(surface, shell == each) for each in np.flatnonzero(islands)]
+    loose = [replace(piece, faces=piece.faces[:, ::-1]) for piece in pieces]
+    useful = with_faces(surface, kept[shell]) if kept.any() else None
+    return useful, int(islands.sum()), int(specks.sum()), loose
 
 
 def _outside(surface: Surface, lost: list[Surface], threads: int | None) -> Surface | None:
@@ -375,7 +376,7 @@ def _outside(surface: Surface, lost: list[Surface], threads: int | None) -> Surf
             kept = ~within[names[surface.faces[:, 0]]]
             if not kept.any():
                 return None
-            surface = _part(surface, kept)
+            surface = with_faces(surface, kept)
     return surface
 
 
