@@ -66,6 +66,17 @@ def octet(bounds: np.ndarray, cell: float, diameter: float) -> trimesh.Trimesh:
     return trimesh.Trimesh(found.vert_properties[:, :3], found.tri_verts)
 
 
+def mended(mesh: trimesh.Trimesh) -> trimesh.Trimesh:
+    """Return a lattice closed where a few edges gape, facing outwards; manifold3d makes nothing of an open one."""
+    mesh.process(validate=True)
+    trimesh.repair.fill_holes(mesh)
+    if not mesh.is_watertight:
+        raise ValueError("the lattice is not closed, and filling its holes did not close it")
+    if mesh.volume < 0:
+        mesh.invert()
+    return mesh
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("part", type=Path)
@@ -88,9 +99,7 @@ def main() -> None:
     elif given.lattice == "octet":
         lattice = octet(inside.bounds, given.cell, given.diameter)
     else:
-        lattice = trimesh.load_mesh(given.lattice)
-        if lattice.volume < 0:
-            lattice.invert()
+        lattice = mended(trimesh.load_mesh(given.lattice))
     shell = trimesh.boolean.difference([part, inside], engine="manifold", check_volume=False)
     within = trimesh.boolean.intersection([lattice, part], engine="manifold", check_volume=False)
     trimesh.boolean.union([shell, within], engine="manifold", check_volume=False).export(given.output)
