@@ -14,7 +14,7 @@ from infill.inspection.stiffness import Stiffness, stiffness
 from infill.pictures.render import render
 from patterns import PATTERNS, parameters
 from patterns.cellular import CELLULAR
-from patterns.unit_cells import Bars, Cellular, Surfaces
+from patterns.unit_cells import Bars, Cellular, Planes, Surfaces
 
 FOLDER = Path(__file__).parent / "pictures" / "gallery"
 PAGE = Path(__file__).parent / "gallery.md"
@@ -70,11 +70,12 @@ def distance_to_bars(pattern: Bars, points: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def modulus(found: Stiffness | None) -> list[str]:
+def modulus(found: Stiffness | None, kind: object) -> list[str]:
     """Return the columns of the stiffness; upright walls are as stiff along z as there is of them."""
     if found is None:
         return ["", f"{DENSITY:.0%}", "", ""]
-    along = found.modulus([(1, 0, 0), (0, 0, 1)])
+    upright = np.array(kind.upright) if isinstance(kind, Planes) else np.eye(3)
+    along = found.modulus(upright[:, [0, 2]].T)
     return [f"{each:.1%}" for each in (*along, *found.extremes())]
 
 
@@ -103,7 +104,7 @@ def main() -> None:
         shown(name, result.surface)
         sizes, voids = result.report["infill"], result.report["voids"]["count"]
         found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
-        columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found)]
+        columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found, kind)]
         columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
         rows.append(f"| {' | '.join(columns)} |")
         own = [each for each in parameters(type(kind) if isinstance(kind, Cellular) else kind) if each not in GIVEN]

@@ -1,4 +1,4 @@
-"""Patterns that repeat in space: walls along a minimal surface, one side of it, or round bars along edges.
+"""Patterns that repeat in space: walls along a minimal surface or planes, one side of it, or bars along edges.
 
 Both are given for one unit cell, of side 1, that repeats along x, y and z; whoever fills a part scales and turns it.
 """
@@ -204,7 +204,9 @@ class Bars:
         import numpy as np
 
         shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)), dtype=np.float64)
-        every = (self.axes()[None] + shifts[:, None, None]).reshape(-1, 2, 3)
+        axes = self.axes()
+        axes = axes - np.floor(axes.mean(axis=1, keepdims=True))  # to where their middles lie in the unit cell
+        every = (axes[None] + shifts[:, None, None]).reshape(-1, 2, 3)
         reach = min(REACH, FURTHEST / self.cells)
         near = ((every.max(axis=1) > -reach) & (every.min(axis=1) < 1 + reach)).all(axis=1)
         every = every[near]
@@ -230,4 +232,74 @@ def _squared(points: Floats, edge: Floats) -> Floats:
     return found
 
 
-Cellular = Surfaces | Network | Bars
+@dataclass(frozen=True, kw_only=True)
+class Planes:
+    """Walls along families of parallel planes that cross, and leave closed cells with flat faces.
+
+    Parameters
+    ----------
+    name, summary : str
+    normals : tuple of (x, y, z)
+        The planes of a family are those where normal . point + offset is a whole number; points are in cells.
+    offsets : tuple of float
+        0 for all of them unless given.
+    upright : three rows of (x, y, z)
+        How the pattern stands in a part: a rotation from the part to the pattern.
+    """
+
+    bars: ClassVar[bool] = False
+    cells: ClassVar[int] = 1
+
+    name: str
+    summary: str
+    normals: tuple[tuple[float, float, float], ...]
+    offsets: tuple[float, ...] = ()
+    upright: tuple[tuple[float, float, float], ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+    @property
+    def classes(self) -> int:
+        """How many classes of cells there are: cells of one class do not touch, not even at a corner."""
+        return 1 << len(self.normals)
+
+    def families(self) -> tuple[Floats, Floats]:
+        """Return the normals (F, 3) and the offsets (F,)."""
+        import numpy as np
+
+        offsets = self.offsets or (0.0,) * len(self.normals)
+        return np.array(self.normals, dtype=np.float64), np.array(offsets, dtype=np.float64)
+
+    def distance(self, points: Floats) -> Floats:
+        """Return how far points (N, 3), in cells, lie from the nearest plane: (N,), in cells.
+
+        >>> from patterns.planes import CUBIC
+        >>> import numpy as np
+        >>> CUBIC.distance(np.array([[0.5, 0.5, 0.5], [0.5, 0.1, 0.5]])).tolist()
+        [0.5, 0.1]
+        """
+        found: Floats = abs(self._beside(points)[0]).min(axis=1)
+        return found
+
+    def depth(self, points: Floats, which: int) -> Floats:
+        """Return how deep points (N, 3), in cells, lie in the cells of a class: (N,) in cells, below 0 outside.
+
+        Bit f of the number of a class says on which side of the planes of family f its cells lie, in turn. Outside,
+        a point may be further away than this.
+        """
+        import numpy as np
+
+        away, slab = self._beside(points)
+        bits = which >> np.arange(len(self.normals)) & 1
+        found: Floats = np.where(slab % 2 == bits, away, -away).min(axis=1)
+        return found
+
+    def _beside(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
+        """Return how far points (N, 3) lie from the nearest plane of each family, and between which: (N, F) each."""
+        import numpy as np
+
+        normals, offsets = self.families()
+        at = np.asarray(points, dtype=np.float64) @ normals.T + offsets
+        away: Floats = np.abs(at - np.round(at)) / np.linalg.norm(normals, axis=1)
+        return away, np.floor(at).astype(np.int64)
+
+
+Cellular = Surfaces | Planes | Network | Bars

@@ -1,4 +1,4 @@
-"""Distances to a pattern at the centres of cells: from a table of one period, to bars, and to segments in a plane."""
+"""Distances to a pattern at the centres of cells: from a table of one period, planes, bars, segments in a plane."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
@@ -137,6 +137,47 @@ def from_bars(depth, least, edges, first, which, turn, start, period, half, rati
                     vx, vy, vz = vx - along * ux, vy - along * uy, vz - along * uz
                     nearest = min(nearest, vx * vx + vy * vy + vz * vz)
                 value = min(math.sqrt(nearest) * period - half * local(ratio, step, i, j, k), deep)
+                out[i, j, k] = value
+                filled += min(1.0, max(0.0, 0.5 + value))
+    return filled
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def from_planes(depth, least, slopes, start, apart, bits, half, ratio, step, out, thread, threads):
+    """Fill `out` with the lesser of the depth and the distance into every other slab between planes, in cells.
+
+    Parameters
+    ----------
+    slopes : (F, 3) float64
+        How many planes of a family are met in a step of a cell along x, y and z.
+    start : (F,) float64
+        How many lie before cell (0, 0, 0).
+    apart : (F,) float64
+        How far apart the planes of a family are, in cells.
+    bits : int
+        Bit f says which slabs of family f count: 0 those between planes 0 and 1, 2 and 3, and so on.
+    depth, least, half, ratio, step, out, thread, threads
+        As in `from_period`.
+    """
+    nx, ny, nz = depth.shape
+    filled = 0.0
+    for i in range(thread, nx, threads):
+        for j in range(ny):
+            for k in range(nz):
+                deep = depth[i, j, k]
+                if deep <= least:
+                    out[i, j, k] = deep
+                    continue
+                nearest = np.inf
+                for f in range(len(apart)):
+                    at = start[f] + slopes[f, 0] * i + slopes[f, 1] * j + slopes[f, 2] * k
+                    slab = math.floor(at)
+                    away = at - slab
+                    away = min(away, 1.0 - away) * apart[f]
+                    if (int(slab) ^ (bits >> f)) & 1:
+                        away = -away
+                    nearest = min(nearest, away)
+                value = min(nearest - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

@@ -12,7 +12,7 @@ from infill.formats.modules import MARK, object_in
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR, no_such
 from patterns.protocol import Pattern, gives
-from patterns.unit_cells import Bars, Cellular, Network, Surfaces
+from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
 
 if TYPE_CHECKING:
     from infill.filling.solids.tiled import Tiled
@@ -28,7 +28,7 @@ def kind_of(pattern: object) -> tuple[Kind, str]:
 
     Parameters
     ----------
-    pattern : str, Path, Pattern, Surfaces, Network, Bars or callable
+    pattern : str, Path, Pattern, Surfaces, Planes, Network, Bars or callable
         A name; a drawing; "module.py:name"; what such a name stands for: a pattern, or a class of patterns; or a
         function of x, y and z, of one shape, in radians (2 pi is a cell), whose zeros are walls.
 
@@ -62,7 +62,7 @@ def _drawing(name: str) -> Tiled:
 
 
 def _made(found: Any, name: str) -> tuple[Kind, str]:  # noqa: ANN401 - whatever a user gives
-    if isinstance(found, (Surfaces, Network, Bars)) or gives(found):
+    if isinstance(found, (Surfaces, Planes, Network, Bars)) or gives(found):
         return found, name
     if callable(found) and not isinstance(found, type):
         return _level_set(found, name), name

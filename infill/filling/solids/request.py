@@ -22,7 +22,7 @@ from patterns.cellular import CELLULAR
 from patterns.declared import parameters
 from patterns.given import nearest
 from patterns.protocol import Pattern
-from patterns.unit_cells import Bars, Cellular, Network, Surfaces
+from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed"]
@@ -63,7 +63,7 @@ class Request:
     ----------
     pattern : str
         Its name.
-    kind : Surfaces, Network, Bars, Pattern or class of patterns
+    kind : Surfaces, Planes, Network, Bars, Pattern or class of patterns
         What the name stands for.
     parameters : mapping
         The pattern's own, by name.
@@ -273,8 +273,10 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     anchor = middle + request.phase
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
-    if isinstance(request.kind, (Surfaces, Network, Bars)):
+    if isinstance(request.kind, (Surfaces, Planes, Network, Bars)):
         pattern = cellular_of(request.kind, request)
+        if isinstance(pattern, Planes):
+            turn = np.array(pattern.upright) @ turn
         return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=request.grading)
     return Drawn(pattern=pattern_of(request.kind, request), anchor=anchor, threads=threads, grading=request.grading)
 

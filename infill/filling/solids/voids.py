@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.space import BAND, Space
 from infill.kernels.threads import in_threads, thread_count
-from patterns.unit_cells import Bars, Binned, Cellular, Network, Surfaces
+from patterns.unit_cells import Bars, Binned, Cellular, Network, Planes, Surfaces
 
 NODES = 48  # of the table of a period, along each axis
 FIELD = NDArray[np.float32]
@@ -48,7 +48,7 @@ class Repeating:
 
     Parameters
     ----------
-    pattern : Surfaces, Network or Bars
+    pattern : Surfaces, Planes, Network or Bars
     turn : (3, 3) float64
         From the part to the pattern.
     anchor : (3,) float64
@@ -64,12 +64,14 @@ class Repeating:
     grading: Grading | None = None
 
     def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
-        """Two beside a surface, one around bars."""
+        """Two beside a surface, one for each class of cells between planes, one around bars."""
+        if isinstance(self.pattern, Planes):
+            return self.pattern.classes
         return 1 if self.pattern.bars else 2
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
-        from infill.kernels.cells import from_bars, from_period
+        from infill.kernels.cells import from_bars, from_period, from_planes
 
         start = self.turn @ (space.origin - self.anchor) / space.size
         period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
@@ -83,6 +85,21 @@ class Repeating:
                 self.turn,
                 start,
                 period,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        elif isinstance(self.pattern, Planes):
+            normals, offsets = self.pattern.families()
+            filled = in_threads(
+                from_planes,
+                space.depth,
+                -BAND,
+                normals @ self.turn / period,
+                normals @ start / period + offsets,
+                period / np.linalg.norm(normals, axis=1),
+                which,
                 half,
                 *sizes,
                 out,
@@ -133,6 +150,9 @@ def _binned(pattern: Bars) -> Binned:
 @cache
 def _samples(pattern: Cellular) -> NDArray[np.floating]:
     """Return how far points spread evenly over a period lie from the walls or bars, in cells."""
+    if isinstance(pattern, Planes):
+        line = (np.arange(NODES) + 0.5) / NODES
+        return pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
     if not isinstance(pattern, Bars):
         return np.abs(_period(pattern)).ravel()
     from infill.kernels.cells import from_bars

@@ -1,0 +1,129 @@
+"""Laws that hold for every pattern that fills parts: period, turns, mirrors, units, and what makes it denser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+from made_shapes import box, union
+
+from infill import Surface, fill
+from infill.surfaces.distance import Tree
+from patterns import PATTERNS, Pattern
+from patterns.cellular import CELLULAR
+from patterns.declared import parameter
+from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
+
+pytestmark = pytest.mark.usefixtures("compiled")
+
+EVERY = [*CELLULAR, *(name for name, kind in PATTERNS.items() if kind.prismatic)]
+# Without symmetry, and a whole number of cells of the grid along each side.
+PART = union(box(20, 12, 10), box(6, 6, 10, (5, 0, 4)), box(3, 4, 10, (-7, 3, 2)))
+EXACT: dict[str, Any] = {"voxel": 0.5, "wall": 1.0, "tolerance": 0}
+QUARTER = trimesh.transformations.rotation_matrix(np.pi / 2, (0, 0, 1))
+FLIP = np.diag([-1.0, 1.0, 1.0])
+
+
+@cache
+def far(name: str) -> dict[str, float]:
+    """A cell and a line width that leave 0.3 far from any skin, and voids many cells of the grid wide."""
+    kind = CELLULAR.get(name)
+    given = {"cell": 7.0} if isinstance(kind, Bars) else {"cell": 11.0} if isinstance(kind, Network) else {}
+    sizes = fill(box(20, 20, 20), name, density=0.3, **(given or {"line_width": 0.8}), **EXACT).report["infill"]
+    return {"cell": sizes["cell"], "line_width": sizes["line_width"]}
+
+
+def farthest(one: Surface, other: Surface) -> float:
+    """How far apart two surfaces are, either way, by their vertices, mm."""
+    there = Tree.of(one).nearest(np.asarray(other.vertices, np.float64))[0].max()
+    return float(max(there, Tree.of(other).nearest(np.asarray(one.vertices, np.float64))[0].max()))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_wider_walls_and_smaller_cells_are_denser(name: str) -> None:
+    sizes = far(name)
+    cell, width = sizes["cell"], sizes["line_width"]
+
+    def density(cell: float, line_width: float) -> float:
+        return float(fill(PART, name, cell=cell, line_width=line_width, **EXACT).report["density"])
+
+    middle = density(cell, width)
+    assert density(cell, width / 1.2) < middle < density(cell, 1.2 * width)
+    assert density(2 * cell, width) < middle
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_turning_the_part_and_the_pattern_turns_the_result(name: str) -> None:
+    sizes = far(name)
+    one = fill(PART, name, **sizes, **EXACT).stages.voids
+    given = {"angle": 90, **sizes, **EXACT}
+    other = fill(PART.copy().apply_transform(QUARTER), name, **given).stages.voids
+    assert other.volume == pytest.approx(one.volume, rel=1e-3)
+    assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ QUARTER[:3, :3])) < 0.1
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -> None:
+    sizes = far(name)
+    kind: Any = CELLULAR[name] if name in CELLULAR else PATTERNS[name]
+    image = in_space(kind) if name in CELLULAR else InPlane(of=kind)
+    mirrored = trimesh.Trimesh(PART.vertices @ FLIP, PART.faces[:, ::-1])
+    one = fill(PART, name, **sizes, **EXACT).stages.voids
+    other = fill(mirrored, image, **sizes, **EXACT).stages.voids
+    assert other.volume == pytest.approx(one.volume, rel=2e-3)
+    assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ FLIP)) < 0.1
+
+
+def in_space(kind: Cellular) -> Cellular:
+    """The mirror image of a pattern in space, at x = 0."""
+    if isinstance(kind, Network):
+        surfaces = in_space(kind.surfaces)
+        assert isinstance(surfaces, Surfaces)
+        return replace(kind, surfaces=surfaces)
+    if isinstance(kind, Surfaces):
+        value = kind.value
+        return replace(kind, value=lambda x, y, z: value(-x, y, z))
+    if isinstance(kind, Bars):
+        edges = tuple((tuple(a), tuple(b)) for a, b in (kind.axes() @ FLIP).tolist())
+        return Bars(name="image", summary="", edges=edges, cells=kind.cells)
+    assert isinstance(kind, Planes)
+    normals = kind.families()[0] @ np.array(kind.upright) @ FLIP
+    return replace(kind, normals=tuple(map(tuple, normals.tolist())), upright=tuple(map(tuple, np.eye(3).tolist())))
+
+
+@dataclass(frozen=True, kw_only=True)
+class InPlane(Pattern):
+    """The mirror image of a pattern of lines, at x = 0."""
+
+    name: str = "image"  # type: ignore[misc]
+    summary: str = ""  # type: ignore[misc]
+    of: Any
+    cell: float = parameter(8.0, "period", unit="mm", low=0.1, high=100)
+
+    def lines(self, region: Any, z: float = 0.0) -> Any:
+        there = self.of(cell=self.cell).lines(shapely.affinity.scale(region, -1, 1, origin=(0, 0)), z)
+        return shapely.affinity.scale(there, -1, 1, origin=(0, 0))
+
+    def line_spacing(self, region: Any) -> float:
+        return float(self.of(cell=self.cell).line_spacing(region))
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_units_are_no_matter(name: str) -> None:
+    sizes = far(name)
+    large = {key: 10 * value for key, value in (sizes | EXACT).items()}
+    one = fill(PART, name, smooth_radius=0.2, **sizes, **EXACT).surface
+    other = fill(PART.copy().apply_scale(10), name, smooth_radius=2, **large).surface
+    assert other.volume == pytest.approx(1000 * one.volume, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_what_is_made_again_is_the_same(name: str) -> None:
+    one, other = (fill(PART, name, density=0.3, cell=5.0, **EXACT).surface for _ in range(2))
+    assert (one.vertices == other.vertices).all()
+    assert (one.faces == other.faces).all()
