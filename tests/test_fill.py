@@ -425,7 +425,7 @@ def test_what_hangs_free_is_left_out_and_what_is_lost_is_told() -> None:
 
 def test_a_part_far_thinner_than_the_wall_is_refused_at_once() -> None:
     """In millimetres where metres were meant: no distance is measured over thousands of cells."""
-    with pytest.raises(GeometryError, match="nowhere thicker"):
+    with pytest.raises(GeometryError, match=r"0\.04 mm, is nowhere thicker .* a thinner wall, or the right unit$"):
         fill(ball(0.02), "gyroid")
 
 
@@ -504,7 +504,7 @@ def test_a_thin_wall_and_a_void_outside_are_found() -> None:
 @pytest.mark.parametrize(
     ("wrong", "error", "says"),
     [
-        ({"wall": 8}, GeometryError, "^wall is 8 mm, and the part is nowhere thicker than two"),
+        ({"wall": 8}, GeometryError, "^wall is 8 mm, and the part, 12 x 12 x 12 mm, is .* give a thinner wall$"),
         ({"density": 1.2}, ParameterError, "^density is 1.2"),
         ({"density": 0.2, "cell": 5, "line_width": 0.4}, UsageError, "^density, cell and line_width are all given"),
         ({"pattern": "gyriod"}, PatternError, "did you mean 'gyroid'"),
@@ -522,6 +522,41 @@ def test_what_cannot_be_done_is_one_clear_line(wrong: dict[str, Any], error: typ
     with pytest.raises(error, match=says) as told:
         fill(box(12, 12, 12), **{"pattern": "gyroid", **wrong})
     assert "\n" not in str(told.value)
+
+
+def test_a_path_is_no_mesh() -> None:
+    with pytest.raises(GeometryError, match="^a str is not a mesh; read the file with infill.read_mesh$"):
+        fill("part.stl")  # type: ignore[arg-type]
+
+
+REFUSED = {
+    "cubes_touching_edge.stl": "a thinner wall, or the right unit",
+    "empty_0bytes.stl": "is empty",
+    "empty_binary.stl": "holds no triangles",
+    "frog_legs_open.obj": "a thinner wall$",
+    "huge_150m_inverted.stl": "give a wall of 7.7e[+]02 mm, or the right unit",
+    "invalid_vertex.stl": "a vertex that is not three numbers",
+    "metres_part_47um.stl": "a thinner wall, or the right unit",
+    "multibody_ascii.stl": "a thinner wall, or the right unit",
+    "nonmanifold.stl": "a thinner wall, or the right unit",
+    "prusa_raspberry_cover_nonmanifold.stl": "a thinner wall$",
+    "triangle_soup.stl": "a thinner wall, or the right unit",
+    "unit_cube_1mm.stl": "a thinner wall, or the right unit",
+    "unparseable.stl": "a vertex that is not three numbers",
+}
+
+
+def test_files_that_are_broken_are_filled_or_one_clear_line(data: Path, tmp_path: Path) -> None:
+    for path in sorted(each for each in (data / "nasty").iterdir() if each.suffix in (".stl", ".obj")):
+        out = tmp_path / f"{path.stem}.stl"
+        done = command("fill", path, "--pattern", "honeycomb", "--density", "20%", "--json", "-q", "-o", out)
+        if path.name in REFUSED:
+            one_line_error(done, REFUSED[path.name])
+            assert not out.exists()
+        else:
+            report = json.loads(done.stdout)
+            assert (report["mesh"]["manifold"], report["density"]) == (FINE, pytest.approx(0.2, abs=0.005))
+            assert status(read_mesh(out)) == FINE
 
 
 def test_a_sheet_is_no_part() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
 def surface_of(mesh: trimesh.Trimesh | Surface) -> Surface:
     """Return the mesh as plain arrays, or raise GeometryError if there is nothing to write or read."""
     if not hasattr(mesh, "vertices") or not hasattr(mesh, "faces"):
-        raise GeometryError(f"a {type(mesh).__name__} is not a mesh; give a trimesh.Trimesh or a Surface")
+        read = isinstance(mesh, (str, Path))
+        advice = "read the file with infill.read_mesh" if read else "give a trimesh.Trimesh or a Surface"
+        raise GeometryError(f"a {type(mesh).__name__} is not a mesh; {advice}")
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     if len(faces) == 0 or not np.isfinite(vertices).all():
         raise GeometryError("the mesh has no faces, or corners that are not finite numbers; make it again")

@@ -21,6 +21,7 @@ BAND = 2.5  # cells on either side of the wall in which depths are exact
 LEAST_OVERLAP = 1e-5  # of the volume: components that overlap by less are taken not to
 MARGIN = 3  # cells of void around the part
 BEYOND = 1.0  # cells: how far voids that no wall is to be left around reach out of the part
+TINY = 10.0  # mm: parts smaller than this may be meant in another unit
 BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks that are smoothed
 
 
@@ -102,9 +103,14 @@ def space_inside(
     MemoryLimitError
         If the grid does not fit into memory.
     """
-    nowhere = f"wall is {wall:g} mm, and the part is nowhere thicker than two of those; give a thinner wall"
+    extents = np.ptp(part.bounds, axis=0)
+    sides = " x ".join(f"{side:.3g}" for side in extents)
+    nowhere = (
+        f"wall is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
+        f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
+    )
     # Seen before anything is measured, however long that would take; a flat sheet has a message of its own.
-    if 0 < np.ptp(part.bounds, axis=0).min() <= 2 * wall:
+    if 0 < extents.min() <= 2 * wall:
         raise GeometryError(nowhere)
     grid = grid_around(part, voxel=voxel, margin=MARGIN)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
