@@ -14,6 +14,7 @@ from made_shapes import box, union
 
 from infill import Surface, fill
 from infill.surfaces.distance import Tree
+from infill.surfaces.winding import winding
 from patterns import PATTERNS, Pattern
 from patterns.cellular import CELLULAR
 from patterns.declared import parameter
@@ -55,6 +56,30 @@ def test_wider_walls_and_smaller_cells_are_denser(name: str) -> None:
     middle = density(cell, width)
     assert density(cell, width / 1.2) < middle < density(cell, 1.2 * width)
     assert density(2 * cell, width) < middle
+
+
+def across(voids: Surface, reach: float, inside: float) -> float:
+    """The median way from void to void, straight across what is solid, mm: by points, each in a void or not."""
+    mesh = voids.to_trimesh()
+    some = np.random.default_rng(3).choice(len(mesh.faces), 2000, p=mesh.area_faces / mesh.area)
+    points, normals = mesh.triangles_center[some], mesh.face_normals[some]
+    far = np.abs(points).max(axis=1) < inside
+    points, normals = points[far][:400], normals[far][:400]
+    assert len(points) > 100
+    step = reach / 100
+    places = points[:, None] + step * (np.arange(1, 101) - 0.5)[:, None] * normals[:, None]
+    hit = (winding(places.reshape(-1, 3), voids) > 0).reshape(len(points), 100)
+    return float(np.median(np.where(hit.any(axis=1), hit.argmax(axis=1), 100))) * step
+
+
+@pytest.mark.parametrize("name", [name for name in EVERY if not isinstance(CELLULAR.get(name), Network)])
+def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
+    """And bars as thick, though smoothing makes these thinner, and walls between narrow voids wider."""
+    width = 1.6 if isinstance(CELLULAR.get(name), Bars) else 0.8
+    result = fill(box(24, 24, 24), name, density=0.3, line_width=width, wall=1.0, voxel=0.4)
+    assert not [each for each in result.report["problems"] if "wide" in each]
+    assert result.report["infill"]["line_width"] == pytest.approx(width, rel=0.06)
+    assert across(result.stages.voids, 2.5 * width, 12 - 1 - 1.5 * width) == pytest.approx(width, rel=0.08)
 
 
 @pytest.mark.parametrize("name", EVERY)

@@ -227,7 +227,7 @@ def _result(
             "skin": space.skin,
             "tolerance": hollow.tolerance if math.isfinite(hollow.tolerance) else None,
         },
-        "infill": {"cell": hollow.cell, "line_width": hollow.width, "radius": request.radius(space.thickness)},
+        "infill": {"cell": hollow.cell, "line_width": facts.width, "radius": request.radius(space.thickness)},
         "graded": facts.graded,
         "part": {
             "triangles": len(given.faces),

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.solids.crossing import median_width
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.inside import INTERFACE, SHARE, inner_side
 from infill.filling.solids.local_density import densities_by_share
@@ -32,13 +33,16 @@ from infill.surfaces.simplification import simplified
 from infill.surfaces.solids import shortened, volume_within
 from infill.surfaces.sparse_marching import extract_bricks
 from infill.surfaces.winding import winding
+from patterns.unit_cells import Network
 
 CLOSE = 0.002  # of the density: nearer than this, no other cell or width is tried
 LEAST = 1e-6  # densities below this are none
 TRIES, ROUNDS, REFITS = 8, 9, 3
+WIDTH_CLOSE, REDRAWN = 0.03, 2  # of the line width: nearer than this, walls are not drawn anew; how often they are
 MOST_LARGER = 3.0  # than cells and walls were before, where there were too many triangles
 FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of its cells, ask for
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
+FARTHER_OFF = 0.005  # of the density: not for walls of the right width
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: so much less memory
 COLLAPSE_BYTES = 4000  # for each triangle, at most
@@ -58,7 +62,7 @@ class Hollow:
     space : Space
         The inside of the part.
     cell, width : float
-        Of the pattern, mm.
+        Of the pattern as it was drawn, mm: smoothing makes walls between narrow voids wider, and bars thinner.
     surfaces : list of Surface, mm
         The voids, facing outwards from them, one surface for each field.
     tolerance : float
@@ -99,6 +103,12 @@ class Hollow:
         if self.walls is None:
             return sum(volume_and_area(surface)[0] for surface in self.surfaces)
         return sum(volume_within(surface, self.walls) for surface in self.surfaces)
+
+    @cached_property
+    def median(self) -> float | None:
+        """How wide walls are, or bars thick, mm: in the middle of all places that are not near the walls of the part."""
+        wall, part = self.space.wall, self.space.part
+        return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else None
 
     @property
     def density(self) -> float:
@@ -144,9 +154,14 @@ def hollowed(
                 found = _corrected(space, voids, request, sizes, varied, threads)
             with clock.stage("simplify", done + 0.18):
                 found = _shortened(found, request.tolerance)
-            triangles, sizes = found.triangles, (found.cell, found.width)
+            triangles = found.triangles
             if last or triangles <= room:
-                break
+                with clock.stage("voids", done + 0.19):
+                    found = _as_wide(found, sizes[1], voids, request, varied, threads)
+                triangles = found.triangles
+                if last or triangles <= room:
+                    break
+            sizes = (found.cell, sizes[1])
         larger, coarser = _coarser(request, voids, sizes, voxel, triangles / room)
         coarser = min(coarser, space.thickness / LEAST_THICK)
         last = coarser < 1.05 * voxel
@@ -161,6 +176,28 @@ def hollowed(
         with clock.stage("simplify", 0.8):
             found = _cut_down(found, room, threads=threads, max_memory=max_memory)
     return found
+
+
+def _as_wide(
+    found: Hollow, width: float, voids: Voids, request: Request, varied: tuple[Size, ...], threads: int | None
+) -> Hollow:
+    """Return voids between which walls are as wide as asked for, mm, or bars as thick, if not the density says that."""
+    if "width" in varied[:1] or voids.grading is not None or not even(voids):
+        return found
+    for _ in range(REDRAWN):
+        if found.median is None or abs(found.median / width - 1) <= WIDTH_CLOSE:
+            break
+        sizes = (found.cell, found.width * width / found.median)
+        again = _shortened(_corrected(found.space, voids, request, sizes, varied, threads), request.tolerance)
+        if not again.surfaces or abs(again.density - (request.density or again.density)) > FARTHER_OFF:
+            break
+        found = again
+    return found
+
+
+def even(voids: Voids) -> bool:
+    """Return whether walls are as wide everywhere, or bars as thick: those of a network are not."""
+    return not (isinstance(voids, Repeating) and isinstance(voids.pattern, Network))
 
 
 def _coarser(

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from infill.filling.solids.drains import trapped
-from infill.filling.solids.hollowing import Hollow, share_of_cells, wanted
+from infill.filling.solids.hollowing import Hollow, even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.request import Request
 from infill.filling.solids.space import LEAST_OVERLAP
@@ -21,6 +21,7 @@ from infill.surfaces.winding import winding
 
 OFF = 0.005  # of the density: what is further off is told
 OFF_LOCAL = 0.03  # of the density in a step: chance alone is off by a hundredth, in three of a thousand
+OFF_WIDTH = 0.06  # of the line width: what is further off is told
 STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
@@ -60,6 +61,8 @@ class Measured:
         Vertices that are where another one is in single precision, besides those of the skin.
     verdict : str
         Of manifold3d.
+    width : float
+        Of walls or bars in the mesh, mm; as drawn where hardly any are away from the walls of the part, or not even.
     drawn : float
         Density of the pattern before it was smoothed.
     wanted : float or None
@@ -74,6 +77,7 @@ class Measured:
     closed: list[tuple[float, list[float]]]
     crowded: int
     verdict: str
+    width: float
     drawn: float
     wanted: float | None
     graded: list[dict[str, float]]
@@ -97,6 +101,7 @@ def measured(
         closed=trapped(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
         verdict=status(solid),
+        width=(hollow.median if even(voids) else None) or hollow.width,
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
         graded=[] if voids.grading is None else steps(hollow, voids),
@@ -110,6 +115,11 @@ def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
     local = voids.grading.over(hollow.space, voids.widths)
     asked, there = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
     return [{"wanted": one, "density": other} for one, other in zip(asked.tolist(), there.tolist(), strict=True)]
+
+
+def near(width: float, asked: float) -> bool:
+    """Return whether walls or bars are as wide as asked for, or nearly."""
+    return abs(width / asked - 1) <= OFF_WIDTH
 
 
 def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]:
@@ -128,9 +138,11 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
             f"of the infill, {facts.drawn:.1%} as drawn, {hollow.density:.1%} is left: walls or bars are too thin for "
             "the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
-    if request.form == "project" and hollow.width < THIN:
+    if request.line_width is not None and request.grading is None and not near(facts.width, request.line_width):
+        yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
+    if request.form == "project" and facts.width < THIN:
         yield (
-            f"walls or bars inside are {hollow.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
+            f"walls or bars inside are {facts.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
             "such bodies in many short moves, and extrude up to a tenth more; give a line width of 0.9 mm"
         )
     if moved > request.tolerance:
