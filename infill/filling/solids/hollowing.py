@@ -106,7 +106,7 @@ class Hollow:
 
     @cached_property
     def median(self) -> float | None:
-        """How wide walls are, or bars thick, mm: in the middle of all places that are not near the walls of the part."""
+        """How wide walls are, or bars thick, mm: the median where the walls of the part are not near."""
         wall, part = self.space.wall, self.space.part
         return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else None
 
