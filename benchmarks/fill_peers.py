@@ -28,7 +28,7 @@ from infill.surfaces.distance import Tree
 from infill.surfaces.winding import winding
 
 DENSITY, POINTS = 0.2, 40_000
-WITHIN = 600_000  # points in the box around the part: the density is off by a fifth of a percentage point by chance
+WITHIN = 200_000  # points in the box around the part: by chance, the density is off by a third of a percentage point
 PEER = [sys.executable, "-m", "benchmarks.peers.lattice_boolean"]
 HEAD = "| part, pattern, program | s | GiB | triangles | manifold | skin, mm | density | thinnest wall, mm | loose |"
 
