@@ -7,7 +7,7 @@ import numpy as np
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
 
-SAMPLES, FEWEST = 2000, 50  # points, and how many there must be for a median
+SAMPLES, FEWEST = 2000, 400  # points, and how many there must be for a median
 START, MOST = 0.25, 3.0  # of the width as it was drawn: where the way across is begun, and where it is given up
 AWAY = 1.5  # widths from the walls of the part, at least
 STEPS = 12  # along it; the last ones are far shorter than what is seen

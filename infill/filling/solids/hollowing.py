@@ -182,13 +182,15 @@ def _as_wide(
     found: Hollow, width: float, voids: Voids, request: Request, varied: tuple[Size, ...], threads: int | None
 ) -> Hollow:
     """Return voids between which walls are as wide as asked for, mm, or bars as thick, if not the density says that."""
-    if "width" in varied[:1] or voids.grading is not None or not even(voids):
+    space = found.space
+    smoothed = _smoothing(request.radius(space.thickness), space.size).steps > 0
+    if "width" in varied[:1] or voids.grading is not None or not even(voids) or not smoothed:
         return found
     for _ in range(REDRAWN):
         if found.median is None or abs(found.median / width - 1) <= WIDTH_CLOSE:
             break
         sizes = (found.cell, found.width * width / found.median)
-        again = _shortened(_corrected(found.space, voids, request, sizes, varied, threads), request.tolerance)
+        again = _shortened(_corrected(space, voids, request, sizes, varied, threads), request.tolerance)
         if not again.surfaces or abs(again.density - (request.density or again.density)) > FARTHER_OFF:
             break
         found = again
