@@ -39,6 +39,7 @@ CLOSE = 0.002  # of the density: nearer than this, no other cell or width is tri
 LEAST = 1e-6  # densities below this are none
 TRIES, ROUNDS, REFITS = 8, 9, 3
 WIDTH_CLOSE, REDRAWN = 0.03, 2  # of the line width: nearer than this, walls are not drawn anew; how often they are
+SURE = 400  # points at which a width is known well enough to draw walls anew
 MOST_LARGER = 3.0  # than cells and walls were before, where there were too many triangles
 FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of its cells, ask for
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
@@ -105,10 +106,10 @@ class Hollow:
         return sum(volume_within(surface, self.walls) for surface in self.surfaces)
 
     @cached_property
-    def median(self) -> float | None:
-        """How wide walls are, or bars thick, mm: the median where the walls of the part are not near."""
+    def median(self) -> tuple[float | None, int]:
+        """How wide walls are, or bars thick, mm: the median where the part's walls are not near; of how many points."""
         wall, part = self.space.wall, self.space.part
-        return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else None
+        return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else (None, 0)
 
     @property
     def density(self) -> float:
@@ -187,9 +188,10 @@ def _as_wide(
     if "width" in varied[:1] or voids.grading is not None or not even(voids) or not smoothed:
         return found
     for _ in range(REDRAWN):
-        if found.median is None or abs(found.median / width - 1) <= WIDTH_CLOSE:
+        median, seen = found.median
+        if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
             break
-        sizes = (found.cell, found.width * width / found.median)
+        sizes = (found.cell, found.width * width / median)
         again = _shortened(_corrected(space, voids, request, sizes, varied, threads), request.tolerance)
         if not again.surfaces or abs(again.density - (request.density or again.density)) > FARTHER_OFF:
             break

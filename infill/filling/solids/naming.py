@@ -12,7 +12,7 @@ from infill.formats.modules import MARK, object_in
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR, no_such
 from patterns.protocol import Pattern, gives
-from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
+from patterns.unit_cells import Cellular, Surfaces
 
 if TYPE_CHECKING:
     from infill.filling.solids.tiled import Tiled
@@ -62,7 +62,7 @@ def _drawing(name: str) -> Tiled:
 
 
 def _made(found: Any, name: str) -> tuple[Kind, str]:  # noqa: ANN401 - whatever a user gives
-    if isinstance(found, (Surfaces, Planes, Network, Bars)) or gives(found):
+    if isinstance(found, Cellular) or gives(found):
         return found, name
     if callable(found) and not isinstance(found, type):
         return _level_set(found, name), name

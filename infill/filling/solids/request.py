@@ -22,7 +22,7 @@ from patterns.cellular import CELLULAR
 from patterns.declared import parameters
 from patterns.given import nearest
 from patterns.protocol import Pattern
-from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
+from patterns.unit_cells import Bars, Cellular, Network, Planes
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed"]
@@ -273,7 +273,7 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     anchor = middle + request.phase
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
-    if isinstance(request.kind, (Surfaces, Planes, Network, Bars)):
+    if isinstance(request.kind, Cellular):
         pattern = cellular_of(request.kind, request)
         if isinstance(pattern, Planes):
             turn = np.array(pattern.upright) @ turn

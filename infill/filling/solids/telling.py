@@ -101,7 +101,7 @@ def measured(
         closed=trapped(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
         verdict=status(solid),
-        width=(hollow.median if even(voids) else None) or hollow.width,
+        width=(hollow.median[0] if even(voids) else None) or hollow.width,
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
         graded=[] if voids.grading is None else steps(hollow, voids),
