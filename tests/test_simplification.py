@@ -17,12 +17,13 @@ from skimage.measure import marching_cubes
 from infill.errors import GeometryError, ParameterError
 from infill.kernels import quadrics
 from infill.surface import Surface
+from infill.surfaces import collapsing
 from infill.surfaces.collapsing import Table, collapsed
 from infill.surfaces.distance import Tree
 from infill.surfaces.intersections import self_intersections
-from infill.surfaces.mending import mended
+from infill.surfaces.mending import MANY, mended
 from infill.surfaces.simplification import simplified
-from infill.surfaces.watching import SURE, between, same_faces
+from infill.surfaces.watching import CLEAR, SURE, between, level_faces, same_faces
 
 DRIFT = 0.05  # of the tolerance: how far the surface may have moved outwards or inwards on average
 PER_TRIANGLE = 25  # places at which a triangle's distance is measured
@@ -267,6 +268,65 @@ def test_what_was_measured_is_handed_to_a_surface_that_differs_in_a_place() -> N
     again, left, _ = mended(found, surface, Tree.of(surface), 0.1, known=seen)
     assert not len(left)
     assert max(farthest(again, surface), farthest(surface, again, 3)) <= 0.11
+
+
+@pytest.mark.parametrize("shape", ["ball", "plate", "gyroid", "box with a hole"])
+@pytest.mark.parametrize("tolerance", [0.05, 0.3, 1.0])
+def test_a_level_face_has_nothing_near_that_faces_elsewhere(shape: str, tolerance: float) -> None:
+    """By points all over the faces, against every pair of faces whose normals differ by more than 30 degrees."""
+    found = collapsed(made(shape, 16), tolerance=0.1)
+    assert found is not None
+    level = level_faces(found, tolerance)
+    corners = np.asarray(found.vertices)[found.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    own = spread_at_random(found, 20, 3)[: 20 * len(corners)].reshape(len(corners), 20, 3)
+    for face in np.flatnonzero(level):
+        aslant = normals @ normals[face] < np.cos(np.radians(30.1))
+        if aslant.any():
+            others = Surface(vertices=found.vertices, faces=found.faces[aslant])
+            assert Tree.of(others).nearest(own[face])[0].min() >= CLEAR * tolerance
+    assert level.any() or shape in ("plate", "box with a hole") or tolerance == 1.0
+    if shape == "plate" and tolerance == 1.0:  # its other side is two cells away
+        assert not level.any()
+
+
+def test_a_vertex_that_strayed_where_all_is_level_is_brought_back() -> None:
+    surface, tolerance = made("ball", 40), 0.1
+    first = collapsed(surface, tolerance=tolerance)
+    assert first is not None
+    assert len(first.faces) > MANY
+    strayed = np.array(first.vertices)
+    strayed[70] += 3 * tolerance * (strayed[70] - first.bounds.mean(axis=0)) / 20
+    found = replace(first, vertices=strayed)
+    assert level_faces(found, tolerance)[(found.faces == 70).any(axis=1)].all()  # nothing but its distance tells
+    assert farthest(found, surface) > 2 * tolerance
+    again, left, _ = mended(found, surface, Tree.of(surface), tolerance)
+    assert not len(left)
+    assert max(farthest(again, surface), farthest(surface, again, 3)) <= 1.01 * tolerance
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_patches_keep_the_laws_and_do_not_depend_on_threads(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(collapsing, "PATCH", 100)
+    surface, tolerance = made(shape, 24), 0.1
+    table = Table.of(surface)
+    assert table is not None
+    assert len(surface.faces) > 10 * collapsing.PATCH
+    one = table.without_edges((0.2 * tolerance) ** 2, 4, threads=1)
+    two = table.without_edges((0.2 * tolerance) ** 2, 4, threads=2)
+    assert len(one.start) < len(table.start)
+    np.testing.assert_array_equal(one.vertices, two.vertices)
+    np.testing.assert_array_equal(one.start, two.start)
+    np.testing.assert_array_equal(one.into, two.into)
+    np.testing.assert_array_equal(one.start[one.twin], np.roll(one.start.reshape(-1, 3), -1, axis=1).ravel())
+    found = one.placed_in(surface)
+    assert found.closed
+    assert found.euler_number == surface.euler_number
+    assert components(found) == components(surface)
+    assert abs(found.volume - surface.volume) <= DRIFT * tolerance * surface.area
+    whole = simplified(surface, tolerance=tolerance)
+    assert max(farthest(whole, surface), farthest(surface, whole, 3)) <= tolerance
 
 
 def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near_enough() -> None:

@@ -21,6 +21,7 @@ DEPTH = 18  # times that a triangle is cut in two, at most
 # How long a piece that is hardly near may be, over the distance by which its corners are nearer than they have to be.
 # At the square root of three, no place on it could be too far away, even if the meshes met at a right angle.
 SLOPE = 10.0
+LEVEL = 0.866  # cosine of the angle, 30 degrees, up to which triangles near one another count as level
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -133,3 +134,79 @@ def cover(
                 left += 1
     begin[thread] = len(faces)
     return count
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _parted(one, other, normal, reach):
+    """Return whether a triangle lies `reach` beyond the plane of another, or beyond one upright on a side of it.
+
+    Parameters
+    ----------
+    one, other : (3, 3) float64
+    normal : (3,) float64
+        Of `one`, of length 1.
+    """
+    a = one[0]
+    lowest, highest = math.inf, -math.inf
+    for k in range(3):
+        p = other[k]
+        height = (p[0] - a[0]) * normal[0] + (p[1] - a[1]) * normal[1] + (p[2] - a[2]) * normal[2]
+        lowest, highest = min(lowest, height), max(highest, height)
+    if lowest >= reach or highest <= -reach:
+        return True
+    for side in range(3):
+        a, b = one[side], one[(side + 1) % 3]
+        ux, uy, uz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
+        ox, oy, oz = uy * normal[2] - uz * normal[1], uz * normal[0] - ux * normal[2], ux * normal[1] - uy * normal[0]
+        length = math.sqrt(ox * ox + oy * oy + oz * oz)
+        nearest = math.inf
+        for k in range(3):
+            p = other[k]
+            nearest = min(nearest, (p[0] - a[0]) * ox + (p[1] - a[1]) * oy + (p[2] - a[2]) * oz)
+        if nearest >= reach * length:
+            return True
+    return False
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def level_around(corners, normals, low, high, leaf, reach, level, thread, threads):
+    """Set whether all triangles within `reach` of every `threads`-th triangle face nearly where it faces.
+
+    Parameters
+    ----------
+    corners, low, high, leaf
+        A mesh: see `infill.kernels.distances.nearest_triangles`.
+    normals : (F, 3) float64
+        Of length 1, or of length 0 where a triangle has no area: such a triangle is never level, nor what is near it.
+    reach : float
+        What is seen to be further away, on planes of either triangle, does not count; what is not, does.
+    level : (F,) bool
+        What is found.
+    """
+    first = (len(low) - 1) // 2
+    stack = np.empty(DEEPEST, dtype=np.int64)
+    for f in range(thread, len(corners), threads):
+        one, normal = corners[f], normals[f]
+        level[f] = True
+        stack[0], count = 0, 1
+        while count > 0 and level[f]:
+            count -= 1
+            box, near = stack[count], True
+            for axis in range(3):
+                least = min(one[0, axis], one[1, axis], one[2, axis]) - reach
+                most = max(one[0, axis], one[1, axis], one[2, axis]) + reach
+                near = near and low[box, axis] <= most and high[box, axis] >= least
+            if not near:
+                continue
+            if box < first:
+                stack[count], stack[count + 1], count = 2 * box + 1, 2 * box + 2, count + 2
+                continue
+            begin = (box - first) * leaf
+            for at in range(begin, min(begin + leaf, len(corners))):
+                to = normals[at]
+                if normal[0] * to[0] + normal[1] * to[1] + normal[2] * to[2] >= LEVEL:
+                    continue
+                if _parted(one, corners[at], normal, reach) or _parted(corners[at], one, to, reach):
+                    continue
+                level[f] = False
+                break

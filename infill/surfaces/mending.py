@@ -10,12 +10,13 @@ from numpy.typing import NDArray
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
 from infill.surfaces.intersections import intersecting
-from infill.surfaces.watching import Watched, looked_at, watched
+from infill.surfaces.watching import Watched, level_faces, looked_at, watched
 
 Floats = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
-ROUNDS = 8
+ROUNDS = 12
+MANY = 256  # faces: up to as many, it takes longer to see which are level than to look at them
 BESIDE = 0.15  # of a triangle: what is nearer to an edge is mended there
 CLOSE = 0.05, 0.005  # of a triangle: what is nearer to a corner is mended there, in the first rounds and in the others
 FIRST = 3  # rounds: a corner that is moved back and forth by its triangles never comes to rest
@@ -60,12 +61,19 @@ def mended(
         seen = watched(Tree.of(found), found, given, side, tolerance, threads=threads)
     else:
         seen = known.handed_to(found, given, side, tolerance, threads)
+    taken = np.zeros(len(found.faces), dtype=bool)  # for near, since all around them was level
     for n in range(ROUNDS):
         if n > 0:
             seen = seen.again(found, tolerance, threads)
         changed, owner, points = seen.unsure, seen.owner, seen.points
         missed = np.flatnonzero(seen.away > tolerance)
-        there = looked_at(tree, found, changed, side, tolerance, threads=threads)
+        taken = np.concatenate([taken, np.zeros(len(found.faces) - len(taken), dtype=bool)])
+        taken[changed] = len(changed) > MANY and level_faces(found, tolerance, threads=threads)[changed]
+        there = looked_at(tree, found, changed, side, tolerance, sure=taken[changed], threads=threads)
+        if n > 0 and not len(missed) and not len(there.points) and taken.any():
+            bent = np.flatnonzero(taken & ~level_faces(found, tolerance, threads=threads))
+            taken[bent] = False
+            there = looked_at(tree, found, bent, side, tolerance, threads=threads)
         if not len(missed) and not len(there.points):
             seen = replace(seen, unsure=np.empty(0, dtype=np.int64))
             crossing = intersecting(np.asarray(found.vertices), found.faces)

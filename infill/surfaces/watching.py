@@ -20,6 +20,7 @@ FINER, WIDE = 0.2, 2.0  # sides of what is given, and tolerances: how far places
 GIVEN, FOUND, LARGE = 0.3, (0.7, 0.35), 0.3
 # Of the tolerance: distances that do not matter, and how close places come to one another.
 SURE, SMALL = 0.6, 0.5
+CLEAR = 2.5  # tolerances around a face in which nothing but what is level with it may lie
 ROOM = 1 << 18  # places for which there is room at a time
 
 
@@ -208,39 +209,64 @@ def _room(threads: int, room: int) -> tuple[Floats, NDArray[np.int32], Whole, Fl
     return np.empty((*shape, 3)), np.empty(shape, dtype=np.int32), np.empty(shape, dtype=np.int64), np.empty(shape)
 
 
+def level_faces(surface: Surface, tolerance: float, *, threads: int | None = None) -> NDArray[np.bool_]:
+    """Return which faces (F,) have nothing near that does not face nearly where they face.
+
+    If all of another surface lies within the tolerance, mm, of this one, such a face lies within it of the other: this
+    surface is a single sheet there, and the other, which can only pass its normals close to it, has to pass them.
+
+    >>> roof = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 4], [4, 4, 4]])
+    >>> faces = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
+    >>> level_faces(Surface(vertices=roof, faces=faces), 0.1).tolist()
+    [False, False, False, False]
+    >>> level_faces(Surface(vertices=roof * [1, 1, 0.1], faces=faces), 0.1)[:2].tolist()
+    [False, False]
+    >>> level_faces(Surface(vertices=roof, faces=faces[:2]), 0.1).tolist()
+    [True, True]
+    """
+    from infill.kernels.covering import level_around
+
+    tree, level = Tree.of(surface), np.empty(len(surface.faces), dtype=bool)
+    across = np.cross(tree.corners[:, 1] - tree.corners[:, 0], tree.corners[:, 2] - tree.corners[:, 0])
+    length = np.linalg.norm(across, axis=1, keepdims=True)
+    normals = np.divide(across, length, out=np.zeros_like(across), where=length > 0)
+    given = tree.corners, normals, tree.low, tree.high, LEAF, CLEAR * tolerance
+    in_threads(level_around, *given, level, threads=thread_count(threads))
+    found = np.empty_like(level)
+    found[tree.order] = level
+    return found
+
+
 def looked_at(
-    tree: Tree, found: Surface, faces: Whole, side: float, tolerance: float, *, threads: int | None = None
+    tree: Tree,
+    found: Surface,
+    faces: Whole,
+    side: float,
+    tolerance: float,
+    *,
+    sure: NDArray[np.bool_] | None = None,
+    threads: int | None = None,
 ) -> Places:
     """Return places on some faces of a surface that was found which are too far from what was given.
 
     Between its edges it is flat, and few places are enough; along its edges they are close together. Of a whole
     surface, each edge is looked at once.
 
-    Parameters
-    ----------
-    tree : Tree
-        Of what was given.
-    found : Surface, mm
-    faces : (M,) int64
-        Which faces are looked at.
-    side, tolerance : float, mm
-    threads : int, optional
-        See `infill.kernels.threads.thread_count`.
     """
     part = replace(found, faces=found.faces[faces])
     vertices = np.asarray(found.vertices, dtype=np.float64)
     used, first = np.unique(part.faces, return_index=True)
     owner, away = np.zeros(len(vertices), dtype=np.int64), np.zeros(len(vertices))
     away[used], owner[used] = tree.nearest(vertices[used], enough=tolerance, threads=threads)
-    inside = between(
-        tree, part, owner, away, FOUND[tolerance > LARGE * side] * side, tolerance, all_places=False, threads=threads
-    )
+    those = np.arange(len(faces)) if sure is None else np.flatnonzero(~sure)
+    apart, flat = FOUND[tolerance > LARGE * side] * side, replace(part, faces=part.faces[those])
+    inside = between(tree, flat, owner, away, apart, tolerance, all_places=False, threads=threads)
     points, face = _along_edges(part, min(FINER * side, WIDE * tolerance), whole=len(faces) == len(found.faces))
     off, nearest = tree.nearest(points, enough=tolerance, threads=threads)
     far, corner = np.flatnonzero(off > tolerance), np.flatnonzero(away[used] > tolerance)
     return Places(
         points=np.concatenate([vertices[used[corner]], inside.points, points[far]]),
-        face=faces[np.concatenate([first[corner] // 3, inside.face, face[far]])],
+        face=faces[np.concatenate([first[corner] // 3, those[inside.face], face[far]])],
         owner=np.concatenate([owner[used[corner]], inside.owner, nearest[far]]),
         away=np.concatenate([away[used[corner]], inside.away, off[far]]),
     )
