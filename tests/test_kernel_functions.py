@@ -17,6 +17,7 @@ from infill import Smoothing
 from infill.kernels import components as parts
 from infill.kernels import refining
 from infill.kernels.compiling import njit
+from infill.kernels.distances import lower_to_triangles, squared_distance
 from infill.kernels.sparse import (
     ALL,
     B2,
@@ -455,3 +456,32 @@ def test_how_many_threads_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(VARIABLE)
     assert thread_count() == 7
     assert thread_count(10**6) == MOST
+
+
+@pytest.mark.parametrize("kind", ["any", "slender", "line", "point", "upright"])
+def test_cells_are_lowered_to_the_exact_distance_from_the_nearest_triangle(kind: str) -> None:
+    """The form without branches, against the distance of each cell from each triangle by its regions."""
+    rng = np.random.default_rng(11)
+    corners = rng.uniform(2, 14, (9, 1, 3)) + rng.normal(0, 3, (9, 3, 3))
+    if kind == "slender":
+        corners[:, 2] = (corners[:, 0] + corners[:, 1]) / 2 + rng.normal(0, 1e-5, (9, 3))
+    elif kind == "line":
+        corners[:, 2] = corners[:, 0] + (corners[:, 1] - corners[:, 0]) * 0.3
+    elif kind == "point":
+        corners[:, 1:] = corners[:, :1]
+    elif kind == "upright":
+        corners[:, :, 2] = corners[:, :1, 2]  # level, so that rows are upright on it
+    reach, shape = 3.3, (17, 16, 18)
+    found = np.full(shape, np.float32(reach**2))
+    in_threads(lower_to_triangles, corners, reach, found, threads=2)
+    cells = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1).reshape(-1, 3).astype(float)
+    wanted = np.full(len(cells), reach**2)
+    for a, b, c in corners:
+        if kind == "line":  # c lies between a and b
+            share = np.clip((cells - a) @ (b - a) / ((b - a) @ (b - a)), 0, 1)
+            away = ((cells - a - share[:, None] * (b - a)) ** 2).sum(axis=1)
+        else:
+            away = np.array([squared_distance(*cell, a, b, c) for cell in cells])
+        wanted = np.minimum(wanted, away)
+    np.testing.assert_allclose(found.ravel(), wanted, rtol=1e-6, atol=1e-9)
+    assert (found < np.float32(reach**2)).sum() > 100

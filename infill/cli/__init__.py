@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import gc
 import io
 import os
 import signal
@@ -15,6 +16,7 @@ import time
 from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
+OBJECTS = 100_000  # that are new before unused ones are looked for: what a command loads stays to its end
 READ = 0.3  # seconds in which a slicer reads what its script said: once that has ended, it stops reading
 
 
@@ -23,6 +25,7 @@ def program() -> None:
 
     What it has loaded is not taken apart, object by object, only to end: with a compiler, that takes 0.3 s.
     """
+    gc.set_threshold(OBJECTS, *gc.get_threshold()[1:])
     codes = [1]  # what an error that nobody expects ends with
     atexit.register(lambda: _end(codes[-1]))  # the first to be registered, so the last to be done
     try:

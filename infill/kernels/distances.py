@@ -37,8 +37,7 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
         This call fills every `threads`-th slab of layers.
     """
     nx, ny, nz = squared.shape
-    limit = reach * reach
-    normal = np.empty(3)
+    normal, edges, scale, upright = np.empty(3), np.empty((3, 3)), np.empty(3), np.empty((3, 3))
     for slab in range(thread, (nx + THICK - 1) // THICK, threads):
         begin, end = slab * THICK, min(nx, (slab + 1) * THICK)
         for face in range(len(corners)):
@@ -58,6 +57,16 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
             flat = area <= FLAT * max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz)
             if not flat:
                 normal /= area
+            for side in range(3):
+                p, q = (a, b) if side == 0 else ((b, c) if side == 1 else (c, a))
+                for axis in range(3):
+                    edges[side, axis] = q[axis] - p[axis]
+                ex, ey, ez = edges[side]
+                length = ex * ex + ey * ey + ez * ez
+                scale[side] = 1 / length if length > 0 else 0.0
+                upright[side, 0] = normal[1] * ez - normal[2] * ey
+                upright[side, 1] = normal[2] * ex - normal[0] * ez
+                upright[side, 2] = normal[0] * ey - normal[1] * ex
             offset = normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2]
             for x in range(max(begin, math.ceil(low_x)), min(end, math.floor(high_x) + 1)):
                 first_y, last_y = _span(a, b, c, x - reach, x + reach)
@@ -69,10 +78,72 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
                         middle = (offset - normal[0] * x - normal[1] * y) / normal[2]
                         room = reach / abs(normal[2])
                         first, last = max(first, middle - room), min(last, middle + room)
-                    for z in range(max(0, math.ceil(first)), min(nz, math.floor(last) + 1)):
-                        found = squared_distance(x, y, z, a, b, c)
-                        if found < limit and found < squared[x, y, z]:
-                            squared[x, y, z] = found
+                    begin_z, end_z = max(0, math.ceil(first)), min(nz, math.floor(last) + 1)
+                    if begin_z < end_z:
+                        _lower_row(x, y, begin_z, end_z, a, edges, scale, upright, normal, flat, squared)
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared):
+    """Lower the squared distances of some cells of a row to that of a triangle, without a branch.
+
+    The distance is that of the plane, where the point lies on the inner side of all three edges, else of the nearest
+    edge. All is linear in z but where a foot is held back at the ends of its edge.
+
+    Parameters
+    ----------
+    x, y, begin, end : int
+        Cells (x, y, begin) to (x, y, end - 1).
+    a : (3,) float64
+        The first corner.
+    edges : (3, 3) float64
+        From each corner to the next.
+    scale : (3,) float64
+        One over the square of their lengths, 0 for an edge without length.
+    upright : (3, 3) float64
+        Normals of the planes through the edges, upright on the triangle, inwards.
+    normal : (3,) float64
+        Of length 1.
+    flat : bool
+        Whether the triangle is a line or a point.
+    """
+    e0x, e0y, e0z = edges[0, 0], edges[0, 1], edges[0, 2]
+    e1x, e1y, e1z = edges[1, 0], edges[1, 1], edges[1, 2]
+    e2x, e2y, e2z = edges[2, 0], edges[2, 1], edges[2, 2]
+    s0, s1, s2 = scale[0], scale[1], scale[2]
+    px, py = x - a[0], y - a[1]
+    qx, qy = px - e0x, py - e0y  # from the second corner, and below from the third
+    rx, ry = qx - e1x, qy - e1y
+    along0, along1, along2 = px * e0x + py * e0y, qx * e1x + qy * e1y, rx * e2x + ry * e2y
+    in0 = px * upright[0, 0] + py * upright[0, 1]
+    in1 = qx * upright[1, 0] + qy * upright[1, 1]
+    in2 = rx * upright[2, 0] + ry * upright[2, 1]
+    u0, u1, u2 = upright[0, 2], upright[1, 2], upright[2, 2]
+    level, rise = px * normal[0] + py * normal[1], normal[2]
+    least = math.inf if flat else 0.0
+    row, base = squared[x, y, begin:end], begin - a[2]
+    for n in range(len(row)):
+        pz = base + n
+        qz = pz - e0z
+        rz = qz - e1z
+        t = (along0 + pz * e0z) * s0
+        t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+        dx, dy, dz = px - t * e0x, py - t * e0y, pz - t * e0z
+        found = dx * dx + dy * dy + dz * dz
+        t = (along1 + qz * e1z) * s1
+        t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+        dx, dy, dz = qx - t * e1x, qy - t * e1y, qz - t * e1z
+        other = dx * dx + dy * dy + dz * dz
+        found = other if other < found else found
+        t = (along2 + rz * e2z) * s2
+        t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
+        dx, dy, dz = rx - t * e2x, ry - t * e2y, rz - t * e2z
+        other = dx * dx + dy * dy + dz * dz
+        found = other if other < found else found
+        height = level + pz * rise
+        inner = (in0 + pz * u0 >= least) & (in1 + qz * u1 >= least) & (in2 + rz * u2 >= least)
+        found = np.float32(height * height if inner else found)
+        row[n] = found if found < row[n] else row[n]
 
 
 @njit(nogil=True, cache=True, error_model="numpy")

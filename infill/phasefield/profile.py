@@ -20,6 +20,8 @@ from infill.kernels.threads import in_threads, thread_count
 
 Field = NDArray[np.float32]
 
+AT_ONCE = 1 << 15  # cells, which stay in a processor's own memory from one step to the next
+
 
 @dataclass(frozen=True)
 class Profile:
@@ -49,16 +51,25 @@ class Profile:
         """Return the level of distance that corresponds to a level of phi, which must be within `steepest`."""
         return math.atanh(level) / self.scale
 
-    def phase(self, distance: Field) -> Field:
-        """Return phi for distances, +-1 where they are cut off.
+    def phase(self, distance: NDArray[np.floating], *, unit: float = 1.0, threads: int | None = None) -> Field:
+        """Return phi for distances in units of the one at which they are cut off, +-1 from there on.
 
-        >>> REFINED.phase(np.array([-1, 0, 1], dtype=np.float32)).tolist()
+        >>> REFINED.phase(np.array([-2, 0, 2]), unit=2).tolist()
         [-1.0, 0.0, 1.0]
         """
-        found: Field = np.sign(distance)
-        near = np.abs(distance) < 1  # few cells of a grid
-        found[near] = np.tanh(distance[near] * np.float32(self.scale))
-        return found
+        given = np.asarray(distance).reshape(-1)
+        found: Field = np.empty(given.shape, dtype=np.float32)
+
+        def fill(thread: int, threads: int) -> None:
+            for begin in range(thread * AT_ONCE, len(given), threads * AT_ONCE):
+                part, phi = (given[begin : begin + AT_ONCE] / unit).astype(np.float32), found[begin : begin + AT_ONCE]
+                np.sign(part, out=phi)
+                near = np.abs(part) < 1  # few cells of a grid
+                if near.any():
+                    phi[near] = np.tanh(part[near] * np.float32(self.scale))
+
+        in_threads(fill, threads=thread_count(threads))
+        return found.reshape(np.shape(distance))
 
     def distance(self, values: Field, *, out: Field | None = None, threads: int | None = None) -> Field:
         """Return the distance for phi (...) float32, its last three axes bricks; in `out`, which may be `values`."""

@@ -193,13 +193,13 @@ def _hold(result: SparseField, mild: Field, unit: float, threads: int) -> None:
     in_threads(kernels.hold, result.values.reshape(-1, CELLS), distance, held.bound / unit, threads=threads)
 
 
-def on_profile(distance: NDArray[np.floating], interface: float) -> Field:
+def on_profile(distance: NDArray[np.floating], interface: float, *, threads: int | None = None) -> Field:
     """Return distances in cells as the phase field whose surface does not move: +-1 where the distance is cut off.
 
     >>> on_profile(np.array([-9, 0, 2, 9]), 2.0).round(2).tolist()
     [-1.0, 0.0, 0.8999999761581421, 1.0]
     """
-    return REFINED.phase((distance / cut_off(interface)).astype(np.float32))
+    return REFINED.phase(distance, unit=cut_off(interface), threads=threads)
 
 
 def cut_off(interface: float) -> float:

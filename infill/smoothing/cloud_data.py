@@ -45,4 +45,4 @@ def phase_of_points(
     distance = distances_in_cells(
         raw_surface(field, near, request.threads), found, cut_off(interface), several=False, threads=request.threads
     )
-    return replace(solid, values=on_profile(distance, interface)), found, volume
+    return replace(solid, values=on_profile(distance, interface, threads=request.threads)), found, volume

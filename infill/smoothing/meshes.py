@@ -82,7 +82,7 @@ def _given_mesh(surface: Surface, found: Voxelised, request: Request) -> Given:
         tunnels = solids + cavities - found.closed.euler_number // 2
         topology = Counts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
     return Given(
-        data=replace(found.volume, values=on_profile(distance, interface)),
+        data=replace(found.volume, values=on_profile(distance, interface, threads=request.threads)),
         facts={"source": "mesh", "repairs": asdict(found.repairs), "several": found.several},
         reference=found.closed,
         mesh=surface,

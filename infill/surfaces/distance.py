@@ -13,7 +13,7 @@ from infill.surface import Surface
 Floats = NDArray[np.float64]
 
 LEAF = 4  # triangles in a leaf of the tree
-BITS = 10  # of each coordinate, for the order of the leaves
+BITS, PLACES = 10, 34  # of each coordinate, for the order of the leaves, and of the place of a triangle
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -106,16 +106,20 @@ def along_curve(points: Floats) -> NDArray[np.int64]:
     >>> along_curve(np.array([[0.0, 0, 0], [9, 9, 9], [0, 0, 1]])).tolist()
     [0, 2, 1]
     """
-    return np.argsort(_interleaved(points), kind="stable")
+    places = np.arange(len(points), dtype=np.uint64)
+    # Sorting numbers is several times as fast as sorting places by them; places of equal numbers stay in order.
+    found = np.sort(_interleaved(points) << np.uint64(PLACES) | places)
+    return (found & np.uint64((1 << PLACES) - 1)).astype(np.int64)
 
 
 def _interleaved(points: Floats) -> NDArray[np.uint64]:
     """Return the bits of the coordinates, x, y and z in turn: the place of points on the curve of Morton."""
     low = points.min(axis=0)
     side = max(float(np.ptp(points, axis=0).max()), 1e-300)
-    cells = ((points - low) * ((2**BITS - 1) / side)).astype(np.uint64)
-    code = np.zeros(len(points), dtype=np.uint64)
+    cells = ((points - low) * ((2**BITS - 1) / side)).astype(np.int64)
+    spread = np.zeros(2**BITS, dtype=np.uint64)
     for bit in range(BITS):
-        for axis in range(3):
-            code |= ((cells[:, axis] >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit + axis)
+        spread |= ((np.arange(2**BITS, dtype=np.uint64) >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit)
+    x, y, z = (spread[cells[:, axis]] for axis in range(3))
+    code: NDArray[np.uint64] = x | y << np.uint64(1) | z << np.uint64(2)
     return code

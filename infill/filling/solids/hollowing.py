@@ -370,7 +370,9 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
         voids.into(out, inside, which, cell=cell, width=width)
         if not (out > 0).any():
             continue
-        field = smooth_bricks(on_profile(out, INTERFACE), smoothing, spacing=(space.size,) * 3, threads=threads)
+        field = smooth_bricks(
+            on_profile(out, INTERFACE, threads=threads), smoothing, spacing=(space.size,) * 3, threads=threads
+        )
         if not (field.values > 0).any():
             continue
         surface = extract_bricks(

@@ -19,7 +19,7 @@ SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
 def inner_side(space: Space, *, overlap: float, tolerance: float, threads: int | None) -> Surface:
     """Return the surface of what lies inside the walls, and reaches into them by the overlap, mm."""
     field = smooth_bricks(
-        on_profile(space.depth + np.float32(overlap / space.size), INTERFACE),
+        on_profile(space.depth + np.float32(overlap / space.size), INTERFACE, threads=threads),
         Smoothing(steps=0),
         spacing=(space.size,) * 3,
         threads=threads,
