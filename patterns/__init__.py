@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from patterns.declared import Parameter, check_parameters, parameter, parameter_values, parameters
     from patterns.errors import PatternError, PatternUsageError
     from patterns.heart import ConcentricHeart
+    from patterns.hilbert import Hilbert
     from patterns.honeycomb import Honeycomb
     from patterns.octagons import Octagons
     from patterns.protocol import LevelSet, Pattern, gives, lacking
@@ -32,6 +33,7 @@ _HOMES = {
     "declared": ("Parameter", "check_parameters", "parameter", "parameter_values", "parameters"),
     "errors": ("PatternError", "PatternUsageError"),
     "heart": ("ConcentricHeart",),
+    "hilbert": ("Hilbert",),
     "honeycomb": ("Honeycomb",),
     "octagons": ("Octagons",),
     "protocol": ("LevelSet", "Pattern", "gives", "lacking"),
@@ -47,6 +49,7 @@ __all__ = [
     "PATTERNS",
     "ConcentricHeart",
     "Grid",
+    "Hilbert",
     "Honeycomb",
     "LevelSet",
     "Octagons",

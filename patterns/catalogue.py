@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from patterns.heart import ConcentricHeart
+from patterns.hilbert import Hilbert
 from patterns.honeycomb import Honeycomb
 from patterns.octagons import Octagons
 from patterns.registry import Registry
@@ -20,6 +21,7 @@ PATTERNS = Registry(
         Triangles,
         TriHexagon,
         Octagons,
+        Hilbert,
         Voronoi,
     )
 )

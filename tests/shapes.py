@@ -14,6 +14,7 @@ from patterns import (
     PATTERNS,
     ConcentricHeart,
     Grid,
+    Hilbert,
     Honeycomb,
     Octagons,
     Pattern,
@@ -47,6 +48,8 @@ DESIGNS: list[Pattern] = [
     TriHexagon(frame=False),
     Octagons(),
     Octagons(cell=9, angle=7, phase=(1.0, -0.5), frame=False),
+    Hilbert(),
+    Hilbert(cell=7, angle=31, phase=(1.0, -0.5), frame=False),
     Voronoi(),
     Voronoi(cell=8, seed=5, even=0, angle=23, frame=False),
 ]

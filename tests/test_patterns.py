@@ -18,6 +18,7 @@ from shapes import DESIGNS, LEVEL_SETS, REGIONS, Ripples
 from patterns import (
     PATTERNS,
     ConcentricHeart,
+    Hilbert,
     Honeycomb,
     Pattern,
     PatternError,
@@ -384,3 +385,22 @@ def test_numbers_of_numpy_are_numbers() -> None:
 def test_a_bad_angle_is_told_in_degrees(angle: float) -> None:
     with pytest.raises(PatternError, match="from -180 to 180 degrees"):
         Honeycomb(angle=angle)
+
+
+@pytest.mark.parametrize("angle", [0.0, 31.0])
+def test_hilbert_is_one_line_through_every_square(angle: float) -> None:
+    """In a region of whole squares, 1 / cell mm of line a mm^2; and the curve has no end: all parts cross the outline."""
+    cell = 5.0
+    region = shapely.affinity.rotate(box(-16 * cell, -16 * cell, 16 * cell, 16 * cell), angle, origin=(0, 0))
+    lines = shapely.line_merge(Hilbert(cell=cell, angle=angle, frame=False).lines(region))
+    assert lines.is_simple
+    assert shapely.distance(shapely.get_parts(shapely.boundary(lines)), region.exterior).max() < ROUNDING
+    # A square that the line enters and leaves holds a cell of it.
+    assert lines.length == pytest.approx(32 * 32 * cell, rel=1e-9)
+
+
+def test_hilbert_is_the_same_wherever_it_is_looked_at() -> None:
+    pattern = Hilbert(cell=3, angle=17, phase=(0.4, 1.1), frame=False)
+    whole = pattern.lines(box(-40, -40, 60, 60))
+    part = box(11, -23, 37, 5)
+    assert shapely.symmetric_difference(whole.intersection(part), pattern.lines(part)).length < 1e-6
