@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from patterns.protocol import LevelSet, Pattern, gives, lacking
     from patterns.registry import PatternWarning, Registry
     from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+    from patterns.spirals import ArchimedeanChords, OctagramSpiral
     from patterns.straight import Grid, Rectilinear, Triangles, TriHexagon
     from patterns.voronoi import Voronoi
     from patterns.zigzag import Zigzag
@@ -39,6 +40,7 @@ _HOMES = {
     "protocol": ("LevelSet", "Pattern", "gives", "lacking"),
     "registry": ("PatternWarning", "Registry"),
     "shared": ("angle_parameter", "cell_parameter", "frame_parameter", "phase_parameter"),
+    "spirals": ("ArchimedeanChords", "OctagramSpiral"),
     "straight": ("Grid", "Rectilinear", "Triangles", "TriHexagon"),
     "voronoi": ("Voronoi",),
     "zigzag": ("Zigzag",),
@@ -47,12 +49,14 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "PATTERNS",
+    "ArchimedeanChords",
     "ConcentricHeart",
     "Grid",
     "Hilbert",
     "Honeycomb",
     "LevelSet",
     "Octagons",
+    "OctagramSpiral",
     "Parameter",
     "Pattern",
     "PatternError",

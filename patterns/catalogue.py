@@ -7,6 +7,7 @@ from patterns.hilbert import Hilbert
 from patterns.honeycomb import Honeycomb
 from patterns.octagons import Octagons
 from patterns.registry import Registry
+from patterns.spirals import ArchimedeanChords, OctagramSpiral
 from patterns.straight import Grid, Rectilinear, Triangles, TriHexagon
 from patterns.voronoi import Voronoi
 from patterns.zigzag import Zigzag
@@ -22,6 +23,8 @@ PATTERNS = Registry(
         TriHexagon,
         Octagons,
         Hilbert,
+        ArchimedeanChords,
+        OctagramSpiral,
         Voronoi,
     )
 )

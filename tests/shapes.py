@@ -12,11 +12,13 @@ from shapely import Point, Polygon, box
 
 from patterns import (
     PATTERNS,
+    ArchimedeanChords,
     ConcentricHeart,
     Grid,
     Hilbert,
     Honeycomb,
     Octagons,
+    OctagramSpiral,
     Pattern,
     Rectilinear,
     Triangles,
@@ -50,6 +52,10 @@ DESIGNS: list[Pattern] = [
     Octagons(cell=9, angle=7, phase=(1.0, -0.5), frame=False),
     Hilbert(),
     Hilbert(cell=7, angle=31, phase=(1.0, -0.5), frame=False),
+    ArchimedeanChords(),
+    ArchimedeanChords(cell=4, angle=50, phase=(3.0, -2.0), frame=False),
+    OctagramSpiral(),
+    OctagramSpiral(cell=4, angle=11, phase=(3.0, -2.0), frame=False),
     Voronoi(),
     Voronoi(cell=8, seed=5, even=0, angle=23, frame=False),
 ]

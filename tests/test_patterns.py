@@ -17,9 +17,11 @@ from shapes import DESIGNS, LEVEL_SETS, REGIONS, Ripples
 
 from patterns import (
     PATTERNS,
+    ArchimedeanChords,
     ConcentricHeart,
     Hilbert,
     Honeycomb,
+    OctagramSpiral,
     Pattern,
     PatternError,
     PatternWarning,
@@ -404,3 +406,37 @@ def test_hilbert_is_the_same_wherever_it_is_looked_at() -> None:
     whole = pattern.lines(box(-40, -40, 60, 60))
     part = box(11, -23, 37, 5)
     assert shapely.symmetric_difference(whole.intersection(part), pattern.lines(part)).length < 1e-6
+
+
+@pytest.mark.parametrize("kind", [ArchimedeanChords, OctagramSpiral])
+def test_spirals_are_one_line_that_lies_evenly(kind: type[Pattern]) -> None:
+    """Strips of half a cell to either side of the line cover the plane, and nowhere one another."""
+    cell, middle = 5.0, shapely.Point(2, 3)
+    inner = middle.buffer(50)
+    lines = kind(cell=cell, phase=(2, 3), frame=False).lines(box(-70, -70, 70, 70))
+    line = min(lines.geoms, key=lambda each: each.distance(middle))
+    assert line.distance(middle) < ROUNDING
+    assert line.is_simple
+    assert shapely.intersection(lines, inner).equals(shapely.intersection(line, inner))  # the others are at corners
+    # Sides of stars leave tips uncovered unless strips are mitred; chords depart from arcs by 5e-4 of a cell.
+    near, far = (cell / 2 * (1 + off) for off in (-2e-3, 2e-3))
+    mitred = {"join_style": "mitre", "mitre_limit": 3, "cap_style": "flat"}
+    assert shapely.difference(inner, shapely.buffer(line, far, **mitred)).area < 1e-3 * cell**2
+    # As wide as its own length has it: were strips to overlap, they would cover less.
+    strip = shapely.buffer(line, near, **mitred)
+    assert strip.area == pytest.approx(2 * near * line.length, rel=2e-3)
+
+
+def test_the_round_spiral_is_nearly_that_of_archimedes() -> None:
+    spiral = ArchimedeanChords(cell=1, frame=False).lines(shapely.Point(0, 0).buffer(20))
+    x, y = sample(spiral, 0.01).T
+    radius = np.hypot(x, y)
+    turns = radius + np.arctan2(y, x) / math.pi
+    away = np.abs(turns - np.round(turns))
+    assert 0.14 < away[radius > 1].max() < 0.15
+    assert away[radius > 10].max() < 0.115
+    # It turns nowhere sharper than on a circle a cell wide, by chords of it.
+    corners = shapely.get_coordinates(min(spiral.geoms, key=lambda each: each.distance(shapely.Point(0, 0))))
+    step = np.diff(corners, axis=0)
+    heading, length = np.unwrap(np.arctan2(step[:, 1], step[:, 0])), np.hypot(*step.T)
+    assert (np.abs(np.diff(heading)) / (length[1:] + length[:-1]) * 2).max() < 2.02
