@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from patterns.catalogue import PATTERNS
+    from patterns.cross import Cross
     from patterns.declared import Parameter, check_parameters, parameter, parameter_values, parameters
     from patterns.errors import PatternError, PatternUsageError
     from patterns.heart import ConcentricHeart
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "catalogue": ("PATTERNS",),
+    "cross": ("Cross",),
     "declared": ("Parameter", "check_parameters", "parameter", "parameter_values", "parameters"),
     "errors": ("PatternError", "PatternUsageError"),
     "heart": ("ConcentricHeart",),
@@ -51,6 +53,7 @@ __all__ = [
     "PATTERNS",
     "ArchimedeanChords",
     "ConcentricHeart",
+    "Cross",
     "Grid",
     "Hilbert",
     "Honeycomb",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from patterns.cross import Cross
 from patterns.heart import ConcentricHeart
 from patterns.hilbert import Hilbert
 from patterns.honeycomb import Honeycomb
@@ -23,6 +24,7 @@ PATTERNS = Registry(
         TriHexagon,
         Octagons,
         Hilbert,
+        Cross,
         ArchimedeanChords,
         OctagramSpiral,
         Voronoi,
