@@ -13,11 +13,12 @@ class _Catalogue(Mapping[str, Cellular]):
     """Patterns in space by name."""
 
     def _all(self) -> dict[str, Cellular]:
+        from patterns.honeycombs import HONEYCOMBS
         from patterns.planes import PLANES
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        return {each.name: each for each in (*TPMS, *PLANES, *NETWORKS, *STRUTS)}
+        return {each.name: each for each in (*TPMS, *PLANES, *HONEYCOMBS, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> Cellular:
         return self._all()[name]
