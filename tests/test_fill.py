@@ -136,6 +136,23 @@ def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
     assert (np.sign(found) == np.sign(pattern.value(*(2 * np.pi * points.T))))[exact > 1e-3].all()
 
 
+def test_cross_hatch_is_upright_at_half_of_all_heights_and_turned_half_a_period_up() -> None:
+    pattern = CELLULAR["cross-hatch"]
+    assert isinstance(pattern, Surfaces)
+    x, y, z = np.random.default_rng(4).uniform(0, 2 * np.pi, (3, 1000))
+    assert pattern.value(x, y, z + np.pi) == pytest.approx(pattern.value(y, x, z), abs=1e-12)
+    # Planes x = 1/4 and 3/4 of a cell, at the height 0; and within what 5 % of the weight moves them, up to an eighth.
+    for height, off in ((0.0, 1e-12), (0.12, np.arcsin(0.05 / 0.95) / (2 * np.pi))):
+        line = np.linspace(0, 2 * np.pi, 100)
+        for place, sign in ((0.25 - off, 1), (0.25 + off, -1), (0.75 - off, -1), (0.75 + off, 1)):
+            assert (
+                sign * pattern.value(2 * np.pi * place + 0 * line, line, 2 * np.pi * height + 0 * line) > -1e-9
+            ).all()
+    # Both voids hang together: one is the other, half a cell along.
+    assert pattern.value(x + np.pi, y + np.pi, z) == pytest.approx(-pattern.value(x, y, z), abs=1e-12)
+    assert fill(box(16, 16, 16), "cross-hatch", cell=7, line_width=0.6, wall=1, voxel=0.4).report["voids"]["count"] == 2
+
+
 @pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Bars)])
 def test_the_bars_of_a_cell_repeat_and_none_that_is_near_is_missing(name: str) -> None:
     pattern = CELLULAR[name]
