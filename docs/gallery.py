@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import trimesh
@@ -12,8 +11,9 @@ from PIL import Image
 from infill import Surface, fill
 from infill.inspection.stiffness import Stiffness, stiffness
 from infill.pictures.render import render
-from patterns import PATTERNS, parameters
+from patterns import PATTERNS, Pattern, parameters
 from patterns.cellular import CELLULAR
+from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Cellular, Planes, Surfaces
 
 FOLDER = Path(__file__).parent / "pictures" / "gallery"
@@ -45,15 +45,17 @@ Drawings and patterns of your own join them.
 
 def cell_of(pattern: Cellular) -> np.ndarray:
     """Return the voxels of a period at the density of the gallery."""
-    count = FINE * pattern.cells if pattern.cells == 1 else 24 * pattern.cells
-    line = (np.arange(count) + np.reshape(AMONG, (3, 1))) / count
-    points = np.stack(np.meshgrid(*line, indexing="ij"), axis=-1).reshape(-1, 3)
+    count = FINE if pattern.cells == 1 else 24 * pattern.cells
+    sides = pattern.lattice()[0] if isinstance(pattern, Polyhedra) else np.ones(3)
+    shape = tuple(np.round(count * sides).astype(int).tolist())  # voxels are cubes, but for this rounding
+    lines = [(np.arange(n) + among) / n * side for n, among, side in zip(shape, AMONG, sides, strict=True)]
+    points = np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1).reshape(-1, 3)
     if isinstance(pattern, Bars):
         away = distance_to_bars(pattern, points * pattern.cells)
     else:
         away = pattern.distance(points)
         away = np.abs(away) if isinstance(pattern, Surfaces) else away
-    return (away <= np.quantile(away, DENSITY)).reshape(count, count, count)
+    return (away <= np.quantile(away, DENSITY)).reshape(shape)
 
 
 def distance_to_bars(pattern: Bars, points: np.ndarray) -> np.ndarray:
@@ -93,25 +95,34 @@ def shown(name: str, solid: Surface) -> None:
     picture.quantize(32).save(FOLDER / f"{name}.png", optimize=True)
 
 
+def entry(name: str, kind: Cellular | type[Pattern]) -> tuple[str, str]:
+    """Return the row and the section of a pattern, and write its picture."""
+    result = fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=DENSITY, wall=WALL)
+    shown(name, result.surface)
+    sizes, voids = result.report["infill"], result.report["voids"]["count"]
+    found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
+    columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found, kind)]
+    columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
+    own = [each for each in parameters(type(kind) if isinstance(kind, Cellular) else kind) if each not in GIVEN]
+    options = f" Its own parameters: {', '.join(f'`--set {each}`' for each in own)}." if own else ""
+    picture = f"![{name}](pictures/gallery/{name}.png)"
+    section = f"## {name}\n\n{kind.summary[0].upper()}{kind.summary[1:]}.{options}\n\n{picture}\n"
+    return f"| {' | '.join(columns)} |", section
+
+
 def main() -> None:
     """Fill a cube with every pattern, and write the page."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    cube = trimesh.creation.box((SIDE, SIDE, SIDE))
-    kinds: dict[str, Any] = {**CELLULAR, **{name: kind for name, kind in PATTERNS.built_in.items() if kind.prismatic}}
+    kinds: dict[str, Cellular | type[Pattern]] = {
+        **CELLULAR,
+        **{name: kind for name, kind in PATTERNS.built_in.items() if kind.prismatic},
+    }
     rows, sections = [], []
     for name, kind in kinds.items():
-        result = fill(cube, name, density=DENSITY, wall=WALL)
-        shown(name, result.surface)
-        sizes, voids = result.report["infill"], result.report["voids"]["count"]
-        found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
-        columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found, kind)]
-        columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
-        rows.append(f"| {' | '.join(columns)} |")
-        own = [each for each in parameters(type(kind) if isinstance(kind, Cellular) else kind) if each not in GIVEN]
-        options = f" Its own parameters: {', '.join(f'`--set {each}`' for each in own)}." if own else ""
-        picture = f"![{name}](pictures/gallery/{name}.png)"
-        sections.append(f"## {name}\n\n{kind.summary[0].upper()}{kind.summary[1:]}.{options}\n\n{picture}\n")
-        print(rows[-1], flush=True)
+        row, section = entry(name, kind)
+        rows.append(row)
+        sections.append(section)
+        print(row, flush=True)
     head = INTRODUCTION.format(side=SIDE, density=DENSITY, fine=FINE)
     PAGE.write_text(head + "\n".join(rows) + "\n\n" + "\n".join(sections), encoding="utf-8")
 

@@ -15,28 +15,34 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from patterns.catalogue import PATTERNS
+    from patterns.cross import Cross
     from patterns.declared import Parameter, check_parameters, parameter, parameter_values, parameters
     from patterns.errors import PatternError, PatternUsageError
     from patterns.heart import ConcentricHeart
+    from patterns.hilbert import Hilbert
     from patterns.honeycomb import Honeycomb
     from patterns.octagons import Octagons
     from patterns.protocol import LevelSet, Pattern, gives, lacking
     from patterns.registry import PatternWarning, Registry
     from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+    from patterns.spirals import ArchimedeanChords, OctagramSpiral
     from patterns.straight import Grid, Rectilinear, Triangles, TriHexagon
     from patterns.voronoi import Voronoi
     from patterns.zigzag import Zigzag
 
 _HOMES = {
     "catalogue": ("PATTERNS",),
+    "cross": ("Cross",),
     "declared": ("Parameter", "check_parameters", "parameter", "parameter_values", "parameters"),
     "errors": ("PatternError", "PatternUsageError"),
     "heart": ("ConcentricHeart",),
+    "hilbert": ("Hilbert",),
     "honeycomb": ("Honeycomb",),
     "octagons": ("Octagons",),
     "protocol": ("LevelSet", "Pattern", "gives", "lacking"),
     "registry": ("PatternWarning", "Registry"),
     "shared": ("angle_parameter", "cell_parameter", "frame_parameter", "phase_parameter"),
+    "spirals": ("ArchimedeanChords", "OctagramSpiral"),
     "straight": ("Grid", "Rectilinear", "Triangles", "TriHexagon"),
     "voronoi": ("Voronoi",),
     "zigzag": ("Zigzag",),
@@ -45,11 +51,15 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 __all__ = [
     "PATTERNS",
+    "ArchimedeanChords",
     "ConcentricHeart",
+    "Cross",
     "Grid",
+    "Hilbert",
     "Honeycomb",
     "LevelSet",
     "Octagons",
+    "OctagramSpiral",
     "Parameter",
     "Pattern",
     "PatternError",

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from patterns.cross import Cross
 from patterns.heart import ConcentricHeart
+from patterns.hilbert import Hilbert
 from patterns.honeycomb import Honeycomb
 from patterns.octagons import Octagons
 from patterns.registry import Registry
+from patterns.spirals import ArchimedeanChords, OctagramSpiral
 from patterns.straight import Grid, Rectilinear, Triangles, TriHexagon
 from patterns.voronoi import Voronoi
 from patterns.zigzag import Zigzag
@@ -20,6 +23,10 @@ PATTERNS = Registry(
         Triangles,
         TriHexagon,
         Octagons,
+        Hilbert,
+        Cross,
+        ArchimedeanChords,
+        OctagramSpiral,
         Voronoi,
     )
 )

@@ -13,11 +13,13 @@ class _Catalogue(Mapping[str, Cellular]):
     """Patterns in space by name."""
 
     def _all(self) -> dict[str, Cellular]:
+        from patterns.hatch import CROSS_HATCH
+        from patterns.honeycombs import HONEYCOMBS
         from patterns.planes import PLANES
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        return {each.name: each for each in (*TPMS, *PLANES, *NETWORKS, *STRUTS)}
+        return {each.name: each for each in (*TPMS, CROSS_HATCH, *PLANES, *HONEYCOMBS, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> Cellular:
         return self._all()[name]

@@ -1,6 +1,6 @@
 """Patterns that repeat in space: walls along a minimal surface or planes, one side of it, or bars along edges.
 
-Both are given for one unit cell, of side 1, that repeats along x, y and z; whoever fills a part scales and turns it.
+They are given for one unit cell, of side 1, that repeats along x, y and z; whoever fills a part scales and turns it.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
+
+from patterns.polyhedra import Polyhedra
 
 if TYPE_CHECKING:
     import numpy as np
@@ -302,4 +304,4 @@ class Planes:
         return away, np.floor(at).astype(np.int64)
 
 
-Cellular = Surfaces | Planes | Network | Bars
+Cellular = Surfaces | Planes | Polyhedra | Network | Bars

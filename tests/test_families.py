@@ -17,11 +17,11 @@ from infill import ParameterError
 from infill.filling.families.catalogue import FAMILIES
 from infill.filling.families.grid import TURN as HALF_RIGHT
 from infill.filling.families.heart import ConcentricHeart
-from infill.filling.families.hilbert import numbers
 from infill.filling.families.honeycomb import Honeycomb
 from infill.filling.families.level_sets import Gyroid, SchwarzD, SchwarzP
 from infill.filling.families.protocol import TOUCH, Family, Path, RegionFamily
 from infill.filling.families.waves import BOND
+from patterns.hilbert import numbers
 
 WIDTH = 0.45
 GAP = TOUCH * WIDTH

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 import slicers
 import trimesh
 from made_shapes import ball, box, less, rod, together, turned, union
@@ -32,6 +33,8 @@ from infill.surfaces.winding import winding
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
+from patterns.honeycombs import LateralHoneycomb
+from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -92,6 +95,8 @@ def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     period = np.array([1, -2, 1]) * 6.0 * kind.cells
     if isinstance(kind, Planes):
         period = period @ np.array(kind.upright)
+    if isinstance(kind, Polyhedra):
+        period = period * kind.lattice()[0]
     other = fill(block, name, phase=tuple(period.tolist()), **given).surface
     assert other.volume == pytest.approx(one.volume, rel=1e-5)
     assert len(other.faces) == pytest.approx(len(one.faces), rel=0.01)
@@ -129,6 +134,23 @@ def test_distances_to_a_surface_are_those_to_its_mesh(name: str) -> None:
     assert np.quantile(off, 0.99) < 2e-3
     assert off.max() < 0.02  # where another sheet is nearer than the one that is found
     assert (np.sign(found) == np.sign(pattern.value(*(2 * np.pi * points.T))))[exact > 1e-3].all()
+
+
+def test_cross_hatch_is_upright_at_half_of_all_heights_and_turned_half_a_period_up() -> None:
+    pattern = CELLULAR["cross-hatch"]
+    assert isinstance(pattern, Surfaces)
+    x, y, z = np.random.default_rng(4).uniform(0, 2 * np.pi, (3, 1000))
+    assert pattern.value(x, y, z + np.pi) == pytest.approx(pattern.value(y, x, z), abs=1e-12)
+    # Planes x = 1/4 and 3/4 of a cell, at the height 0; and within what 5 % of the weight moves them, up to an eighth.
+    for height, off in ((0.0, 1e-12), (0.12, np.arcsin(0.05 / 0.95) / (2 * np.pi))):
+        line = np.linspace(0, 2 * np.pi, 100)
+        for place, sign in ((0.25 - off, 1), (0.25 + off, -1), (0.75 - off, -1), (0.75 + off, 1)):
+            assert (
+                sign * pattern.value(2 * np.pi * place + 0 * line, line, 2 * np.pi * height + 0 * line) > -1e-9
+            ).all()
+    # Both voids hang together: one is the other, half a cell along.
+    assert pattern.value(x + np.pi, y + np.pi, z) == pytest.approx(-pattern.value(x, y, z), abs=1e-12)
+    assert fill(box(16, 16, 16), "cross-hatch", cell=7, line_width=0.6, wall=1, voxel=0.4).report["voids"]["count"] == 2
 
 
 @pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Bars)])
@@ -183,6 +205,74 @@ def test_every_point_is_in_one_class_of_cells_and_no_two_of_a_class_touch(name: 
         pairs = np.unique(np.stack([pieces.ravel()[within], cells[within]]), axis=1)
         assert count >= len(np.unique(cells[within])) == pairs.shape[1] > 0
         assert len(np.unique(pairs[0])) == pairs.shape[1]
+
+
+POLYHEDRA = {name: each for name, each in CELLULAR.items() if isinstance(each, Polyhedra)}
+POLYHEDRA |= {"regular": LateralHoneycomb(overhang=60.0)}
+
+
+@pytest.mark.parametrize("name", POLYHEDRA)
+def test_polyhedra_fill_space_and_no_two_of_a_class_touch(name: str) -> None:
+    """Not even at a corner: polyhedra of a class that are grown by 0.02 still have no point in common."""
+    pattern = POLYHEDRA[name]
+    (normals, halves), (period, middles) = pattern.faces(), pattern.lattice()
+    assert np.linalg.norm(normals, axis=1) == pytest.approx(1)
+    points = np.random.default_rng(2).random((8000, 3)) * period
+    depths = np.array([pattern.depth(points, which) for which in range(pattern.classes)])
+    assert ((depths > 0).sum(axis=0) == 1).all()
+    assert (depths.max(axis=0) == pattern.distance(points)).all()
+    # As many are in every class, and as large: within three times what chance does.
+    assert np.mean(depths > 0, axis=1) == pytest.approx(1 / pattern.classes, abs=0.016)
+    shifts = np.stack(np.meshgrid(*[np.arange(-1, 2)] * 3), axis=-1).reshape(-1, 1, 3) * period
+    shifts = np.unique(
+        np.where(np.abs(normals).max(axis=0) > 0, shifts, 0), axis=0
+    )  # a tube shifted along it is itself
+    for each, deep in zip(middles, depths, strict=True):
+        copies = (each + shifts).reshape(-1, 3)
+        away = np.array([(halves - np.abs((points - middle) @ normals.T)).min(axis=1) for middle in copies])
+        assert ((away > -0.02).sum(axis=0) <= 1).all()
+        assert ((away > 0).any(axis=0) == (deep > 0)).all()
+
+
+def test_the_cells_of_honeycomb_3d_are_those_of_voronoi_around_a_body_centred_lattice() -> None:
+    points = np.random.default_rng(5).random((3000, 3))
+    whole = np.stack(np.meshgrid(*[np.arange(-2.0, 4.0)] * 3), axis=-1).reshape(-1, 3)
+    seeds = np.concatenate([whole, whole + 0.5])
+    squared = ((points[:, None] - seeds) ** 2).sum(axis=2)
+    nearest = squared.argmin(axis=1)
+    apart = np.linalg.norm(seeds[None] - seeds[nearest][:, None], axis=2)
+    apart[apart == 0] = np.inf
+    exact = ((squared - squared.min(axis=1)[:, None]) / (2 * apart) + np.where(np.isinf(apart), np.inf, 0)).min(axis=1)
+    assert CELLULAR["honeycomb-3d"].distance(points) == pytest.approx(exact, abs=1e-12)
+
+
+@pytest.mark.parametrize("overhang", [30.0, 45.0, 60.0, 75.0])
+def test_the_walls_of_the_lateral_honeycomb_lean_as_asked(overhang: float) -> None:
+    """By hexagons drawn anew, corner by corner, their six sides as long as one another."""
+    lean = np.radians(overhang)
+    side, rise = 0.5 / np.sin(lean), 0.5 / np.tan(lean)
+    right = np.array([(0, -side / 2 - rise), (0.5, -side / 2), (0.5, side / 2), (0, side / 2 + rise)])
+    hexagon = np.concatenate([right, right[2:0:-1] * (-1, 1), right[:1]])
+    assert np.linalg.norm(np.diff(hexagon, axis=0), axis=1) == pytest.approx(side)
+    rows = np.array([(m + n / 2, n * (side + rise)) for m in range(-6, 7) for n in range(-5, 6)])
+    walls = shapely.MultiLineString(list(hexagon + rows[:, None]))
+    points = np.random.default_rng(5).random((3000, 3)) * (9.0, 2.0, 2.0)
+    exact = shapely.distance(shapely.points(points[:, 1:]), walls)
+    assert LateralHoneycomb(overhang=overhang).distance(points) == pytest.approx(exact, abs=1e-12)
+
+
+def test_the_lateral_honeycomb_takes_its_overhang() -> None:
+    given = {"density": 0.2, "cell": 5.0, "voxel": 0.4, "wall": 1.0}
+    block = box(15, 15, 15)
+    one, other = (fill(block, "lateral-honeycomb", overhang=overhang, **given) for overhang in (45.0, 60.0))
+    assert one.report["request"]["parameters"] == {"overhang": 45.0}
+    steep = [
+        mesh.area_faces[mesh.face_normals[:, 2] > np.sin(np.radians(50))].sum() / mesh.area
+        for mesh in (each.stages.voids.to_trimesh() for each in (one, other))
+    ]
+    assert steep[1] > steep[0] + 0.1
+    with pytest.raises(PatternError, match="overhang of lateral-honeycomb is 80 degrees"):
+        fill(block, "lateral-honeycomb", overhang=80.0)
 
 
 @pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Network)])
@@ -246,7 +336,7 @@ def test_a_network_that_would_break_is_refused() -> None:
 
 
 def test_kernels_are_their_definitions() -> None:
-    from infill.kernels.cells import from_bars, from_period, from_plane, from_planes, lower_to_segments
+    from infill.kernels.cells import from_bars, from_period, from_plane, from_planes, from_polyhedra, lower_to_segments
 
     rng = np.random.default_rng(6)
     depth = rng.uniform(-2, 6, (5, 6, 7)).astype(np.float32)
@@ -280,6 +370,14 @@ def test_kernels_are_their_definitions() -> None:
         from_planes(depth, -1.0, slopes, first, apart, which, half, *NONE, out, 0, 1)
         exact = crossing.depth(places.reshape(-1, 3), which).reshape(depth.shape) * period - half
         assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
+    solids = CELLULAR["honeycomb-3d"]
+    assert isinstance(solids, Polyhedra)
+    (normals, halves), (sides, middles) = solids.faces(), solids.lattice()
+    for which in range(solids.classes):
+        placed = (normals, halves * period, sides * period, middles[which] * period)
+        from_polyhedra(depth, -1.0, turn, start, *placed, half, *NONE, out, 0, 1)
+        exact = solids.depth(places.reshape(-1, 3), which).reshape(depth.shape) * period - half
+        assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     plane = rng.uniform(-2, 2, (5, 6)).astype(np.float32)
     from_plane(depth, plane, 0.0, *NONE, out, 0, 1)
     assert (out == np.minimum(plane[:, :, None], depth)).all()
@@ -291,6 +389,9 @@ def test_kernels_are_their_definitions() -> None:
     assert out == pytest.approx(np.minimum(plane[:, :, None] - half * times, depth), abs=1e-5)
     from_bars(depth, -1.0, *binned, turn, start, period, half, ratio, 2.5, out, 0, 1)
     exact = to_edges((places % 1).reshape(-1, 3), binned.edges).reshape(depth.shape) * period - half * times
+    assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
+    from_polyhedra(depth, -1.0, turn, start, *placed, half, ratio, 2.5, out, 0, 1)
+    exact = solids.depth(places.reshape(-1, 3), solids.classes - 1).reshape(depth.shape) * period - half * times
     assert out == pytest.approx(np.where(depth <= -1, depth, np.minimum(exact, depth)), abs=1e-4)
     from_period(depth, -1.0, table, turn, start, period, 1.0, half, ratio, 2.5, out, 0, 1)
     there = map_coordinates(table, (places % 1 * 4).reshape(-1, 3).T, order=1, mode="grid-wrap").reshape(depth.shape)

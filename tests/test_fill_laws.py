@@ -18,6 +18,7 @@ from infill.surfaces.winding import winding
 from patterns import PATTERNS, Pattern
 from patterns.cellular import CELLULAR
 from patterns.declared import parameter
+from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -128,6 +129,16 @@ def in_space(kind: Cellular) -> Cellular:
     if isinstance(kind, Bars):
         edges = tuple((tuple(a), tuple(b)) for a, b in (kind.axes() @ FLIP).tolist())
         return Bars(name="image", summary="", edges=edges, cells=kind.cells)
+    if isinstance(kind, Polyhedra):
+        (normals, halves), (period, middles) = kind.faces(), kind.lattice()
+        return Polyhedra(
+            name="image",
+            summary="",
+            normals=tuple(map(tuple, (normals @ FLIP).tolist())),
+            halves=tuple(halves.tolist()),
+            period=tuple(period.tolist()),
+            middles=tuple(tuple(map(tuple, each)) for each in (middles @ FLIP).tolist()),
+        )
     assert isinstance(kind, Planes)
     normals = kind.families()[0] @ np.array(kind.upright) @ FLIP
     return replace(kind, normals=tuple(map(tuple, normals.tolist())), upright=tuple(map(tuple, np.eye(3).tolist())))

@@ -77,7 +77,7 @@ def plan_of(name: str, size: Any, cell: float) -> Any:
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_the_defaults_keep_every_hole_of_the_stamp(name: str) -> None:
     report = make(name).report
-    if name == "voronoi":  # somewhere a border meets the frame at a sharp angle
+    if name in ("voronoi", "archimedean-chords"):  # somewhere a line meets the frame at a sharp angle
         assert report["changes"].pop("pinholes") <= 3
         assert report["changes"].pop("pinhole_share") < 0.001
     else:

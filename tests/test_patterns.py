@@ -17,8 +17,12 @@ from shapes import DESIGNS, LEVEL_SETS, REGIONS, Ripples
 
 from patterns import (
     PATTERNS,
+    ArchimedeanChords,
     ConcentricHeart,
+    Cross,
+    Hilbert,
     Honeycomb,
+    OctagramSpiral,
     Pattern,
     PatternError,
     PatternWarning,
@@ -384,3 +388,117 @@ def test_numbers_of_numpy_are_numbers() -> None:
 def test_a_bad_angle_is_told_in_degrees(angle: float) -> None:
     with pytest.raises(PatternError, match="from -180 to 180 degrees"):
         Honeycomb(angle=angle)
+
+
+@pytest.mark.parametrize("angle", [0.0, 31.0])
+def test_hilbert_is_one_line_through_every_square(angle: float) -> None:
+    """In a region of whole squares, 1 / cell mm of line a mm^2; and the curve has no end: all parts cross the outline."""
+    cell = 5.0
+    region = shapely.affinity.rotate(box(-16 * cell, -16 * cell, 16 * cell, 16 * cell), angle, origin=(0, 0))
+    lines = shapely.line_merge(Hilbert(cell=cell, angle=angle, frame=False).lines(region))
+    assert lines.is_simple
+    assert shapely.distance(shapely.get_parts(shapely.boundary(lines)), region.exterior).max() < ROUNDING
+    # A square that the line enters and leaves holds a cell of it.
+    assert lines.length == pytest.approx(32 * 32 * cell, rel=1e-9)
+
+
+def test_hilbert_is_the_same_wherever_it_is_looked_at() -> None:
+    pattern = Hilbert(cell=3, angle=17, phase=(0.4, 1.1), frame=False)
+    whole = pattern.lines(box(-40, -40, 60, 60))
+    part = box(11, -23, 37, 5)
+    assert shapely.symmetric_difference(whole.intersection(part), pattern.lines(part)).length < 1e-6
+
+
+@pytest.mark.parametrize("kind", [ArchimedeanChords, OctagramSpiral])
+def test_spirals_are_one_line_that_lies_evenly(kind: type[Pattern]) -> None:
+    """Strips of half a cell to either side of the line cover the plane, and nowhere one another."""
+    cell, middle = 5.0, shapely.Point(2, 3)
+    inner = middle.buffer(50)
+    lines = kind(cell=cell, phase=(2, 3), frame=False).lines(box(-70, -70, 70, 70))
+    line = min(lines.geoms, key=lambda each: each.distance(middle))
+    assert line.distance(middle) < ROUNDING
+    assert line.is_simple
+    assert shapely.intersection(lines, inner).equals(shapely.intersection(line, inner))  # the others are at corners
+    # Sides of stars leave tips uncovered unless strips are mitred; chords depart from arcs by 5e-4 of a cell.
+    near, far = (cell / 2 * (1 + off) for off in (-2e-3, 2e-3))
+    mitred = {"join_style": "mitre", "mitre_limit": 3, "cap_style": "flat"}
+    assert shapely.difference(inner, shapely.buffer(line, far, **mitred)).area < 1e-3 * cell**2
+    # As wide as its own length has it: were strips to overlap, they would cover less.
+    strip = shapely.buffer(line, near, **mitred)
+    assert strip.area == pytest.approx(2 * near * line.length, rel=2e-3)
+
+
+def test_the_round_spiral_is_nearly_that_of_archimedes() -> None:
+    spiral = ArchimedeanChords(cell=1, frame=False).lines(shapely.Point(0, 0).buffer(20))
+    x, y = sample(spiral, 0.01).T
+    radius = np.hypot(x, y)
+    turns = radius + np.arctan2(y, x) / math.pi
+    away = np.abs(turns - np.round(turns))
+    assert 0.14 < away[radius > 1].max() < 0.15
+    assert away[radius > 10].max() < 0.115
+    # It turns nowhere sharper than on a circle a cell wide, by chords of it.
+    corners = shapely.get_coordinates(min(spiral.geoms, key=lambda each: each.distance(shapely.Point(0, 0))))
+    step = np.diff(corners, axis=0)
+    heading, length = np.unwrap(np.arctan2(step[:, 1], step[:, 0])), np.hypot(*step.T)
+    assert (np.abs(np.diff(heading)) / (length[1:] + length[:-1]) * 2).max() < 2.02
+
+
+def wirth(order: int) -> np.ndarray:
+    """Sierpinski's closed curve as Wirth has it, four procedures that call one another, its steps all 1 long."""
+    headings: list[int] = []
+    # What A, B, C and D draw: along the upper side, then the right one, and so on; headings in eighths of a turn.
+    plans = {"A": ("A", -1, "B", 0, "D", 1, "A"), "B": ("B", -3, "C", -2, "A", -1, "B")}
+    plans |= {"C": ("C", 3, "D", 4, "B", -3, "C"), "D": ("D", 1, "A", 2, "C", 3, "D")}
+
+    def draw(name: str, left: int) -> None:
+        if left:
+            for each in plans[name]:
+                draw(each, left - 1) if isinstance(each, str) else headings.append(each)
+
+    for name, corner in (("A", -1), ("B", -3), ("C", 3), ("D", 1)):
+        draw(name, order)
+        headings.append(corner)
+    angle = np.array(headings) * math.pi / 4
+    return np.concatenate([[(0.0, 0.0)], np.cumsum(np.stack([np.cos(angle), np.sin(angle)], axis=-1), axis=0)])
+
+
+def test_cross_is_the_curve_of_sierpinski() -> None:
+    """A block of 2^n nodes holds the curve of order n, but where it goes on to its neighbours: at its corners."""
+    order, pitch = 4, 1 / (math.sqrt(2) - 1)
+    corners = wirth(order)
+    assert corners[-1] == pytest.approx(corners[0], abs=1e-9)
+    corners[-1] = corners[0]
+    assert shapely.LinearRing(corners).is_simple
+    # Node (3, 3) is in the middle of a curve of order 4: counted from where the curve begins, 3 + 0b…0101 = 0b…1000.
+    corners += 3 * pitch - (corners.min(axis=0) + corners.max(axis=0)) / 2
+    half = 2 ** (order - 1) * pitch
+    block = box(*(3 * pitch + side * half for side in (-1, -1, 1, 1)))
+    joints = shapely.MultiPoint(shapely.get_coordinates(block)[:4]).buffer(pitch)
+    inner = block.difference(joints)
+    one, other = (
+        lines.intersection(inner) for lines in (shapely.LineString(corners), Cross(cell=1, frame=False).lines(block))
+    )
+    assert shapely.hausdorff_distance(one, other) < 1e-6
+    assert one.length == pytest.approx(other.length, abs=1e-6)
+    assert 1000 < one.length < 4 * 4**order  # four steps for each node, but at the corners
+
+
+def test_cross_has_no_ends_and_keeps_its_distance() -> None:
+    cell, region = 3.0, box(-100, -90, 110, 120)
+    lines = shapely.line_merge(Cross(cell=cell, angle=10, frame=False).lines(region))
+    assert lines.is_simple
+    assert shapely.distance(shapely.get_parts(shapely.boundary(lines)), region.exterior).max() < ROUNDING
+    # At the edge, of 290 octagons, steps are cut at random.
+    assert lines.length / region.area == pytest.approx(4 * (math.sqrt(2) - 1) ** 2 / cell, rel=0.01)
+    # Walls a little narrower than a cell meet nowhere, or there would be holes between them; wider ones do.
+    holes = [
+        sum(len(each.interiors) for each in shapely.get_parts(lines.buffer(share * cell, quad_segs=32)))
+        for share in (0.49, 0.51)
+    ]
+    assert holes[0] <= 2  # where the edge of the region cuts lines at an angle
+    assert holes[1] > 700
+
+
+def test_cross_ends_where_numbers_do() -> None:
+    with pytest.raises(PatternError, match="give a larger one"):
+        Cross(cell=0.001, phase=(1e4, 0.0)).lines(box(-5e3, 0, -5e3 + 1e-3, 1e-3))

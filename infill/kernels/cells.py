@@ -1,4 +1,4 @@
-"""Distances to a pattern at the centres of cells: from a table of one period, planes, bars, segments in a plane."""
+"""Distances to a pattern at the centres of cells: from a table of one period, planes, polyhedra, bars, lines."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
@@ -178,6 +178,56 @@ def from_planes(depth, least, slopes, start, apart, bits, half, ratio, step, out
                         away = -away
                     nearest = min(nearest, away)
                 value = min(nearest - half * local(ratio, step, i, j, k), deep)
+                out[i, j, k] = value
+                filled += min(1.0, max(0.0, 0.5 + value))
+    return filled
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def from_polyhedra(
+    depth, least, turn, start, normals, halves, period, middles, half, ratio, step, out, thread, threads
+):
+    """Fill `out` with the lesser of the depth and the distance into polyhedra that repeat, in cells.
+
+    Parameters
+    ----------
+    turn : (3, 3) float64
+        From the part to the pattern.
+    start : (3,) float64
+        Of cell (0, 0, 0), in the pattern, in cells.
+    normals, halves : (F, 3), (F,) float64
+        Of the faces in pairs, and how far these are from the middle, in cells.
+    period : (3,) float64
+        In cells.
+    middles : (K, 3) float64
+        In cells; each repeats.
+    depth, least, half, ratio, step, out, thread, threads
+        As in `from_period`.
+    """
+    nx, ny, nz = depth.shape
+    filled = 0.0
+    for i in range(thread, nx, threads):
+        for j in range(ny):
+            for k in range(nz):
+                deep = depth[i, j, k]
+                if deep <= least:
+                    out[i, j, k] = deep
+                    continue
+                x = start[0] + turn[0, 0] * i + turn[0, 1] * j + turn[0, 2] * k
+                y = start[1] + turn[1, 0] * i + turn[1, 1] * j + turn[1, 2] * k
+                z = start[2] + turn[2, 0] * i + turn[2, 1] * j + turn[2, 2] * k
+                inside = -np.inf
+                for m in range(len(middles)):
+                    a, b, c = x - middles[m, 0], y - middles[m, 1], z - middles[m, 2]
+                    a -= period[0] * math.floor(a / period[0] + 0.5)
+                    b -= period[1] * math.floor(b / period[1] + 0.5)
+                    c -= period[2] * math.floor(c / period[2] + 0.5)
+                    nearest = np.inf
+                    for f in range(len(halves)):
+                        away = halves[f] - abs(normals[f, 0] * a + normals[f, 1] * b + normals[f, 2] * c)
+                        nearest = min(nearest, away)
+                    inside = max(inside, nearest)
+                value = min(inside - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

@@ -28,7 +28,7 @@ def kind_of(pattern: object) -> tuple[Kind, str]:
 
     Parameters
     ----------
-    pattern : str, Path, Pattern, Surfaces, Planes, Network, Bars or callable
+    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Network, Bars or callable
         A name; a drawing; "module.py:name"; what such a name stands for: a pattern, or a class of patterns; or a
         function of x, y and z, of one shape, in radians (2 pi is a cell), whose zeros are walls.
 

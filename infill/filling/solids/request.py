@@ -63,7 +63,7 @@ class Request:
     ----------
     pattern : str
         Its name.
-    kind : Surfaces, Planes, Network, Bars, Pattern or class of patterns
+    kind : Surfaces, Planes, Polyhedra, Network, Bars, Pattern or class of patterns
         What the name stands for.
     parameters : mapping
         The pattern's own, by name.

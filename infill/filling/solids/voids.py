@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.space import BAND, Space
 from infill.kernels.threads import in_threads, thread_count
+from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Binned, Cellular, Network, Planes, Surfaces
 
 NODES = 48  # of the table of a period, along each axis
@@ -48,7 +49,7 @@ class Repeating:
 
     Parameters
     ----------
-    pattern : Surfaces, Planes, Network or Bars
+    pattern : Surfaces, Planes, Polyhedra, Network or Bars
     turn : (3, 3) float64
         From the part to the pattern.
     anchor : (3,) float64
@@ -64,14 +65,14 @@ class Repeating:
     grading: Grading | None = None
 
     def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
-        """Two beside a surface, one for each class of cells between planes, one around bars."""
-        if isinstance(self.pattern, Planes):
+        """Two beside a surface, one for each class of closed cells, one around bars."""
+        if isinstance(self.pattern, (Planes, Polyhedra)):
             return self.pattern.classes
         return 1 if self.pattern.bars else 2
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
-        from infill.kernels.cells import from_bars, from_period, from_planes
+        from infill.kernels.cells import from_bars, from_period, from_planes, from_polyhedra
 
         start = self.turn @ (space.origin - self.anchor) / space.size
         period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
@@ -100,6 +101,23 @@ class Repeating:
                 normals @ start / period + offsets,
                 period / np.linalg.norm(normals, axis=1),
                 which,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        elif isinstance(self.pattern, Polyhedra):
+            (normals, halves), (box, middles) = self.pattern.faces(), self.pattern.lattice()
+            filled = in_threads(
+                from_polyhedra,
+                space.depth,
+                -BAND,
+                self.turn,
+                start,
+                normals,
+                halves * period,
+                box * period,
+                middles[which] * period,
                 half,
                 *sizes,
                 out,
@@ -153,6 +171,14 @@ def _samples(pattern: Cellular) -> NDArray[np.floating]:
     if isinstance(pattern, Planes):
         line = (np.arange(NODES) + 0.5) / NODES
         return pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
+    if isinstance(pattern, Polyhedra):
+        from infill.kernels.cells import from_polyhedra
+
+        box, middles = pattern.lattice()
+        deep, found = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
+        every, step = middles.reshape(-1, 3), box / NODES
+        from_polyhedra(deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, every, 0.0, *NONE, found, 0, 1)
+        return found.ravel()
     if not isinstance(pattern, Bars):
         return np.abs(_period(pattern)).ravel()
     from infill.kernels.cells import from_bars

@@ -1,0 +1,88 @@
+"""Cross: Sierpinski's curve, one line around a tree of crosses, the same wherever it is looked at."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from patterns.errors import PatternError
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+    from shapely import MultiLineString, MultiPolygon, Polygon
+
+ORDER = 24
+ORIGIN = (2**ORDER - 1) // 3  # of 2^ORDER nodes a side: 0101… in binary, where large crosses never meet
+SIDE = math.sqrt(2) - 1  # of an octagon as wide as the distance between nodes
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cross(Pattern):
+    """Sierpinski's curve of order 24 in a frame, with all its steps `cell` long.
+
+    It runs along regular octagons with squares between them: along the upright and level sides of those inside a cross,
+    and the slanted sides of the others. Neighbouring lines are at least `cell` apart. There are
+    4 (sqrt(2) - 1)^2 / `cell` mm of line per square millimetre: 0.69 / `cell`.
+
+    Source: Sierpinski, "Sur une nouvelle courbe continue qui remplit toute une aire plane", Bull. Acad. Sci.
+    Cracovie A (1912) 462-478; as drawn by Wirth, Algorithms + Data Structures = Programs (1976), section 3.3.
+    """
+
+    name: ClassVar[str] = "cross"
+    summary: ClassVar[str] = "one line around a tree of crosses: soft in every direction"
+
+    cell: float = cell_parameter(4.0)
+    angle: float = angle_parameter()
+    phase: tuple[float, float] = phase_parameter()
+    frame: bool = frame_parameter(default=True)
+
+    def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:  # noqa: ARG002 - prismatic
+        """Return the parts of the curve in the region, and the frame."""
+        import numpy as np
+        import shapely
+
+        from patterns.linework import clip, framed, turn
+
+        pitch = self.cell / SIDE
+        corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / pitch
+        low, high = np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0))
+        if max(-low.min(), high.max()) > ORIGIN:
+            raise PatternError(f"the cell is {self.cell:g} mm; the curve reaches {ORIGIN} octagons: give a larger one")
+        parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(steps(low, high))))
+        placed = shapely.transform(parts, lambda ends: turn(ends * pitch, self.angle) + np.array(self.phase))
+        lines = clip(placed, region)
+        return framed(lines, region) if self.frame else lines
+
+    def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
+        """Return the least distance between neighbouring lines, mm."""
+        return self.cell
+
+
+def steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the steps of the curve around the nodes from `low` to `high`, (2,) each: (N, 2, 2), in distances of nodes.
+
+    Notes
+    -----
+    Four curves of one order make one of the next where their corners meet: it is drawn there along the outside of the
+    gap between them, in place of the four corners. A node is such a place if the powers of 2 that divide
+    its numbers are the same. Two of these are never side by side: one of their numbers would be odd in both.
+
+    >>> import numpy as np
+    >>> len(steps(np.array([0.0, 0.0]), np.array([9.0, 9.0])))
+    400
+    """
+    import numpy as np
+
+    axes = [np.arange(first, last + 1).astype(np.int64) for first, last in zip(low, high, strict=True)]
+    node = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 1, 1, 2)
+    power = (node + ORIGIN) & -(node + ORIGIN)
+    met = (power[..., 0] == power[..., 1]).ravel()
+    far, near = 0.5, SIDE / 2
+    upright = np.array([[(x, -near), (x, near)] for x in (-far, far)])
+    straight = np.concatenate([upright, upright[..., ::-1]])
+    slanted = np.array([[(x * far, y * near), (x * near, y * far)] for x in (-1, 1) for y in (-1, 1)])
+    return np.concatenate([(node[met] + straight).reshape(-1, 2, 2), (node[~met] + slanted).reshape(-1, 2, 2)])

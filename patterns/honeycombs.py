@@ -1,0 +1,89 @@
+"""Honeycombs in space: truncated octahedra, and hexagonal tubes that lie on their side."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from patterns.declared import check_parameters, parameter
+from patterns.polyhedra import Polyhedra
+
+if TYPE_CHECKING:
+    from patterns.polyhedra import Floats
+
+SLANTED = 1 / math.sqrt(3)
+
+# In half cells, the middles are the points whose numbers are all even, or all odd: a body-centred lattice. Of two that
+# touch, the sums of these numbers differ by 1, 2 or 3.
+HONEYCOMB_3D = Polyhedra(
+    name="honeycomb-3d",
+    summary="truncated octahedra: closed cells, about as stiff in every direction",
+    normals=(
+        (1.0, 0.0, 0.0),
+        (0.0, 1.0, 0.0),
+        (0.0, 0.0, 1.0),
+        (SLANTED, SLANTED, SLANTED),
+        (SLANTED, SLANTED, -SLANTED),
+        (SLANTED, -SLANTED, SLANTED),
+        (-SLANTED, SLANTED, SLANTED),
+    ),
+    halves=(0.5, 0.5, 0.5, *(0.75 * SLANTED,) * 4),  # |x| + |y| + |z| <= 3/4
+    period=(2.0, 2.0, 2.0),
+    middles=tuple(
+        tuple(
+            (x / 2, y / 2, z / 2)
+            for x, y, z in itertools.product(range(4), repeat=3)
+            if x % 2 == y % 2 == z % 2 and (x + y + z) % 4 == which
+        )
+        for which in range(4)
+    ),
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class LateralHoneycomb(Polyhedra):
+    """Hexagonal tubes along x, one upon another; `cell` is the distance between upright walls.
+
+    All walls of a tube are as wide; those between upright ones lean by `overhang`, and hexagons are regular where
+    that is 60.
+    """
+
+    name: str = "lateral-honeycomb"
+    summary: str = "hexagonal tubes on their side, along x; leaning walls print without support"
+    overhang: float = parameter(
+        45.0, "how far walls lean from upright; 60 makes hexagons regular", unit="deg", low=30.0, high=75.0
+    )
+
+    def __post_init__(self) -> None:
+        """Check the parameters."""
+        check_parameters(self)
+
+    def faces(self) -> tuple[Floats, Floats]:
+        """See `Polyhedra`."""
+        import numpy as np
+
+        wide, rise = self._wall()
+        leaning = math.radians(self.overhang)
+        across, up = math.cos(leaning), math.sin(leaning)
+        normals = np.array([(0.0, 1.0, 0.0), (0.0, across, up), (0.0, -across, up)])
+        half = up * (wide / 2 + rise)
+        return normals, np.array([0.5, half, half])
+
+    def lattice(self) -> tuple[Floats, Floats]:
+        """See `Polyhedra`: every third tube of a row is of one class."""
+        import numpy as np
+
+        pitch = sum(self._wall())
+        middles = [[(0.0, which, 0.0), (0.0, which + 1.5, pitch)] for which in range(3)]
+        return np.array([1.0, 3.0, 2 * pitch]), np.array(middles, dtype=np.float64)
+
+    def _wall(self) -> tuple[float, float]:
+        """Return how wide a wall is, and how high a leaning one rises, in cells."""
+        leaning = math.radians(self.overhang)
+        return 0.5 / math.sin(leaning), 0.5 / math.tan(leaning)
+
+
+LATERAL_HONEYCOMB = LateralHoneycomb()
+HONEYCOMBS = (HONEYCOMB_3D, LATERAL_HONEYCOMB)

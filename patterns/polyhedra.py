@@ -1,0 +1,89 @@
+"""Walls around closed cells that are all alike, and fill space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Floats = NDArray[np.float64]
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polyhedra:
+    """Walls around shifted copies of one polyhedron, whose faces are parallel in pairs.
+
+    Parameters
+    ----------
+    name, summary : str
+    normals : tuple of (x, y, z)
+        Of length 1, one for each pair of faces.
+    halves : tuple of float
+        How far the faces of each pair are from the middle, in cells.
+    period : (x, y, z)
+        The sides of a box that repeats, in cells; a polyhedron fits into it.
+    middles : tuple of tuple of (x, y, z)
+        Of the polyhedra of each class in the box, as many in every class, in cells. Polyhedra of one class do not
+        touch, not even at a corner.
+    """
+
+    bars: ClassVar[bool] = False
+    cells: ClassVar[int] = 1
+
+    name: str
+    summary: str
+    normals: tuple[Vector, ...] = ()
+    halves: tuple[float, ...] = ()
+    period: Vector = (1.0, 1.0, 1.0)
+    middles: tuple[tuple[Vector, ...], ...] = ()
+
+    @property
+    def classes(self) -> int:
+        """How many classes of cells there are."""
+        return len(self.lattice()[1])
+
+    def faces(self) -> tuple[Floats, Floats]:
+        """Return the normals (F, 3), and how far the faces are from the middle (F,), in cells."""
+        import numpy as np
+
+        return np.array(self.normals, dtype=np.float64), np.array(self.halves, dtype=np.float64)
+
+    def lattice(self) -> tuple[Floats, Floats]:
+        """Return the period (3,), and the middles of each class (C, K, 3), in cells."""
+        import numpy as np
+
+        return np.array(self.period, dtype=np.float64), np.array(self.middles, dtype=np.float64)
+
+    def distance(self, points: Floats) -> Floats:
+        """Return how far points (N, 3), in cells, lie from the nearest wall: (N,), in cells.
+
+        >>> from patterns.honeycombs import HONEYCOMB_3D
+        >>> import numpy as np
+        >>> HONEYCOMB_3D.distance(np.array([[0.0, 0.0, 0.0], [0.5, 0.1, 0.0]])).round(3).tolist()
+        [0.433, 0.0]
+        """
+        import numpy as np
+
+        found: Floats = np.max([self.depth(points, which) for which in range(self.classes)], axis=0)
+        return found
+
+    def depth(self, points: Floats, which: int) -> Floats:
+        """Return how deep points (N, 3), in cells, lie in the polyhedra of a class: (N,) in cells, below 0 outside.
+
+        Outside, a point may be further away than this.
+        """
+        import numpy as np
+
+        points = np.asarray(points, dtype=np.float64)
+        (normals, halves), (period, middles) = self.faces(), self.lattice()
+        found = np.full(len(points), -np.inf)
+        for middle in middles[which]:
+            beside = points - middle
+            beside = beside - period * np.floor(beside / period + 0.5)
+            found = np.maximum(found, (halves - np.abs(beside @ normals.T)).min(axis=1))
+        return found
