@@ -24,6 +24,7 @@ DONE = {
     "parted": "components that touch taken apart",
     "united": "components that overlap united",
 }
+ENDS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
 def fill(
@@ -181,6 +182,16 @@ def fill(
             rich_help_panel=SOLID,
         ),
     ] = None,
+    open_: Annotated[
+        Literal["top", "bottom", "both"] | None,
+        typer.Option(
+            "--open",
+            metavar="top|bottom|both",
+            help="Leave the shell out at the flat top or bottom of the part, or both: voids are open there. "
+            "(default: closed)",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
     smooth_radius: Annotated[
         float | None,
         typer.Option(
@@ -280,6 +291,7 @@ def fill(
         "phase": phase,
         "seed": seed,
         "drain": drain,
+        "open": open_,
         "smooth_radius": smooth_radius,
         "overlap": overlap,
         "tolerance": tolerance,
@@ -335,11 +347,15 @@ def fill(
 
 
 def _drained(report: FillReport) -> str:
-    closed, drains = len(report["voids"]["closed"]), report["drains"]["count"]
-    if not drains:
+    closed, drains, side = len(report["voids"]["closed"]), report["drains"]["count"], report["request"]["open"]
+    if not (drains or side):
         return "closed: nothing drains from them"
-    left = f"; {closed:,} still closed" if closed else ""
-    return f"{drains:,} drain(s) of {report['request']['drain']:g} mm{left}"
+    said = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
+    if drains:
+        said.append(f"{drains:,} drain(s) of {report['request']['drain']:g} mm")
+    if closed:
+        said.append(f"{closed:,} still closed" if drains else f"{closed:,} closed")
+    return "; ".join(said)
 
 
 def _writer(
@@ -384,6 +400,8 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
     skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
     if report["drains"]["count"]:
         skin += ", but for the drains"
+    if request["open"]:
+        skin += f", but for the open {ENDS[request['open']]}"
     graded = report["graded"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",

@@ -114,7 +114,7 @@ class Grading:
 def _inside(space: Space, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which points, in cells, lie inside the walls; all, if the part is too thin for any of them to."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
-    inside = space.depth[at] > 0
+    inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 

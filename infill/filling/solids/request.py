@@ -16,6 +16,7 @@ from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.naming import Kind, kind_of
+from infill.filling.solids.opening import Open
 from infill.filling.solids.voids import Repeating, Voids
 from infill.formats.assignments import Source, assignments, merged, values
 from patterns.cellular import CELLULAR
@@ -50,6 +51,7 @@ FIFTH = 0.2
 FEWEST, MOST = 1e6, 25e6
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
+ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
 # Curvature rounds a right angle to a radius R in the time (0.7386 R)² / 2: the self-similar solution of curve
 # shortening that begins as a right angle has the curvature 0.7386 / sqrt(2 t) at its tip.
 RIGHT_ANGLE = 0.7386
@@ -77,6 +79,8 @@ class Request:
         mm
     drain : float or None
         Diameter of a hole for each void, mm.
+    open_ : {"top", "bottom", "both"} or None
+        Sides of the part without a wall.
     smooth_radius : float or None
         mm; None for the default, which small parts have smaller.
     angle : float
@@ -108,6 +112,12 @@ class Request:
     voxel: float | None
     max_triangles: int | None
     grading: Grading | None = None
+    open_: Open | None = None
+
+    @property
+    def beyond(self) -> float:
+        """How far an open side is moved out for the voids, besides some cells of the grid, mm."""
+        return ROUNDED * (RADIUS if self.smooth_radius is None else self.smooth_radius)
 
     @property
     def default_width(self) -> float:
@@ -176,6 +186,7 @@ class Request:
             "form": self.form,
             "overlap": self.overlap,
             "drain": self.drain,
+            "open": self.open_,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
             "voxel": self.voxel,
@@ -207,6 +218,7 @@ def checked(
     tolerance: float,
     voxel: float | None,
     max_triangles: int | None,
+    open_: str | None = None,
 ) -> Request:
     """Return a request whose numbers are in range, with what follows from others left open."""
     if density is not None and cell is not None and line_width is not None:
@@ -217,6 +229,13 @@ def checked(
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
     if drain is not None and form != "solid":
         raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
+    if open_ is not None and open_ not in get_args(Open):
+        raise UsageError(f"open is {open_!r}; choose from {', '.join(get_args(Open))}")
+    if open_ is not None and form == "project":
+        raise UsageError(
+            f"open is {open_!r}, and as is 'project', whose shell is the slicer's; leave open out, and let the slicer "
+            "make no top or bottom layers"
+        )
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
     shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
@@ -253,6 +272,7 @@ def checked(
         voxel=None if voxel is None else positive("voxel", voxel, "mm"),
         max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
         grading=grading,
+        open_=open_,  # type: ignore[arg-type]
     )
 
 
