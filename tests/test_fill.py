@@ -486,6 +486,51 @@ def test_a_void_that_stays_closed_is_told() -> None:
     assert any("still closed" in each for each in report["problems"])
 
 
+# --- bodies ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "cubic", "honeycomb", "concentric-heart"])
+def test_equal_bodies_are_filled_alike(pattern: str) -> None:
+    """Whole cells of the grid apart, so that not even that tells them apart; the third is another size."""
+    shapes = [box(16, 14, 12), box(16, 14, 12, (20, 3.5, 0)), box(10, 10, 12, (-17, 2, 0))]
+    width = 1.6 if pattern == BAR else 0.9
+    given = {"cell": 6.3, "line_width": width, "voxel": 0.5, "wall": 1.0, "tolerance": 0, "phase": (0.7, 0, 0)}
+    alone = fill(shapes[0], pattern, align="part", smooth_radius=0, **given).stages.voids
+    result = fill(together(*shapes), pattern, align="body", smooth_radius=0, **given)
+    assert result.report["problems"] == []
+    assert result.report["request"]["align"] == "body"
+    voids = result.stages.voids.to_trimesh().split(only_watertight=False)
+    in_x = [each.bounds.mean(axis=0)[0] for each in voids]
+    one = trimesh.util.concatenate([each for each, x in zip(voids, in_x, strict=True) if -9 < x < 9])
+    two = trimesh.util.concatenate([each for each, x in zip(voids, in_x, strict=True) if x > 11])
+    assert two.volume == pytest.approx(one.volume, rel=1e-3)
+    moved = surface(two.apply_translation((-20, -3.5, 0)))
+    assert Tree.of(surface(one)).nearest(moved.vertices)[0].max() < 0.05
+    # As if it were the only one.
+    assert Tree.of(alone).nearest(np.asarray(one.vertices))[0].max() < 0.05
+    apart = (
+        fill(together(*shapes), pattern, smooth_radius=0, **given)
+        .stages.voids.to_trimesh()
+        .split(only_watertight=False)
+    )
+    other = trimesh.util.concatenate([each for each in apart if each.bounds.mean(axis=0)[0] > 11])
+    assert Tree.of(surface(other)).nearest(moved.vertices + np.array([20, 3.5, 0]))[0].max() > 0.5
+
+
+@pytest.mark.parametrize("more", [{"density": (0.2, 0.4), "by": "x"}, {"as_": "project"}, {"open_": "top"}])
+def test_bodies_keep_all_other_promises(more: dict[str, Any]) -> None:
+    """Also one in a cavity of another, and two that touch."""
+    near = 20.0 if "as_" not in more else 21.0  # a slicer has no use for two infills that touch
+    nested = together(less(box(30, 24, 20), box(18, 14, 12)), box(12, 10, 9), box(10, 24, 20, (near, 0, 0)))
+    result = fill(nested, "gyroid", align="body", **({"voxel": 0.5, "wall": 1.2, "density": 0.3} | more))
+    assert result.report["problems"] == []
+    assert result.report["part"]["components"] == 4
+    assert result.report["mesh"]["manifold"] == FINE
+    one = fill(box(20, 14, 12), "gyroid", align="body", **FEW).surface
+    same = fill(box(20, 14, 12), "gyroid", align="part", **FEW).surface
+    assert one.volume == pytest.approx(same.volume, rel=1e-4)
+
+
 # --- open sides --------------------------------------------------------------------------------------------------------
 
 STEPPED = union(box(24, 20, 10), box(14, 20, 9, (-5, 0, 6)))  # of two tops, one at 10.5 and one at 5
@@ -657,7 +702,7 @@ def test_a_thin_wall_and_a_void_outside_are_found() -> None:
         ({"pattern": "gyriod"}, PatternError, "did you mean 'gyroid'"),
         ({"waves": 3}, ParameterError, "^gyroid has no parameter 'waves'"),
         ({"pattern": "honeycomb", "waves": 3}, ParameterError, "^honeycomb has no parameter 'waves'"),
-        ({"align": "top"}, UsageError, "^align is 'top'; choose from part, bed"),
+        ({"align": "top"}, UsageError, "^align is 'top'; choose from part, bed, body"),
         ({"as_": "shell"}, UsageError, "^as is 'shell'; choose from solid, infill"),
         ({"phase": (1.0,)}, UsageError, "^phase has 1 numbers"),
         ({"max_triangles": 20}, GeometryError, "^max_triangles is 20, and the skin of the part alone has 12"),

@@ -120,11 +120,12 @@ def fill(
         ),
     ] = None,
     align: Annotated[
-        Literal["part", "bed"],
+        Literal["part", "bed", "body"],
         typer.Option(
-            metavar="part|bed",
+            metavar="part|bed|body",
             show_default=False,
-            help="Where the pattern begins: in the middle of the part, or at x = y = 0 on its bottom. (default: part)",
+            help="Where the pattern begins: in the middle of the part, at x = y = 0 on its bottom, or in the middle of "
+            "each body of several. (default: part)",
             rich_help_panel=PATTERN,
         ),
     ] = "part",

@@ -99,8 +99,9 @@ def fill(
     as_ : {"solid", "infill", "project"}
         Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
         two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
-    align : {"part", "bed"}
-        Where the pattern begins: in the middle of the part, or at x = y = 0 on the bottom of the part.
+    align : {"part", "bed", "body"}
+        Where the pattern begins: in the middle of the part, at x = y = 0 on the bottom of the part, or anew in the
+        middle of each of its components.
     angle : float
         Turns the pattern counter-clockwise about z, degrees.
     phase : (x, y) or (x, y, z)

@@ -37,6 +37,17 @@ class Local:
     mean: float
     shares: NDArray[np.float32]
 
+    def in_box(self, first: NDArray[np.int64], shape: tuple[int, ...]) -> Local:
+        """Return the same at nodes that begin at a cell, for a box of a shape."""
+        from scipy.ndimage import map_coordinates
+
+        lines = [
+            low / self.step + np.arange(np.ceil((n - 1) / self.step) + 1) for low, n in zip(first, shape, strict=True)
+        ]
+        nodes = np.stack(np.meshgrid(*lines, indexing="ij"))
+        ratio, shares = (map_coordinates(each, nodes, order=1, mode="nearest") for each in (self.ratio, self.shares))
+        return replace(self, ratio=ratio, shares=shares)
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Grading:
@@ -71,6 +82,9 @@ class Grading:
 
     def over(self, space: Space, widths: Callable[[float], float]) -> Local:
         """Return the widths of walls in a space; `widths` says which gives a density, in cells of the pattern."""
+        if space.box_of is not None:
+            whole, first = space.box_of
+            return self.over(whole, widths).in_box(first, space.depth.shape)
         space = space.walled or space
         key = (space.depth.shape, space.size, *space.origin.tolist())
         if key not in self.known:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from infill.checks import length, positive, whole, within
 from infill.errors import GeometryError, ParameterError, UsageError
+from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading
@@ -26,7 +27,7 @@ from patterns.protocol import Pattern
 from patterns.unit_cells import Bars, Cellular, Network, Planes
 
 Form = Literal["solid", "infill", "project"]
-Align = Literal["part", "bed"]
+Align = Literal["part", "bed", "body"]
 Size = Literal["cell", "width"]
 
 DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
@@ -87,7 +88,7 @@ class Request:
         Degrees.
     phase : (x, y, z)
         mm
-    align : {"part", "bed"}
+    align : {"part", "bed", "body"}
     form : {"solid", "infill"}
     voxel : float or None
         mm
@@ -290,15 +291,17 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
     if request.align == "bed":
         middle = np.array([0.0, 0.0, float(bounds[0][2])])
-    anchor = middle + request.phase
+    bodies, grading = Bodies() if request.align == "body" else None, request.grading
+    anchor = request.phase + (middle if bodies is None else np.zeros(3))
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
     if isinstance(request.kind, Cellular):
         pattern = cellular_of(request.kind, request)
         if isinstance(pattern, Planes):
             turn = np.array(pattern.upright) @ turn
-        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=request.grading)
-    return Drawn(pattern=pattern_of(request.kind, request), anchor=anchor, threads=threads, grading=request.grading)
+        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
+    lines = pattern_of(request.kind, request)
+    return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
 
 
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:

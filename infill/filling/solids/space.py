@@ -56,6 +56,8 @@ class Space:
         What lies inside the walls, if voids reach through them here.
     opening : Opening or None
         Where the part has no wall: there, `depth` goes on as if the part did.
+    box_of : (Space, (3,) int) or None
+        The space of which it is a box, and the first cell of that.
     """
 
     depth: NDArray[np.float32]
@@ -68,6 +70,7 @@ class Space:
     wall: float
     walled: Space | None = None
     opening: Opening | None = None
+    box_of: tuple[Space, NDArray[np.int64]] | None = None
 
     @property
     def shell(self) -> Surface:
