@@ -41,10 +41,8 @@ class Local:
         """Return the same at nodes that begin at a cell, for a box of a shape."""
         from scipy.ndimage import map_coordinates
 
-        lines = [
-            low / self.step + np.arange(np.ceil((n - 1) / self.step) + 1) for low, n in zip(first, shape, strict=True)
-        ]
-        nodes = np.stack(np.meshgrid(*lines, indexing="ij"))
+        counts = np.ceil((np.array(shape) - 1) / self.step).astype(int) + 1
+        nodes = np.indices(tuple(counts.tolist())) + first.reshape(3, 1, 1, 1) / self.step
         ratio, shares = (map_coordinates(each, nodes, order=1, mode="nearest") for each in (self.ratio, self.shares))
         return replace(self, ratio=ratio, shares=shares)
 

@@ -176,6 +176,7 @@ def hollowed(
                 voxel=voxel,
                 open_=request.open_,
                 beyond=request.beyond,
+                held=request.held,
                 threads=threads,
                 max_memory=max_memory,
             )

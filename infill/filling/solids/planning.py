@@ -23,5 +23,5 @@ def planned_fill(part: Surface, request: Request, *, threads: int | None = None)
         "request": request.facts(),
         "infill": {"cell": cell, "line_width": width},
         "grid": {"shape": list(grid.shape), "spacing": [voxel] * 3, "origin": list(grid.origin), "space": ""},
-        "memory": BYTES_PER_CELL * math.prod(grid.shape),
+        "memory": (BYTES_PER_CELL + request.held) * math.prod(grid.shape),
     }

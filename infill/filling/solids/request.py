@@ -121,6 +121,11 @@ class Request:
         return ROUNDED * (RADIUS if self.smooth_radius is None else self.smooth_radius)
 
     @property
+    def held(self) -> int:
+        """Bytes for each cell of the grid that are needed besides: where bodies are, and how deep in them it lies."""
+        return 5 if self.align == "body" else 0
+
+    @property
     def default_width(self) -> float:
         """Of walls inside, mm: where the density changes, of those of its middle, so that the thinnest are as wide."""
         return (SLICED_WIDTH if self.form == "project" else LINE_WIDTH) / self.thinnest

@@ -139,12 +139,13 @@ def space_inside(
     voxel: float,
     open_: Open | None = None,
     beyond: float = 0.0,
+    held: int = 0,
     threads: int | None = None,
     max_memory: int | None = None,
 ) -> Space:
     """Return the inside of a part, without a wall, mm, along all of its skin but for its open sides.
 
-    Beyond these, the inside goes on for some way, `beyond`, mm.
+    Beyond these, the inside goes on for some way, `beyond`, mm. `held` bytes are needed for each cell besides.
 
     Raises
     ------
@@ -165,7 +166,7 @@ def space_inside(
         raise GeometryError(nowhere)
     grid = grid_of(part, voxel=voxel, further=further)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory(BYTES_PER_CELL * math.prod(grid.shape), max_memory, advice)
+    require_memory((BYTES_PER_CELL + held) * math.prod(grid.shape), max_memory, advice)
     found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
     whole, skin, overlap = _skin(found)
     longer, cells, opening = whole, found.volume, None
