@@ -515,6 +515,7 @@ class FillVoids(TypedDict):
     """What was taken out of it."""
 
     count: int
+    open: int
     volume: float
     triangles: int
     specks: int
@@ -547,6 +548,7 @@ class FillRequest(TypedDict):
     form: str
     overlap: float
     drain: float | None
+    open: str | None
     smooth_radius: float | None
     tolerance: float
     voxel: float | None

@@ -22,13 +22,14 @@ from infill import GeometryError, MemoryLimitError, ParameterError, Surface, Usa
 from infill.filling.solids.drains import falls
 from infill.filling.solids.grading import NONE
 from infill.filling.solids.hollowing import hollowed
+from infill.filling.solids.opening import Opening
 from infill.filling.solids.request import checked, voids_of
 from infill.filling.solids.roots import root
 from infill.filling.solids.telling import least_wall, outside
 from infill.report_keys import FillReport
 from infill.result import Clock
 from infill.surfaces.distance import Tree
-from infill.surfaces.solids import FINE, in_one_place, shortened, status
+from infill.surfaces.solids import FINE, in_one_place, shortened, solid_of, status
 from infill.surfaces.winding import winding
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR
@@ -586,6 +587,197 @@ def test_a_void_that_stays_closed_is_told() -> None:
     assert any("still closed" in each for each in report["problems"])
 
 
+# --- bodies ------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "cubic", "honeycomb", "concentric-heart"])
+def test_equal_bodies_are_filled_alike(pattern: str) -> None:
+    """Whole cells of the grid apart, so that not even that tells them apart; the third is another size."""
+    shapes = [box(16, 14, 12), box(16, 14, 12, (20, 3.5, 0)), box(10, 10, 12, (-17, 2, 0))]
+    width = 1.6 if pattern == BAR else 0.9
+    given = {"cell": 6.3, "line_width": width, "voxel": 0.5, "wall": 1.0, "tolerance": 0, "phase": (0.7, 0, 0)}
+    alone = fill(shapes[0], pattern, align="part", smooth_radius=0, **given).stages.voids
+    result = fill(together(*shapes), pattern, align="body", smooth_radius=0, **given)
+    assert result.report["problems"] == []
+    assert result.report["request"]["align"] == "body"
+    voids = result.stages.voids.to_trimesh().split(only_watertight=False)
+    in_x = [each.bounds.mean(axis=0)[0] for each in voids]
+    one = trimesh.util.concatenate([each for each, x in zip(voids, in_x, strict=True) if -9 < x < 9])
+    two = trimesh.util.concatenate([each for each, x in zip(voids, in_x, strict=True) if x > 11])
+    assert two.volume == pytest.approx(one.volume, rel=1e-3)
+    moved = surface(two.apply_translation((-20, -3.5, 0)))
+    assert Tree.of(surface(one)).nearest(moved.vertices)[0].max() < 0.05
+    # As if it were the only one.
+    assert Tree.of(alone).nearest(np.asarray(one.vertices))[0].max() < 0.05
+    apart = (
+        fill(together(*shapes), pattern, smooth_radius=0, **given)
+        .stages.voids.to_trimesh()
+        .split(only_watertight=False)
+    )
+    other = trimesh.util.concatenate([each for each in apart if each.bounds.mean(axis=0)[0] > 11])
+    assert Tree.of(surface(other)).nearest(moved.vertices + np.array([20, 3.5, 0]))[0].max() > 0.5
+
+
+@pytest.mark.parametrize("more", [{"density": (0.2, 0.4), "by": "x"}, {"as_": "project"}, {"open_": "top"}])
+def test_bodies_keep_all_other_promises(more: dict[str, Any]) -> None:
+    """Also one in a cavity of another, and two that touch."""
+    near = 20.0 if "as_" not in more else 21.0  # a slicer has no use for two infills that touch
+    nested = together(less(box(30, 24, 20), box(18, 14, 12)), box(12, 10, 9), box(10, 24, 20, (near, 0, 0)))
+    result = fill(nested, "gyroid", align="body", **({"voxel": 0.5, "wall": 1.2, "density": 0.3} | more))
+    assert result.report["problems"] == []
+    assert result.report["part"]["components"] == 4
+    assert result.report["mesh"]["manifold"] == FINE
+    one = fill(box(20, 14, 12), "gyroid", align="body", **FEW).surface
+    same = fill(box(20, 14, 12), "gyroid", align="part", **FEW).surface
+    assert one.volume == pytest.approx(same.volume, rel=1e-4)
+
+
+# --- open sides --------------------------------------------------------------------------------------------------------
+
+STEPPED = union(box(24, 20, 10), box(14, 20, 9, (-5, 0, 6)))  # of two tops, one at 10.5 and one at 5
+WAVES = {"cell": 8.0, "line_width": 0.8, "voxel": 0.4, "wall": 1.0}
+
+
+def waves(x: Any, y: Any, z: Any) -> Any:
+    """Sheets like egg boxes: cut level, they leave bowls."""
+    return np.sin(z / 2 - 0.8 * (np.cos(x) + np.cos(y)))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "open_"),
+    [("gyroid", "top"), (BAR, "bottom"), ("honeycomb", "both"), ("cubic", "both"), ("grid", "top")],
+)
+def test_an_open_part_is_one_solid_with_its_own_skin_but_for_the_side(pattern: str, open_: str) -> None:
+    result = fill(STEPPED, pattern, density=0.25, open_=open_)
+    solid, report, opening = result.surface, result.report, result.stages.opening
+    assert report["problems"] == []
+    assert (solid.closed, status(solid)) == (True, FINE)
+    # One piece, and what else there is are voids.
+    shells = solid.to_trimesh().split(only_watertight=False)
+    assert sum(each.volume > 0 for each in shells) == 1
+    assert len(shells) == 1 + len(report["voids"]["closed"]) == 1 + report["voids"]["count"] - report["voids"]["open"]
+    assert report["voids"]["open"] > 0
+    # The skin: every corner of the part, bit for bit, and no face between them but those of the part and of the cuts.
+    corners = set(map(tuple, np.asarray(solid.vertices).tolist()))
+    assert corners.issuperset(map(tuple, STEPPED.vertices.tolist()))
+    assert opening is not None
+    skin = trimesh.sample.sample_surface(opening.shell.to_trimesh(), 3000, seed=2)[0]
+    assert Tree.of(solid).nearest(skin)[0].max() < 1e-9
+    assert Tree.of(result.stages.voids).nearest(skin)[0].min() >= 0.9 * 1.2
+    assert report["bounds"] == pytest.approx(STEPPED.bounds)
+    # Walls and density, by points: the wall is solid, and the density is that of what lies deeper, up to the very side.
+    points = np.random.default_rng(1).uniform(*STEPPED.bounds, (30000, 3))
+    points = points[winding(points, surface(STEPPED)) > 0]
+    away = Tree.of(opening.shell).nearest(points)[0]
+    assert winding(points[away < 0.9 * 1.2], solid).all()
+    deep = points[away > 1.2]
+    assert len(deep) > 5000
+    assert np.mean(winding(deep, solid) > 0) == pytest.approx(0.25, abs=0.02)  # three times what chance does
+    ends = [end for end in (opening.low, opening.high) if np.isfinite(end)]
+    for end in ends:
+        near = deep[np.abs(deep[:, 2] - end) < 0.6]
+        assert np.mean(winding(near, solid) > 0) < 0.7  # no skin
+    assert result.surface.volume == pytest.approx(STEPPED.volume - report["voids"]["volume"], rel=1e-3)
+    assert report["density"] == pytest.approx(1 - report["voids"]["volume"] / report["part"]["inside"])
+
+
+def test_an_open_part_stays_closed_in_a_file(tmp_path: Path) -> None:
+    for pattern in ("honeycomb", "gyroid", "triangles"):
+        result = fill(STEPPED, pattern, open_="both", **FEW)
+        assert not in_one_place(result.surface).any()
+        result.save(tmp_path / f"{pattern}.stl")
+        assert status(read_mesh(tmp_path / f"{pattern}.stl")) == FINE
+
+
+def test_what_hung_on_what_is_cut_off_is_left_out() -> None:
+    result = fill(box(24, 24, 14), waves, open_="top", **WAVES)
+    solid = result.surface.to_trimesh().split(only_watertight=False)
+    assert result.report["voids"]["islands"] >= 2
+    assert sum(each.volume > 0 for each in solid) == 1
+    assert result.report["problems"] == []
+    # Their volume is void.
+    assert result.surface.volume == pytest.approx(24 * 24 * 14 - result.report["voids"]["volume"], rel=1e-3)
+
+
+def test_open_voids_need_no_drain() -> None:
+    upright = fill(STEPPED, "honeycomb", open_="top", drain=1.5, **FEW).report
+    assert upright["problems"] == []
+    assert upright["voids"]["open"] > 0
+    assert upright["drains"]["count"] == upright["voids"]["count"] - upright["voids"]["open"] > 0
+    assert upright["voids"]["closed"] == []
+    every = fill(box(20, 20, 12), "honeycomb", open_="top", drain=1.5, **FEW).report
+    assert every["problems"] == []
+    assert (every["drains"]["count"], every["voids"]["open"]) == (0, every["voids"]["count"])
+
+
+def test_a_part_lower_than_two_walls_may_be_open() -> None:
+    with pytest.raises(GeometryError, match="nowhere thicker"):
+        fill(box(20, 20, 2.2), "grid")
+    tray = fill(box(20, 20, 2.2), "grid", open_="top").report
+    assert tray["problems"] == []
+    assert tray["part"]["inside"] == pytest.approx(17.6 * 17.6, rel=1e-3)
+
+
+@pytest.mark.parametrize("open_", ["top", "both"])
+def test_the_infill_alone_reaches_an_open_side(open_: str) -> None:
+    given = {"cell": 6.0, "line_width": 0.8, "wall": 1.5, "voxel": 0.3, "tolerance": 0, "overlap": 0.4}
+    result = fill(box(20, 20, 12), "gyroid", as_="infill", open_=open_, **given)
+    assert (result.surface.closed, status(result.surface)) == (True, FINE)
+    assert result.report["problems"] == []
+    assert result.surface.bounds[1] == pytest.approx(np.array([8.9, 8.9, 6]), abs=0.03)
+    assert result.surface.bounds[0] == pytest.approx(np.array([-8.9, -8.9, -6 if open_ == "both" else -4.9]), abs=0.03)
+
+
+@pytest.mark.parametrize("by", ["z", "skin"])
+def test_a_density_that_changes_ends_at_an_open_side(by: str) -> None:
+    result = fill(box(20, 20, 20), "gyroid", density=(0.15, 0.35), by=by, open_="top", voxel=0.4, wall=1.0)
+    assert result.report["problems"] == []
+    points = np.random.default_rng(1).uniform(-9, 9, (20000, 3)) + np.array([0, 0, 1])
+    top = points[points[:, 2] > 8.5]
+    # At the very top it is the last density by height; by the depth below the skin it is what it is further down.
+    solid = np.mean(winding(top, result.surface) > 0)
+    if by == "z":
+        assert solid == pytest.approx(0.34, abs=0.05)
+    else:
+        middle = points[np.abs(points[:, 2] - 2) < 3]
+        assert solid == pytest.approx(np.mean(winding(middle, result.surface) > 0), abs=0.05)
+
+
+def test_a_side_that_cannot_be_open_is_one_clear_line(tmp_path: Path) -> None:
+    bar = less(box(20, 20, 12), box(17.8, 17.8, 12, (0, 0, 2)))  # a rim of 1.1 mm
+    with pytest.raises(
+        GeometryError, match="^open is 'top', and the flat top of the part is nowhere wider than two walls"
+    ):
+        fill(bar, "grid", open_="top", wall=0.6)
+    with pytest.raises(
+        GeometryError, match="^open is 'both', and the part has no flat face at its bottom, z = -8 mm; turn"
+    ):
+        fill(ball(8), "gyroid", open_="both")
+    with pytest.raises(UsageError, match="^open is 'side'; choose from top, bottom, both$"):
+        fill(box(9, 9, 9), "gyroid", open_="side")
+    with pytest.raises(UsageError, match="^open is 'top', and as is 'project', whose shell is the slicer's"):
+        fill(box(9, 9, 9), "gyroid", open_="top", as_="project")
+    sealed = fill(box(20, 20, 20), lambda x, y, z: np.sin(z), open_="top", cell=8.0, line_width=2.0, phase=(0, 0, 2))
+    assert any(each.startswith("no void is open at the top") for each in sealed.report["problems"])
+    box(20, 20, 12).export(path := tmp_path / "box.stl")
+    refused = command("fill", path, "--open", "top", "--for", "cura", "-o", tmp_path / "a.3mf")
+    assert (refused.exit_code, refused.stdout) == (2, "")
+    assert "error: --open is 'top', and as is 'project'" in refused.stderr
+    done = command("fill", path, "--open", "both", "--pattern", "grid", "-o", tmp_path / "a.stl")
+    assert done.exit_code == 0
+    assert "but for the open top and bottom" in done.stderr
+    assert "open at the top and bottom" in done.stderr
+
+
+def test_volumes_between_open_sides_are_those_of_cut_solids() -> None:
+    mesh = turned(union(box(9, 7, 8), ball(5)), np.random.default_rng(2))
+    solid = solid_of(surface(mesh))
+    for low, high in ((-2.0, 3.0), (-np.inf, 1.5), (0.5, np.inf), (-np.inf, 0.0)):
+        opening = Opening(name="both", low=low, high=high, shell=surface(mesh))
+        cut = solid.trim_by_plane((0, 0, 1), max(low, -99.0)).trim_by_plane((0, 0, -1), -min(high, 99.0))
+        assert opening.volume(surface(mesh)) == pytest.approx(cut.volume(), rel=1e-9)
+
+
 # --- what is told ------------------------------------------------------------------------------------------------------
 
 
@@ -611,7 +803,7 @@ def test_a_thin_wall_and_a_void_outside_are_found() -> None:
         ({"pattern": "gyriod"}, PatternError, "did you mean 'gyroid'"),
         ({"waves": 3}, ParameterError, "^gyroid has no parameter 'waves'"),
         ({"pattern": "honeycomb", "waves": 3}, ParameterError, "^honeycomb has no parameter 'waves'"),
-        ({"align": "top"}, UsageError, "^align is 'top'; choose from part, bed"),
+        ({"align": "top"}, UsageError, "^align is 'top'; choose from part, bed, body"),
         ({"as_": "shell"}, UsageError, "^as is 'shell'; choose from solid, infill"),
         ({"phase": (1.0,)}, UsageError, "^phase has 1 numbers"),
         ({"max_triangles": 20}, GeometryError, "^max_triangles is 20, and the skin of the part alone has 12"),
@@ -737,6 +929,7 @@ def test_the_page_lists_exactly_the_keys_of_a_fill(part: trimesh.Trimesh) -> Non
         "infill": fill(part, BAR, as_="infill", smooth_radius=0.3, voxel=0.5, density=0.3),
         "graded": fill(part, density=(0.2, 0.4), by="x", voxel=0.5, wall=1.5),
         "project": fill(part, as_="project", voxel=0.5),
+        "open": fill(STEPPED, open_="top", **FEW),
     }
     reports = {name: result.report for name, result in results.items()}
     assert differences(described(text), reports, ("fill",)) == []

@@ -135,6 +135,7 @@ UNREAD = {
     "fill": {
         "--align": "foo",
         "--as": "foo",
+        "--open": "foo",
         "--units": "yard",
         "--max-triangles": "2.5",
         "--for": "foo",
@@ -336,6 +337,7 @@ def test_python_callers_read_the_names_of_their_arguments(folder: Path) -> None:
 def test_the_choices_are_those_of_the_library() -> None:
     from typing import get_args
 
+    from infill.filling.solids.opening import Open
     from infill.filling.solids.request import Align, Form
     from infill.formats.units import UNITS
     from infill.making.request import DEFAULT_CELLS
@@ -348,6 +350,7 @@ def test_the_choices_are_those_of_the_library() -> None:
     assert told["fill", "--as"].split("|") == [*get_args(Form)]
     assert told["fill", "--for"].split("|") == told["check", "--for"].split("|") == [*SLICERS]
     assert told["fill", "--align"].split("|") == [*get_args(Align)]
+    assert told["fill", "--open"].split("|") == [*get_args(Open)]
     assert told["make", "--stamp"].split("|") == [*DEFAULT_CELLS]
     assert set(told["motion", "--model"].split("|")) == {*MODELS}
     from infill.cli import checking, filling, making, smoothing, timing
@@ -359,6 +362,7 @@ def test_the_choices_are_those_of_the_library() -> None:
         (smoothing, "smooth", "units", UNITS),
         (filling, "fill", "kind", get_args(Form)),
         (filling, "fill", "align", get_args(Align)),
+        (filling, "fill", "open_", get_args(Open)),
         (filling, "fill", "slicer", SLICERS),
         (checking, "check", "slicer", SLICERS),
         (timing, "motion", "model", MODELS),

@@ -28,6 +28,7 @@ CALLED = {
     "object": ("part",),
     "as": ("kind",),
     "for": ("slicer",),
+    "open": ("open_",),
     "range": ("between",),
     "smooth": ("method",),
 }

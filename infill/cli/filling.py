@@ -24,6 +24,7 @@ DONE = {
     "parted": "components that touch taken apart",
     "united": "components that overlap united",
 }
+ENDS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
 def fill(
@@ -119,11 +120,12 @@ def fill(
         ),
     ] = None,
     align: Annotated[
-        Literal["part", "bed"],
+        Literal["part", "bed", "body"],
         typer.Option(
-            metavar="part|bed",
+            metavar="part|bed|body",
             show_default=False,
-            help="Where the pattern begins: in the middle of the part, or at x = y = 0 on its bottom. (default: part)",
+            help="Where the pattern begins: in the middle of the part, at x = y = 0 on its bottom, or in the middle of "
+            "each body of several. (default: part)",
             rich_help_panel=PATTERN,
         ),
     ] = "part",
@@ -178,6 +180,16 @@ def fill(
         typer.Option(
             metavar="MM",
             help="Diameter of a hole down from the lowest place of every void, for powder and resin. (default: none)",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
+    open_: Annotated[
+        Literal["top", "bottom", "both"] | None,
+        typer.Option(
+            "--open",
+            metavar="top|bottom|both",
+            help="Leave the shell out at the flat top or bottom of the part, or both: voids are open there. "
+            "(default: closed)",
             rich_help_panel=SOLID,
         ),
     ] = None,
@@ -280,6 +292,7 @@ def fill(
         "phase": phase,
         "seed": seed,
         "drain": drain,
+        "open": open_,
         "smooth_radius": smooth_radius,
         "overlap": overlap,
         "tolerance": tolerance,
@@ -335,11 +348,15 @@ def fill(
 
 
 def _drained(report: FillReport) -> str:
-    closed, drains = len(report["voids"]["closed"]), report["drains"]["count"]
-    if not drains:
+    closed, drains, side = len(report["voids"]["closed"]), report["drains"]["count"], report["request"]["open"]
+    if not (drains or side):
         return "closed: nothing drains from them"
-    left = f"; {closed:,} still closed" if closed else ""
-    return f"{drains:,} drain(s) of {report['request']['drain']:g} mm{left}"
+    said = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
+    if drains:
+        said.append(f"{drains:,} drain(s) of {report['request']['drain']:g} mm")
+    if closed:
+        said.append(f"{closed:,} still closed" if drains else f"{closed:,} closed")
+    return "; ".join(said)
 
 
 def _writer(
@@ -384,6 +401,8 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
     skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
     if report["drains"]["count"]:
         skin += ", but for the drains"
+    if request["open"]:
+        skin += f", but for the open {ENDS[request['open']]}"
     graded = report["graded"]
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",

@@ -12,6 +12,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
+from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import BAND, Space
@@ -42,6 +43,8 @@ class Drawn:
         The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
     threads : int, optional
     grading : Grading, optional
+    bodies : Bodies, optional
+        How it begins anew in each component of the part: the anchor is then that from its middle.
     known : dict
         What lies between the lines, for a space and a cell.
     """
@@ -50,16 +53,25 @@ class Drawn:
     anchor: NDArray[np.float64]
     threads: int | None = None
     grading: Grading | None = None
+    bodies: Bodies | None = None
     known: dict[tuple[Any, ...], _Faces] = field(default_factory=dict)
+
+    def about(self, middle: NDArray[np.float64]) -> Drawn:
+        """See `Anchored`."""
+        return dataclasses.replace(self, anchor=middle + self.anchor, bodies=None, known={})
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
         """As many as colours are needed so that neighbours differ."""
+        if self.bodies is not None:
+            return self.bodies.count(self, space, cell=cell, width=width)
         return len(self._faces(space, cell, width).colours)
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
         from infill.kernels.cells import from_plane
 
+        if self.bodies is not None:
+            return self.bodies.into(self, out, space, which, cell=cell, width=width)
         plane = self._faces(space, cell, width).colours[which]
         half, ratio = width / 2 / space.size, local_widths(self, space)
         threads = thread_count(self.threads)

@@ -22,6 +22,7 @@ SKIN = "skin"
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
 TABLES, ARRAYS = (".csv", ".txt"), (".npy",)
 COLUMNS = 4  # x, y, z and a value
+LEAST_SHARE = 0.5  # of a layer of cells that is part of the part
 MOST_CELLS = 2e6  # in which the distance from the skin is measured
 
 
@@ -53,9 +54,14 @@ class BelowSkin:
         from scipy.ndimage import distance_transform_edt, map_coordinates
 
         every = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
-        inside = space.depth[::every, ::every, ::every] > 0
-        away = distance_transform_edt(np.pad(inside, 1)).astype(np.float32)[1:-1, 1:-1, 1:-1]
-        where = ((points - space.origin) / (space.size * every)).T
+        # Beyond an open side there is neither wall nor part: what lies there is nearest to nothing.
+        layers = np.flatnonzero(space.shares >= LEAST_SHARE)
+        first, last = int(layers[0]), int(layers[-1]) + 1
+        inside = space.depth[::every, ::every, first:last:every] > 0
+        opening = space.opening
+        ends = (1, 1) if opening is None else (int(np.isinf(opening.low)), int(np.isinf(opening.high)))
+        away = distance_transform_edt(np.pad(inside, ((1, 1), (1, 1), ends))).astype(np.float32)
+        where = ((points - space.origin) / space.size - (0, 0, first)).T / every + np.array([[1], [1], [ends[0]]])
         found: Floats = map_coordinates(away, where, order=1, mode="nearest")
         return found
 

@@ -18,6 +18,7 @@ from infill.errors import GeometryError
 from infill.filling.solids.drains import drained
 from infill.filling.solids.hollowing import Hollow, hollowed
 from infill.filling.solids.inside import SHARE, inner_side
+from infill.filling.solids.opening import between, cut_open
 from infill.filling.solids.request import (
     TOLERANCE,
     Request,
@@ -58,6 +59,7 @@ def fill(
     angle: float = 0.0,
     phase: tuple[float, ...] = (0.0, 0.0, 0.0),
     drain: float | None = None,
+    open_: str | None = None,
     smooth_radius: float | None = None,
     overlap: float | None = None,
     tolerance: float = TOLERANCE,
@@ -97,14 +99,18 @@ def fill(
     as_ : {"solid", "infill", "project"}
         Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
         two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
-    align : {"part", "bed"}
-        Where the pattern begins: in the middle of the part, or at x = y = 0 on the bottom of the part.
+    align : {"part", "bed", "body"}
+        Where the pattern begins: in the middle of the part, at x = y = 0 on the bottom of the part, or anew in the
+        middle of each of its components.
     angle : float
         Turns the pattern counter-clockwise about z, degrees.
     phase : (x, y) or (x, y, z)
         Shifts the pattern, mm.
     drain : float, optional
         Diameter of a hole straight down from the lowest place of every void, mm; by default there is none.
+        Voids that are open need none.
+    open_ : {"top", "bottom", "both"}, optional
+        Where the shell is left out: the voids go through the flat side at the very top or bottom of the part, or both.
     smooth_radius : float, optional
         Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for none.
     overlap : float, optional
@@ -130,7 +136,8 @@ def fill(
     ParameterError, patterns.PatternError
         If a number is out of range, or there is no such pattern.
     GeometryError
-        If the part encloses nothing, has no room inside its walls, or cannot be filled to this density.
+        If the part encloses nothing, has no room inside its walls, has no flat side to be open at, or cannot be filled
+        to this density.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -159,6 +166,7 @@ def fill(
         align=align,
         form=as_,
         drain=drain,
+        open_=open_,
         smooth_radius=smooth_radius,
         tolerance=tolerance,
         voxel=voxel,
@@ -180,26 +188,30 @@ def filled(
     voids = voids_of(request, given.bounds, threads)
     hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
-        result, report = _result(given, hollow, voids, request, threads)
+        result, report, hollow = _result(given, hollow, voids, request, threads)
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
-    stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result)
+    stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
     return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
 
 
 def _result(
     given: Surface, hollow: Hollow, pattern: Voids, request: Request, threads: int | None
-) -> tuple[Surface, dict[str, Any]]:
-    """Return the surface that was asked for, and the report."""
-    space, voids, share = hollow.space, hollow.surface, hollow.density
+) -> tuple[Surface, dict[str, Any], Hollow]:
+    """Return the surface that was asked for, the report, and the voids, what was left out of it included."""
+    space, voids = hollow.space, hollow.surface
     if request.form == "project":
         solid = outer = _through_walls(space, hollow.surfaces, request, threads)
     else:
         outer = space.part if request.form == "solid" else _inside(space, request, threads)
-        solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
+        if space.opening is None:
+            solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
+        else:
+            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
+            hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
     drains = np.empty((0, 3))
-    if request.drain is not None:
-        solid, drains = drained(solid, space.part, voids, request.drain)
+    if request.drain is not None and len(hollow.shut.faces):
+        solid, drains = drained(solid, space.part, hollow.shut, request.drain)
     facts = measured(solid, outer, hollow, pattern, request, threads=threads)
     bounds = solid.bounds
     report = {
@@ -212,7 +224,7 @@ def _result(
         "extents": (bounds[1] - bounds[0]).tolist(),
         "bounds": bounds.tolist(),
         "volume": solid.volume,
-        "density": share,
+        "density": hollow.density,
         "problems": list(problems(request, hollow, facts)),
         "request": request.facts(),
         "grid": {
@@ -239,6 +251,7 @@ def _result(
         },
         "voids": {
             "count": hollow.count,
+            "open": hollow.open,
             "volume": hollow.volume,
             "triangles": len(voids.faces),
             "specks": hollow.specks,
@@ -248,13 +261,14 @@ def _result(
         "drains": {"count": len(drains), "at": drains.tolist()},
         "walls": {"requested": request.wall, "least": facts.least, "at": facts.at},
     }
-    return solid, report
+    return solid, report, hollow
 
 
 def _inside(space: Space, request: Request, threads: int | None) -> Surface:
     """Return the surface of what lies inside the walls, and reaches into them."""
     near = min(SHARE * request.tolerance, request.overlap / 2)
-    return inner_side(space, overlap=request.overlap, tolerance=near, threads=threads)
+    found = inner_side(space, overlap=request.overlap, tolerance=near, threads=threads)
+    return found if space.opening is None else between(found, space.opening, space.size)
 
 
 def _through_walls(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:

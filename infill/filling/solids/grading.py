@@ -37,6 +37,15 @@ class Local:
     mean: float
     shares: NDArray[np.float32]
 
+    def in_box(self, first: NDArray[np.int64], shape: tuple[int, ...]) -> Local:
+        """Return the same at nodes that begin at a cell, for a box of a shape."""
+        from scipy.ndimage import map_coordinates
+
+        counts = np.ceil((np.array(shape) - 1) / self.step).astype(int) + 1
+        nodes = np.indices(tuple(counts.tolist())) + first.reshape(3, 1, 1, 1) / self.step
+        ratio, shares = (map_coordinates(each, nodes, order=1, mode="nearest") for each in (self.ratio, self.shares))
+        return replace(self, ratio=ratio, shares=shares)
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Grading:
@@ -71,6 +80,9 @@ class Grading:
 
     def over(self, space: Space, widths: Callable[[float], float]) -> Local:
         """Return the widths of walls in a space; `widths` says which gives a density, in cells of the pattern."""
+        if space.box_of is not None:
+            whole, first = space.box_of
+            return self.over(whole, widths).in_box(first, space.depth.shape)
         space = space.walled or space
         key = (space.depth.shape, space.size, *space.origin.tolist())
         if key not in self.known:
@@ -114,7 +126,7 @@ class Grading:
 def _inside(space: Space, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which points, in cells, lie inside the walls; all, if the part is too thin for any of them to."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
-    inside = space.depth[at] > 0
+    inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 

@@ -72,6 +72,8 @@ class Hollow:
         Pieces of solid that would have hung free in a void, and voids that were too small.
     walls : Surface or None, mm
         The inner side of the walls, if voids reach through them.
+    loose : float
+        mm³ of infill that hung free where the part was cut open, and was left out.
     """
 
     space: Space
@@ -82,6 +84,7 @@ class Hollow:
     islands: int
     specks: int
     walls: Surface | None = None
+    loose: float = 0.0
 
     @property
     def surface(self) -> Surface:
@@ -94,6 +97,25 @@ class Hollow:
         return sum(shell_names(surface)[1] for surface in self.surfaces)
 
     @property
+    def open(self) -> int:
+        """How many voids reach out of an open side of the part."""
+        opening = self.space.opening
+        return 0 if opening is None else sum(int(opening.opened(surface).sum()) for surface in self.surfaces)
+
+    @cached_property
+    def shut(self) -> Surface:
+        """The voids that reach out of no open side of the part, mm."""
+        opening = self.space.opening
+        if opening is None:
+            return self.surface
+        return joined(
+            [
+                with_faces(surface, ~opening.opened(surface)[shell_names(surface)[0][surface.faces[:, 0]]])
+                for surface in self.surfaces
+            ]
+        )
+
+    @property
     def triangles(self) -> int:
         """Of all voids."""
         return sum(len(surface.faces) for surface in self.surfaces)
@@ -101,6 +123,9 @@ class Hollow:
     @cached_property
     def volume(self) -> float:
         """Of all voids inside the walls, mm³."""
+        opening = self.space.opening
+        if opening is not None:
+            return self.loose + sum(opening.volume(surface) for surface in self.surfaces)
         if self.walls is None:
             return sum(volume_and_area(surface)[0] for surface in self.surfaces)
         return sum(volume_within(surface, self.walls) for surface in self.surfaces)
@@ -145,7 +170,16 @@ def hollowed(
     for attempt in range(REFITS + 1):
         done, last = 0.2 * attempt, last or attempt == REFITS
         with clock.stage("depth", done):
-            space = space_inside(part, wall=request.wall, voxel=voxel, threads=threads, max_memory=max_memory)
+            space = space_inside(
+                part,
+                wall=request.wall,
+                voxel=voxel,
+                open_=request.open_,
+                beyond=request.beyond,
+                held=request.held,
+                threads=threads,
+                max_memory=max_memory,
+            )
         room = request.room(len(space.part.faces))
         with clock.stage("density", done + 0.05):
             sizes, varied = _sized(space, voids, request, sizes, varied)
@@ -246,7 +280,10 @@ def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> flo
     """Return the solid share of what lies inside the walls, as the pattern has it before it is smoothed."""
     out = np.empty_like(space.depth)
     count = voids.count(space, cell=cell, width=width)
-    filled = sum(voids.into(out, space, which, cell=cell, width=width) for which in range(count))
+    filled = 0.0
+    for which in range(count):
+        all_ = voids.into(out, space, which, cell=cell, width=width)
+        filled += all_ if space.opening is None else space.cells_in(out)
     return max(1 - filled / space.cells, LEAST)
 
 
@@ -378,6 +415,11 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
         surface = extract_bricks(
             field, spacing=(space.size,) * 3, origin=tuple((space.origin - space.size / 2).tolist()), threads=threads
         )
+        if space.opening is not None:
+            reaching = space.opening.reaching(surface, space.size)
+            if reaching is None:
+                continue
+            surface = reaching
         kept, few, small, loose = _useful(surface, (SPECK * space.size) ** 3)
         islands, specks = islands + few, specks + small
         lost.extend(loose)

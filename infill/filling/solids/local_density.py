@@ -22,7 +22,7 @@ def densities_by_share(space: Space, voids: Surface, local: Local, count: int, *
     """
     corners, shape = (np.asarray(voids.vertices, dtype=np.float64) - space.origin) / space.size, space.depth.shape
     void = filled(crossings(corners, voids.faces, shape), shape)
-    inside = np.argwhere(space.depth > 0)
+    inside = np.argwhere(space.within)
     cells = inside[np.random.default_rng(0).integers(len(inside), size=SAMPLES)]
     shares, solid = _between(local.shares, cells / local.step), ~void[tuple(cells.T)]
     order = np.array_split(np.argsort(shares), count)

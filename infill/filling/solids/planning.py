@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 
 from infill.filling.solids.request import Request, sizes_for, voids_of, voxel_for
-from infill.filling.solids.space import BYTES_PER_CELL, MARGIN
+from infill.filling.solids.space import BYTES_PER_CELL, further_for, grid_of
 from infill.surface import Surface
-from infill.voxels.from_mesh import grid_around
 
 
 def planned_fill(part: Surface, request: Request, *, threads: int | None = None) -> dict[str, Any]:
@@ -19,10 +18,10 @@ def planned_fill(part: Surface, request: Request, *, threads: int | None = None)
     extents = np.ptp(part.bounds, axis=0)
     cell, width = sizes_for(request, voids, extents)
     voxel = voxel_for(request, voids, extents, cell, width)
-    grid = grid_around(part, voxel=voxel, margin=MARGIN)
+    grid = grid_of(part, voxel=voxel, further=further_for(request.open_, request.wall, request.beyond, voxel))
     return {
         "request": request.facts(),
         "infill": {"cell": cell, "line_width": width},
         "grid": {"shape": list(grid.shape), "spacing": [voxel] * 3, "origin": list(grid.origin), "space": ""},
-        "memory": BYTES_PER_CELL * math.prod(grid.shape),
+        "memory": (BYTES_PER_CELL + request.held) * math.prod(grid.shape),
     }

@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 
 from infill.checks import length, positive, whole, within
 from infill.errors import GeometryError, ParameterError, UsageError
+from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.naming import Kind, kind_of
+from infill.filling.solids.opening import Open
 from infill.filling.solids.voids import Repeating, Voids
 from infill.formats.assignments import Source, assignments, merged, values
 from patterns.cellular import CELLULAR
@@ -25,7 +27,7 @@ from patterns.protocol import Pattern
 from patterns.unit_cells import Bars, Cellular, Network, Planes
 
 Form = Literal["solid", "infill", "project"]
-Align = Literal["part", "bed"]
+Align = Literal["part", "bed", "body"]
 Size = Literal["cell", "width"]
 
 DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
@@ -50,6 +52,7 @@ FIFTH = 0.2
 FEWEST, MOST = 1e6, 25e6
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
+ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
 # Curvature rounds a right angle to a radius R in the time (0.7386 R)² / 2: the self-similar solution of curve
 # shortening that begins as a right angle has the curvature 0.7386 / sqrt(2 t) at its tip.
 RIGHT_ANGLE = 0.7386
@@ -77,13 +80,15 @@ class Request:
         mm
     drain : float or None
         Diameter of a hole for each void, mm.
+    open_ : {"top", "bottom", "both"} or None
+        Sides of the part without a wall.
     smooth_radius : float or None
         mm; None for the default, which small parts have smaller.
     angle : float
         Degrees.
     phase : (x, y, z)
         mm
-    align : {"part", "bed"}
+    align : {"part", "bed", "body"}
     form : {"solid", "infill"}
     voxel : float or None
         mm
@@ -108,6 +113,17 @@ class Request:
     voxel: float | None
     max_triangles: int | None
     grading: Grading | None = None
+    open_: Open | None = None
+
+    @property
+    def beyond(self) -> float:
+        """How far an open side is moved out for the voids, besides some cells of the grid, mm."""
+        return ROUNDED * (RADIUS if self.smooth_radius is None else self.smooth_radius)
+
+    @property
+    def held(self) -> int:
+        """Bytes for each cell of the grid that are needed besides: where bodies are, and how deep in them it lies."""
+        return 5 if self.align == "body" else 0
 
     @property
     def default_width(self) -> float:
@@ -176,6 +192,7 @@ class Request:
             "form": self.form,
             "overlap": self.overlap,
             "drain": self.drain,
+            "open": self.open_,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
             "voxel": self.voxel,
@@ -207,6 +224,7 @@ def checked(
     tolerance: float,
     voxel: float | None,
     max_triangles: int | None,
+    open_: str | None = None,
 ) -> Request:
     """Return a request whose numbers are in range, with what follows from others left open."""
     if density is not None and cell is not None and line_width is not None:
@@ -217,6 +235,13 @@ def checked(
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
     if drain is not None and form != "solid":
         raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
+    if open_ is not None and open_ not in get_args(Open):
+        raise UsageError(f"open is {open_!r}; choose from {', '.join(get_args(Open))}")
+    if open_ is not None and form == "project":
+        raise UsageError(
+            f"open is {open_!r}, and as is 'project', whose shell is the slicer's; leave open out, and let the slicer "
+            "make no top or bottom layers"
+        )
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
     shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
@@ -253,6 +278,7 @@ def checked(
         voxel=None if voxel is None else positive("voxel", voxel, "mm"),
         max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
         grading=grading,
+        open_=open_,  # type: ignore[arg-type]
     )
 
 
@@ -270,15 +296,17 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
     if request.align == "bed":
         middle = np.array([0.0, 0.0, float(bounds[0][2])])
-    anchor = middle + request.phase
+    bodies, grading = Bodies() if request.align == "body" else None, request.grading
+    anchor = request.phase + (middle if bodies is None else np.zeros(3))
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
     if isinstance(request.kind, Cellular):
         pattern = cellular_of(request.kind, request)
         if isinstance(pattern, Planes):
             turn = np.array(pattern.upright) @ turn
-        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=request.grading)
-    return Drawn(pattern=pattern_of(request.kind, request), anchor=anchor, threads=threads, grading=request.grading)
+        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
+    lines = pattern_of(request.kind, request)
+    return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
 
 
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:

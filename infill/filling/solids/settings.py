@@ -101,8 +101,11 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
     own = own_parameters(pattern, assigned, table)
     if seed is not None:
         own = seeded(pattern, own, seed)
+    open_ = both.pop("open", None)
     values = {**DEFAULTS, **both}
-    return FillSettings(request=checked(pattern=pattern, own=own, form=form, **values), units=units, slicer=slicer)
+    return FillSettings(
+        request=checked(pattern=pattern, own=own, form=form, open_=open_, **values), units=units, slicer=slicer
+    )
 
 
 def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
@@ -148,6 +151,7 @@ READERS: Mapping[str, Reader] = {
     "phase": partial(parse_numbers, counts=(2, 3)),
     "seed": parse_whole,
     "drain": parse_number,
+    "open": parse_word,
     "smooth_radius": parse_number,
     "overlap": parse_number,
     "tolerance": parse_number,

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.solids.opening import ENDS, Open, Opening, flat_sides, lengthened
+from infill.grid import Grid
 from infill.machine import require_memory
 from infill.surface import Surface
 from infill.surfaces.parting import joined, parted
@@ -20,7 +22,9 @@ from infill.voxels.partial import distances_in_cells
 BAND = 2.5  # cells on either side of the wall in which depths are exact
 LEAST_OVERLAP = 1e-5  # of the volume: components that overlap by less are taken not to
 MARGIN = 3  # cells of void around the part
+OUT = 3.0  # cells by which voids reach out of an open side, at least
 BEYOND = 1.0  # cells: how far voids that no wall is to be left around reach out of the part
+UP = np.array([0.0, 0.0, 1.0])
 TINY = 10.0  # mm: parts smaller than this may be meant in another unit
 BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks that are smoothed
 
@@ -50,6 +54,10 @@ class Space:
         mm
     walled : Space or None
         What lies inside the walls, if voids reach through them here.
+    opening : Opening or None
+        Where the part has no wall: there, `depth` goes on as if the part did.
+    box_of : (Space, (3,) int) or None
+        The space of which it is a box, and the first cell of that.
     """
 
     depth: NDArray[np.float32]
@@ -61,6 +69,38 @@ class Space:
     overlap: float
     wall: float
     walled: Space | None = None
+    opening: Opening | None = None
+    box_of: tuple[Space, NDArray[np.int64]] | None = None
+
+    @property
+    def shell(self) -> Surface:
+        """The skin of the part that has a wall, mm."""
+        return self.part if self.opening is None else self.opening.shell
+
+    @cached_property
+    def shares(self) -> NDArray[np.float64]:
+        """Which share of each layer of the grid lies between the open sides of the part, (nz,)."""
+        middle = self.origin[2] + self.size * np.arange(self.depth.shape[2])
+        if self.opening is None:
+            return np.ones(len(middle))
+        ends = np.array([[self.opening.low], [self.opening.high]])
+        low, high = np.clip((ends - middle) / self.size, -0.5, 0.5)
+        shares: NDArray[np.float64] = high - low
+        return shares
+
+    @property
+    def within(self) -> NDArray[np.bool_]:
+        """Which cells lie inside the walls, and between the open sides: those whose centre does."""
+        return (self.depth > 0) & (self.shares >= 0.5)
+
+    def reaches(self, end: str) -> bool:
+        """Return whether there is room inside the walls at an end, top or bottom, of the part."""
+        layers = np.flatnonzero(self.shares > 0)
+        return bool((self.depth[:, :, layers[-1 if end == "top" else 0]] > 0).any())
+
+    def cells_in(self, field: NDArray[np.float32]) -> float:
+        """Return how many cells lie in a void, by how deep they do, parts of cells counted as such."""
+        return float(sum(np.clip(layer + 0.5, 0, 1).sum(axis=0, dtype=np.float64) @ self.shares for layer in field))
 
     @cached_property
     def unwalled(self) -> Space:
@@ -70,19 +110,20 @@ class Space:
     @cached_property
     def cells(self) -> float:
         """How many cells lie inside the walls, parts of cells counted as such."""
-        return float(sum(np.clip(layer + 0.5, 0, 1).sum(dtype=np.float64) for layer in self.depth))
+        return self.cells_in(self.depth)
 
     @cached_property
     def across(self) -> float:
         """The second longest side of what lies inside the walls, mm: larger cells of a pattern are of no use."""
-        inside = self.depth > 0
+        inside = self.within
         sides = [np.flatnonzero(inside.any(axis=tuple({0, 1, 2} - {axis}))) for axis in range(3)]
         return float(sorted(each[-1] + 1 - each[0] for each in sides)[1]) * self.size
 
     @cached_property
     def thickness(self) -> float:
         """How thick what lies inside the walls is, mm: as a plate with this volume and surface would be."""
-        area = sum(int((np.abs(layer) < 0.5).sum()) for layer in self.depth) * self.size**2
+        some = self.shares > 0
+        area = sum(int((np.abs(layer[:, some]) < 0.5).sum()) for layer in self.depth) * self.size**2
         return 2 * self.volume / max(area, self.size**2)
 
     @property
@@ -92,46 +133,84 @@ class Space:
 
 
 def space_inside(
-    part: Surface, *, wall: float, voxel: float, threads: int | None = None, max_memory: int | None = None
+    part: Surface,
+    *,
+    wall: float,
+    voxel: float,
+    open_: Open | None = None,
+    beyond: float = 0.0,
+    held: int = 0,
+    threads: int | None = None,
+    max_memory: int | None = None,
 ) -> Space:
-    """Return the inside of a part, without a wall, mm, along all of its skin.
+    """Return the inside of a part, without a wall, mm, along all of its skin but for its open sides.
+
+    Beyond these, the inside goes on for some way, `beyond`, mm. `held` bytes are needed for each cell besides.
 
     Raises
     ------
     GeometryError
-        If the part encloses nothing, or is nowhere thicker than two walls.
+        If the part encloses nothing, is nowhere thicker than two walls, or has no flat side to be open at.
     MemoryLimitError
         If the grid does not fit into memory.
     """
     extents = np.ptp(part.bounds, axis=0)
+    further = further_for(open_, wall, beyond, voxel)
     sides = " x ".join(f"{side:.3g}" for side in extents)
     nowhere = (
         f"wall is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
         f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
     )
     # Seen before anything is measured, however long that would take; a flat sheet has a message of its own.
-    if 0 < extents.min() <= 2 * wall:
+    if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
         raise GeometryError(nowhere)
-    grid = grid_around(part, voxel=voxel, margin=MARGIN)
+    grid = grid_of(part, voxel=voxel, further=further)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory(BYTES_PER_CELL * math.prod(grid.shape), max_memory, advice)
+    require_memory((BYTES_PER_CELL + held) * math.prod(grid.shape), max_memory, advice)
     found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
     whole, skin, overlap = _skin(found)
+    longer, cells, opening = whole, found.volume, None
+    if open_ is not None:
+        opening, lids = flat_sides(whole, open_)
+        longer = lengthened(whole, lids, further / len(lids))
+        cells = voxelise_reported(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
     # Thin gaps between components count too, but not faces inside the solid.
     reach, several = wall / voxel + BAND, overlap > LEAST_OVERLAP
-    depth = distances_in_cells(whole, found.volume, reach, several=several, threads=threads)
+    depth = distances_in_cells(longer, cells, reach, several=several, threads=threads)
     depth -= np.float32(wall / voxel)
     if not (depth > 0).any():
         raise GeometryError(nowhere)
-    return Space(
+    space = Space(
         depth=depth,
         size=voxel,
-        origin=np.array(found.volume.origin) + voxel / 2,
+        origin=np.array(cells.origin) + voxel / 2,
         part=whole,
         repairs=found.repairs,
         skin=skin,
         overlap=overlap,
         wall=wall,
+        opening=opening,
+    )
+    for end in () if open_ is None else ENDS[open_]:
+        if not space.reaches(end):
+            raise GeometryError(
+                f"open is {open_!r}, and the flat {end} of the part is nowhere wider than two walls of {wall:g} mm; "
+                "give a thinner wall, or turn the part"
+            )
+    return space
+
+
+def further_for(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:
+    """Return how much longer, mm, a part is made for its open sides: by a wall, and so much that it does not matter."""
+    return 0.0 if open_ is None else len(ENDS[open_]) * (wall + beyond + OUT * voxel)
+
+
+def grid_of(part: Surface, *, voxel: float, further: float) -> Grid:
+    """Return about the grid that a part is filled on, which reaches so much further up or down, mm."""
+    return grid_around(
+        Surface(vertices=np.concatenate([part.bounds, part.bounds[1:] + further * UP]), faces=np.array([[0, 1, 2]])),
+        voxel=voxel,
+        margin=MARGIN,
     )
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from PIL import Image
 
+    from infill.filling.solids.opening import Opening
     from infill.surface import Surface
 
 
@@ -24,11 +25,14 @@ class FillStages:
         What was taken out of it, facing outwards.
     shown : Surface, mm
         What was made.
+    opening : Opening or None
+        Where the part has no shell.
     """
 
     part: Surface
     voids: Surface
     shown: Surface
+    opening: Opening | None = None
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
         """Return cuts through the middle: in a project, of the infill, as the part is whole."""

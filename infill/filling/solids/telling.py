@@ -6,14 +6,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.filling.solids.drains import trapped
 from infill.filling.solids.hollowing import Hollow, even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
+from infill.filling.solids.opening import Opening
 from infill.filling.solids.request import Request
 from infill.filling.solids.space import LEAST_OVERLAP
 from infill.filling.solids.voids import Voids
 from infill.surface import Surface
+from infill.surfaces.components import shell_names
 from infill.surfaces.distance import Tree
 from infill.surfaces.shells import first_of_shells
 from infill.surfaces.solids import FINE, in_one_place, status
@@ -28,19 +31,46 @@ THIN = 0.8  # mm: two lines of a nozzle of 0.4
 LEAST_WALL = 0.9  # of the wall asked for
 
 
-def least_wall(part: Surface, voids: Surface, threads: int | None) -> tuple[float, list[float]]:
-    """Return how near the voids come to the skin, mm, and where: at corners and in the middle of triangles."""
+def least_wall(
+    part: Surface, voids: Surface, threads: int | None, opening: Opening | None = None
+) -> tuple[float, list[float]]:
+    """Return how near the voids come to the skin, mm, and where: at corners and in the middle of triangles.
+
+    What lies beyond an open side does not count.
+    """
     corners = np.asarray(voids.vertices, dtype=np.float64)
     points = np.concatenate([corners, corners[voids.faces].mean(axis=1)])
+    if opening is not None:
+        part, points = opening.shell, points[opening.inside(points[:, 2])]
     away, _ = Tree.of(part).nearest(points, threads=threads)
     nearest = int(np.argmin(away))
     return float(away[nearest]), points[nearest].tolist()
 
 
-def outside(part: Surface, voids: list[Surface], threads: int | None) -> int:
-    """Return how many voids begin outside of the part: none crosses its skin, from which all are some way off."""
-    first = [surface.vertices[first_of_shells(surface)] for surface in voids]
+def outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
+    """Return how many voids lie outside of the part: none crosses its skin, from which all are some way off.
+
+    Where a part is open, that is asked of the points that are nearest to a height in its middle, mm.
+    """
+    first = [_first(surface, middle) for surface in voids]
     return int((winding(np.concatenate(first).astype(np.float64), part, threads=threads) <= 0).sum())
+
+
+def _first(surface: Surface, middle: float | None) -> NDArray[np.float64]:
+    """Return a point of every component, (N, 3): its first vertex, or of its edges, what is nearest to a height."""
+    vertices = np.asarray(surface.vertices, dtype=np.float64)
+    if middle is None:
+        return vertices[first_of_shells(surface)]
+    names, count = shell_names(surface)
+    edges = np.concatenate([surface.faces[:, [i, (i + 1) % 3]] for i in range(3)])
+    one, other = vertices[edges[:, 0]], vertices[edges[:, 1]]
+    rise = other[:, 2] - one[:, 2]
+    share = np.clip(np.divide(middle - one[:, 2], rise, out=np.zeros_like(rise), where=rise != 0), 0, 1)
+    points = one + share[:, None] * (other - one)
+    own = names[edges[:, 0]]
+    order = np.lexsort((np.abs(points[:, 2] - middle), own))
+    nearest: NDArray[np.float64] = points[order[np.searchsorted(own[order], np.arange(count))]]
+    return nearest
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,8 +121,10 @@ def measured(
     at: list[float] | None = None
     astray, crowded = 0, int(in_one_place(solid).sum())
     if request.form != "project":
-        least, at = least_wall(hollow.space.part, hollow.surface, threads)
-        astray = outside(hollow.space.part, hollow.surfaces, threads)
+        part, opening = hollow.space.part, hollow.space.opening
+        middle = None if opening is None else float(part.bounds[:, 2].mean())
+        least, at = least_wall(part, hollow.surface, threads, opening)
+        astray = outside(part, hollow.surfaces, threads, middle)
         crowded -= int(in_one_place(outer).sum())
     return Measured(
         least=least,
@@ -124,7 +156,7 @@ def near(width: float, asked: float) -> bool:
 
 def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
-    overlap, moved = hollow.space.overlap, hollow.tolerance
+    overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
     if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
         yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
     for each in facts.graded:
@@ -151,6 +183,9 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
     if facts.least is not None and facts.least < LEAST_WALL * request.wall:
         where = ", ".join(f"{each:.4g}" for each in facts.at or ())
         yield f"the wall is {facts.least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
+    if opening is not None:
+        for end in opening.closed_ends(hollow.surfaces):
+            yield f"no void is open at the {end}: walls of the pattern lie along it; shift the pattern by --phase"
     if facts.astray:
         yield f"{facts.astray} void(s) lie outside of the part"
     if not hollow.space.part.closed:

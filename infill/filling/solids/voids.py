@@ -5,13 +5,14 @@ Voids that lie next to one another are in fields of their own: a wall between th
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.space import BAND, Space
 from infill.kernels.threads import in_threads, thread_count
@@ -56,6 +57,8 @@ class Repeating:
         The point of the part at which a cell of the pattern begins, mm.
     threads : int, optional
     grading : Grading, optional
+    bodies : Bodies, optional
+        How it begins anew in each component of the part: the anchor is then that from its middle.
     """
 
     pattern: Cellular
@@ -63,6 +66,11 @@ class Repeating:
     anchor: NDArray[np.float64]
     threads: int | None = None
     grading: Grading | None = None
+    bodies: Bodies | None = None
+
+    def about(self, middle: NDArray[np.float64]) -> Repeating:
+        """See `Anchored`."""
+        return replace(self, anchor=middle + self.anchor, bodies=None)
 
     def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
         """Two beside a surface, one for each class of closed cells, one around bars."""
@@ -74,6 +82,8 @@ class Repeating:
         """See `Voids`."""
         from infill.kernels.cells import from_bars, from_period, from_planes, from_polyhedra
 
+        if self.bodies is not None:
+            return self.bodies.into(self, out, space, which, cell=cell, width=width)
         start = self.turn @ (space.origin - self.anchor) / space.size
         period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
         sizes, threads = local_widths(self, space), thread_count(self.threads)
