@@ -239,6 +239,51 @@ class InPlane(Pattern):
         return float(self.of(cell=self.cell).line_spacing(region))
 
 
+@dataclass(frozen=True, kw_only=True)
+class Waved(Pattern):
+    """Lines that are y = 0.6 sin x, and shifted by half a cell, where 2 pi is a cell."""
+
+    name: str = "waved"  # type: ignore[misc]
+    summary: str = ""  # type: ignore[misc]
+    cell: float = parameter(10.0, "period", unit="mm", low=0.1, high=100)
+
+    def lines(self, region: Any, z: float = 0.0) -> Any:
+        left, low, right, high = np.array(region.bounds) * 2 * np.pi / self.cell
+        x = np.arange(left, right + 0.02, 0.02)
+        shifts = np.pi * np.arange(np.floor(low / np.pi) - 1, np.ceil(high / np.pi) + 2)
+        lines = [np.column_stack([x, shift - 0.6 * np.sin(x)]) * self.cell / (2 * np.pi) for shift in shifts]
+        return shapely.intersection(shapely.MultiLineString(lines), region)
+
+    def line_spacing(self, region: Any) -> float:
+        return self.cell / 2
+
+
+FORMS: dict[str, tuple[Any, float, Any]] = {
+    "rectilinear": ("rectilinear", 5.0, lambda x, y, z: np.sin(y)),
+    "waved": (Waved, 10.0, lambda x, y, z: np.sin(y + 0.6 * np.sin(x))),
+    "grid": ("grid", 5.0, lambda x, y, z: np.sin(x) * np.sin(y)),
+}
+
+
+TURNED: dict[str, Any] = {"voxel": 0.4, "wall": 1.0, "angle": 30}
+
+
+@pytest.mark.parametrize(
+    ("name", "more"), [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT)]
+)
+def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: dict[str, Any]) -> None:
+    """Where walls cross, a function's table, straight between its nodes, has blunter corners: one vertex in ten."""
+    lines, cell, function = FORMS[name]
+    given = {"line_width": 0.8, **more, "smooth_radius": 0.0}
+    one = fill(PART, lines, cell=cell, **given)
+    other = fill(PART, function, cell=10.0, **given)
+    assert other.report["density"] == pytest.approx(one.report["density"], abs=0.005)
+    there = Tree.of(one.stages.voids).nearest(np.asarray(other.stages.voids.vertices, np.float64))[0]
+    back = Tree.of(other.stages.voids).nearest(np.asarray(one.stages.voids.vertices, np.float64))[0]
+    most = 0.9 if name == "grid" else 1.0
+    assert max(np.quantile(there, most), np.quantile(back, most)) < 0.04
+
+
 @pytest.mark.parametrize("name", EVERY)
 def test_units_are_no_matter(name: str) -> None:
     sizes = far(name)
