@@ -13,6 +13,7 @@ import trimesh
 from made_shapes import box, union
 
 from infill import Surface, fill
+from infill.filling.solids.fillets import DEGREES, TIPS
 from infill.surfaces.distance import Tree
 from infill.surfaces.winding import winding
 from patterns import PATTERNS, Pattern
@@ -105,6 +106,94 @@ def test_smoothing_and_turning_may_change_places(name: str) -> None:
     assert sharp.area > 1.01 * one.area
 
 
+def test_tips_are_those_of_corners_that_stay_themselves() -> None:
+    """By the equation: a curve that grows by curvature alone has, at the time 1/2, curvature = x · normal."""
+    from scipy.integrate import solve_ivp
+    from scipy.optimize import brentq
+
+    def slope(tip: float) -> float:
+        def along(_: float, at: Any) -> list[float]:
+            x, y, turned = at
+            return [np.cos(turned), np.sin(turned), y * np.cos(turned) - x * np.sin(turned)]
+
+        return float(solve_ivp(along, (0, 30), (0.0, tip, 0.0), rtol=1e-9, atol=1e-11).y[2, -1])
+
+    for degrees, tip in zip(DEGREES, TIPS, strict=True):
+        end = np.pi / 2 - np.radians(degrees) / 2
+        assert brentq(lambda at, end=end: slope(at) - end, 0.1, 3.0) == pytest.approx(tip, abs=2e-4)
+
+
+RADIUS = 0.8  # mm, four cells of the grid
+LEAST = {"grid": 0.9, "cubic": 0.9, "quarter-cubic": 0.9}  # radii: measured 0.93, 1.0 and 0.94
+
+
+def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray:
+    """The radii of fillets away from the part's walls, mm: where the surface of voids is rounder than all around.
+
+    The largest principal curvature of a quadric through the vertices within half the radius.
+    """
+    from scipy.spatial import cKDTree
+
+    mesh = voids.to_trimesh()
+    places, normals = np.asarray(mesh.vertices), np.asarray(mesh.vertex_normals)
+    edges = np.concatenate([mesh.edges_unique, mesh.edges_unique[:, ::-1]])
+    step = places[edges[:, 1]] - places[edges[:, 0]]
+    bend = ((normals[edges[:, 1]] - normals[edges[:, 0]]) * step).sum(axis=1) / (step**2).sum(axis=1)
+    rough = np.full(len(places), -np.inf)
+    np.maximum.at(rough, edges[:, 0], bend)
+    far = Tree.of(part).nearest(places)[0] > 1 + 0.8 + 2.5 * radius
+    round_ = np.flatnonzero(far & (rough > 0.25 / radius))
+    round_ = np.random.default_rng(0).permutation(round_)[:6000]
+    tree = cKDTree(places)
+    bent = np.zeros(len(round_))
+    for number, (each, near) in enumerate(
+        zip(round_, tree.query_ball_point(places[round_], 0.5 * radius), strict=True)
+    ):
+        near = np.array(near)
+        near = near[normals[near] @ normals[each] > 0.3]
+        if len(near) < 8:
+            continue
+        frame = np.linalg.svd(normals[each][None])[2]  # the normal first, up to its sign
+        x, y = frame[1:] @ (places[near] - places[each]).T
+        up = (places[near] - places[each]) @ normals[each]
+        a, b, c, p, q, _ = np.linalg.lstsq(
+            np.column_stack([x * x / 2, x * y, y * y / 2, x, y, np.ones_like(x)]), up, rcond=None
+        )[0]
+        first = np.array([[1 + p * p, p * q], [p * q, 1 + q * q]])
+        second = np.array([[a, b], [b, c]]) / np.sqrt(1 + p * p + q * q)
+        bent[number] = -np.linalg.eigvals(np.linalg.solve(first, second)).real.min()
+    # One of each place: the roundest within a radius.
+    where, left = cKDTree(places[round_]), bent > 1 / (2.5 * radius)
+    found = []
+    for number in np.argsort(-bent):
+        if left[number]:
+            found.append(1 / bent[number])
+            left[where.query_ball_point(places[round_[number]], radius)] = False
+    return np.array(found)
+
+
+@pytest.mark.parametrize("name", ["grid", "triangles", "honeycomb", "cubic", "quarter-cubic", "octet"])
+def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
+    """At 95 % of all places where walls meet, at 60 and 120 degrees, or bars, six radii thick.
+
+    Right angles, and those of 70 degrees, have up to a tenth less where the grid lies badly, at four cells to a radius.
+    """
+    given = {"density": 0.25, "line_width": 0.8, "voxel": RADIUS / 4}
+    radius = RADIUS
+    if name == "octet":
+        radius = 0.5
+        given = {"cell": 14.0, "line_width": 6 * radius, "voxel": radius / 4}
+    result = fill(box(24, 24, 24), name, smooth_radius=radius, tolerance=0, wall=1.0, **given)
+    found = fillets(result.stages.voids, result.stages.part, radius)
+    assert len(found) > 40
+    assert np.quantile(found, 0.05) >= LEAST.get(name, 1.0) * radius
+
+
+def test_a_fillet_that_is_too_sharp_is_found() -> None:
+    result = fill(box(24, 24, 24), "grid", smooth_radius=0.8 * RADIUS, voxel=0.2, tolerance=0, density=0.25)
+    assert np.quantile(fillets(result.stages.voids, result.stages.part), 0.05) < 0.95 * RADIUS
+
+
 @pytest.mark.parametrize("name", EVERY)
 def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -> None:
     sizes = far(name)
@@ -159,6 +248,51 @@ class InPlane(Pattern):
 
     def line_spacing(self, region: Any) -> float:
         return float(self.of(cell=self.cell).line_spacing(region))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waved(Pattern):
+    """Lines that are y = 0.6 sin x, and shifted by half a cell, where 2 pi is a cell."""
+
+    name: str = "waved"  # type: ignore[misc]
+    summary: str = ""  # type: ignore[misc]
+    cell: float = parameter(10.0, "period", unit="mm", low=0.1, high=100)
+
+    def lines(self, region: Any, z: float = 0.0) -> Any:
+        left, low, right, high = np.array(region.bounds) * 2 * np.pi / self.cell
+        x = np.arange(left, right + 0.02, 0.02)
+        shifts = np.pi * np.arange(np.floor(low / np.pi) - 1, np.ceil(high / np.pi) + 2)
+        lines = [np.column_stack([x, shift - 0.6 * np.sin(x)]) * self.cell / (2 * np.pi) for shift in shifts]
+        return shapely.intersection(shapely.MultiLineString(lines), region)
+
+    def line_spacing(self, region: Any) -> float:
+        return self.cell / 2
+
+
+FORMS: dict[str, tuple[Any, float, Any]] = {
+    "rectilinear": ("rectilinear", 5.0, lambda x, y, z: np.sin(y)),
+    "waved": (Waved, 10.0, lambda x, y, z: np.sin(y + 0.6 * np.sin(x))),
+    "grid": ("grid", 5.0, lambda x, y, z: np.sin(x) * np.sin(y)),
+}
+
+
+TURNED: dict[str, Any] = {"voxel": 0.4, "wall": 1.0, "angle": 30}
+
+
+@pytest.mark.parametrize(
+    ("name", "more"), [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT)]
+)
+def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: dict[str, Any]) -> None:
+    """Where walls cross, a function's table, straight between its nodes, has blunter corners: one vertex in ten."""
+    lines, cell, function = FORMS[name]
+    given = {"line_width": 0.8, **more, "smooth_radius": 0.0}
+    one = fill(PART, lines, cell=cell, **given)
+    other = fill(PART, function, cell=10.0, **given)
+    assert other.report["density"] == pytest.approx(one.report["density"], abs=0.005)
+    there = Tree.of(one.stages.voids).nearest(np.asarray(other.stages.voids.vertices, np.float64))[0]
+    back = Tree.of(other.stages.voids).nearest(np.asarray(one.stages.voids.vertices, np.float64))[0]
+    most = 0.9 if name == "grid" else 1.0
+    assert max(np.quantile(there, most), np.quantile(back, most)) < 0.04
 
 
 @pytest.mark.parametrize("name", EVERY)

@@ -13,6 +13,7 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.filling.solids.bodies import Bodies
+from infill.filling.solids.fillets import between_lines, sharpest
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import BAND, Space
@@ -93,6 +94,12 @@ class Drawn:
             raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
         return region, lines
 
+    @cached_property
+    def sharpest(self) -> float:
+        """See `Voids`."""
+        region, lines = self._sample
+        return sharpest(between_lines(_faces_between(lines, region)))
+
     def widths(self, density: float) -> float:
         """See `Voids`."""
         region, lines = self._sample
@@ -170,6 +177,13 @@ class _Faces:
     def fits(self, reach: float, width: float) -> bool:
         """Return whether they are as they would be for lines of this width."""
         return reach <= self.reach and width >= THINNER * self.width
+
+
+def _faces_between(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.object_]:
+    """Return what lies between lines, but for what the border of a region cuts."""
+    polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
+    whole: NDArray[np.object_] = polygons[~shapely.intersects(polygons, region.boundary)]
+    return whole
 
 
 def _square(half: float) -> shapely.Polygon:

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.filling.solids.crossing import median_width
+from infill.filling.solids.fillets import times_for
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.inside import INTERFACE, SHARE, inner_side
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.request import RIGHT_ANGLE, Request, Size, coarsest_for, sizes_for, voxel_for
+from infill.filling.solids.request import Request, Size, coarsest_for, sizes_for, voxel_for
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.voids import Repeating, Voids
@@ -218,7 +219,7 @@ def _as_wide(
 ) -> Hollow:
     """Return voids between which walls are as wide as asked for, mm, or bars as thick, if not the density says that."""
     space = found.space
-    smoothed = _smoothing(request.radius(space.thickness), space.size).steps > 0
+    smoothed = _smoothing(space, voids, request, width).steps > 0
     if "width" in varied[:1] or voids.grading is not None or not even(voids) or not smoothed:
         return found
     for _ in range(REDRAWN):
@@ -383,10 +384,11 @@ def _scaled(sizes: tuple[float, float], times: float, vary: Size) -> tuple[float
     return (cell, width * times) if vary == "width" else (cell / times, width)
 
 
-def _smoothing(radius: float, size: float) -> Smoothing:
-    """Return the steps that round right angles to a radius, mm."""
+def _smoothing(space: Space, voids: Voids, request: Request, width: float) -> Smoothing:
+    """Return the steps that round the corners between walls of a width, mm, or bars, to the radius asked for."""
     smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
-    times = (RIGHT_ANGLE * radius / size) ** 2 / 2  # cells²
+    bar = width * request.thinnest if isinstance(voids, Repeating) and voids.pattern.bars else None
+    times = times_for(request.radius(space.thickness), voids.sharpest, bar) / space.size**2  # cells²
     if times < SHORTEST:
         return replace(smoothing, steps=0)
     steps = math.ceil(times / smoothing.alpha)
@@ -397,7 +399,7 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
     """Return the surfaces of the voids, smoothed, without what is no void of any use."""
     cell, width = sizes
     out = np.empty_like(space.depth)
-    smoothing = _smoothing(request.radius(space.thickness), space.size)
+    smoothing = _smoothing(space, voids, request, width)
     inside, walls = space, None
     if request.form == "project":
         inside, walls = space.unwalled, inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)

@@ -53,9 +53,6 @@ FEWEST, MOST = 1e6, 25e6
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
 ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
-# Curvature rounds a right angle to a radius R in the time (0.7386 R)² / 2: the self-similar solution of curve
-# shortening that begins as a right angle has the curvature 0.7386 / sqrt(2 t) at its tip.
-RIGHT_ANGLE = 0.7386
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.solids.bodies import Bodies
+from infill.filling.solids.fillets import between_walls
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.space import BAND, Space
 from infill.kernels.threads import in_threads, thread_count
@@ -36,6 +37,11 @@ class Voids(Protocol):
 
     def widths(self, density: float) -> float:
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
+        ...
+
+    @property
+    def sharpest(self) -> float:
+        """How sharp the corners of voids are, degrees, where walls of the pattern meet: few are sharper."""
         ...
 
     @property
@@ -67,6 +73,11 @@ class Repeating:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
+
+    @property
+    def sharpest(self) -> float:
+        """See `Voids`."""
+        return _sharpest(self.pattern)
 
     def about(self, middle: NDArray[np.float64]) -> Repeating:
         """See `Anchored`."""
@@ -168,6 +179,11 @@ def _period(pattern: Surfaces | Network) -> NDArray[np.float32]:
     line = np.arange(NODES) / NODES
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
+
+
+@cache
+def _sharpest(pattern: Cellular) -> float:
+    return between_walls(pattern)
 
 
 @cache

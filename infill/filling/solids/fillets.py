@@ -1,0 +1,118 @@
+"""How sharp the corners between walls are, and how long curvature takes to round them to a radius."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from patterns.unit_cells import Bars, Cellular, Planes
+
+# Curvature of a corner of a void at its tip, times sqrt(2 t): of the solution of curve shortening that begins as this
+# angle and stays itself, the larger the longer.
+DEGREES = (45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0)
+TIPS = (1.4976, 1.3727, 1.2632, 1.166, 1.0785, 0.9992, 0.9265, 0.8593, 0.7969, 0.7386)
+GRID = 0.05 / 30  # of the radius, for each degree that a corner is sharper than a right angle: what a coarse grid costs
+THINNER = 0.1  # of a bar, which curvature may take for corners sharper than right angles
+FEW = 0.05  # of the corners may be sharper
+STRAIGHT = 150.0  # degrees: what turns by less is no corner
+EQUAL = 1e-6  # of a cell: ends of bars that are nearer are one
+
+Floats = NDArray[np.float64]
+
+
+def tip(degrees: float) -> float:
+    """Return the curvature of the tip of a corner of a void, times sqrt(2 t): as of 45 degrees below, of 90 above.
+
+    >>> tip(90), tip(120), round(tip(60) / tip(90), 2)
+    (0.7386, 0.7386, 1.58)
+    """
+    return float(np.interp(degrees, DEGREES, TIPS))
+
+
+def times_for(radius: float, degrees: float, bar: float | None = None) -> float:
+    """Return the time in which curvature rounds corners to a radius.
+
+    Parameters
+    ----------
+    radius : float
+    degrees : float
+        Of the corners.
+    bar : float, optional
+        Diameter of bars, which curvature makes thinner: for corners that are sharper than right angles, no more than a
+        tenth is taken from it.
+
+    Returns
+    -------
+    float
+        In squares of the unit of the radius.
+
+    >>> round(times_for(1.0, 90.0), 4), times_for(1.0, 60.0) > 2.4 * times_for(1.0, 90.0)
+    (0.2728, True)
+    >>> times_for(1.0, 60.0, bar=1.0) == times_for(1.0, 90.0)
+    True
+    """
+    right = (tip(90.0) * radius) ** 2 / 2
+    sharp = (tip(degrees) * radius * (1 + GRID * (90.0 - min(degrees, 90.0)))) ** 2 / 2
+    if bar is None:
+        return sharp
+    # The square of the radius of a cylinder falls by twice the time.
+    return max(right, min(sharp, (1 - (1 - THINNER) ** 2) * (bar / 2) ** 2 / 2))
+
+
+def sharpest(angles: Floats) -> float:
+    """Return the angle than which few are sharper, degrees; a right angle at most, as where walls meet the part's."""
+    return min(90.0, float(np.quantile(angles, FEW))) if len(angles) else 90.0
+
+
+def between_walls(pattern: Cellular) -> float:
+    """Return how sharp corners of voids are in a pattern in space, degrees.
+
+    >>> from patterns.cellular import CELLULAR
+    >>> [round(between_walls(CELLULAR[name]), 1) for name in ("cubic", "quarter-cubic", "octet", "kelvin", "gyroid")]
+    [90.0, 70.5, 60.0, 90.0, 90.0]
+    """
+    if isinstance(pattern, Planes):
+        normals = pattern.families()[0]
+        unit = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        one, other = np.triu_indices(len(unit), 1)
+        return sharpest(np.degrees(np.arccos(np.clip(np.abs((unit[one] * unit[other]).sum(axis=1)), 0, 1))))
+    if not isinstance(pattern, Bars):
+        return 90.0  # without corners of their own
+    return sharpest(_between_bars(pattern))
+
+
+def _between_bars(pattern: Bars) -> Floats:
+    axes = pattern.axes()
+    ends = np.concatenate([axes[:, 0], axes[:, 1]])
+    ways = np.concatenate([axes[:, 1] - axes[:, 0], axes[:, 0] - axes[:, 1]])
+    ways = ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    places = np.round(ends % pattern.cells / EQUAL).astype(np.int64) % round(pattern.cells / EQUAL)
+    node = np.unique(places, axis=0, return_inverse=True)[1].ravel()
+    found = []
+    for each in range(int(node.max()) + 1):
+        own = ways[node == each]
+        one, other = np.triu_indices(len(own), 1)
+        found.append(np.degrees(np.arccos(np.clip((own[one] * own[other]).sum(axis=1), -1, 1))))
+    angles = np.concatenate(found)
+    return angles[angles > 1.0]  # the same bar, from two periods
+
+
+def between_lines(polygons: NDArray[np.object_]) -> Floats:
+    """Return the angles at the corners of polygons, degrees.
+
+    >>> between_lines(np.array([shapely.box(0, 0, 2, 1)])).round(6).tolist()
+    [90.0, 90.0, 90.0, 90.0]
+    """
+    found = [np.empty(0)]
+    for polygon in polygons:
+        ring = shapely.get_coordinates(shapely.get_exterior_ring(shapely.normalize(polygon)))[:-1]
+        if len(ring) < 3:
+            continue
+        before, after = np.roll(ring, 1, axis=0) - ring, np.roll(ring, -1, axis=0) - ring
+        turn = after[:, 0] * before[:, 1] - after[:, 1] * before[:, 0]
+        angle = np.degrees(np.arctan2(turn, (before * after).sum(axis=1))) % 360
+        if not shapely.is_ccw(shapely.get_exterior_ring(shapely.normalize(polygon))):
+            angle = 360 - angle
+        found.append(angle[angle < STRAIGHT])
+    return np.concatenate(found)
