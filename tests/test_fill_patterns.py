@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
@@ -17,8 +18,9 @@ from test_command_line import run as command
 from infill import FormatError, ParameterError, fill
 from infill.filling.solids.naming import kind_of
 from infill.filling.solids.tiled import tiled
-from patterns import Honeycomb, PatternError
+from patterns import Honeycomb, Pattern, PatternError, parameter
 from patterns.cellular import CELLULAR
+from patterns.linework import clip
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -114,6 +116,30 @@ def test_what_a_name_stands_for_may_be_given_itself(folder: Path) -> None:
     }
     assert volumes["class"] == volumes["object"] == volumes["honeycomb"]
     assert volumes["function"] == pytest.approx(volumes["surfaces"], rel=1e-3)
+
+
+def test_a_pattern_that_is_turned_itself_is_turned_by_both_angles() -> None:
+    one, other = fill(PART, Honeycomb(angle=170.0), angle=40.0, **GIVEN), fill(PART, "honeycomb", angle=-150.0, **GIVEN)
+    np.testing.assert_array_equal(one.surface.vertices, other.surface.vertices)
+
+
+def test_a_pattern_that_cannot_be_turned_says_so() -> None:
+    @dataclass(frozen=True, kw_only=True)
+    class Rows(Pattern):
+        name: ClassVar[str] = "rows"
+        cell: float = parameter(3.0, "distance", unit="mm", low=0.1, high=100.0)
+
+        def lines(self, region: Any, z: float = 0.0) -> shapely.MultiLineString:
+            x0, y0, x1, y1 = region.bounds
+            rows = np.arange(math.floor(y0 / self.cell), math.ceil(y1 / self.cell) + 1) * self.cell
+            return clip([shapely.LineString([(x0, y), (x1, y)]) for y in rows], region)
+
+        def line_spacing(self, region: Any) -> float:
+            return self.cell
+
+    assert fill(PART, Rows, **GIVEN).report["density"] == pytest.approx(0.3, abs=0.005)
+    with pytest.raises(ParameterError, match="angle is 30 degrees, and rows cannot be turned; leave it out"):
+        fill(PART, Rows, angle=30.0, **GIVEN)
 
 
 @pytest.mark.parametrize(

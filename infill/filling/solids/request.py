@@ -359,7 +359,12 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     for name in request.parameters:
         if name not in own:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, own)}")
-    turned = {"angle": request.angle} if "angle" in known else {}
+    if request.angle and "angle" not in known:
+        raise ParameterError(
+            f"angle is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
+        )
+    before = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
+    turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
     changed = {**request.parameters, **turned}
     made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
     if not made.prismatic:
