@@ -551,6 +551,7 @@ class FillRequest(TypedDict):
     open: str | None
     smooth_radius: float | None
     tolerance: float
+    resolution: int | None
     voxel: float | None
     max_triangles: int | None
 

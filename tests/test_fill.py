@@ -910,6 +910,7 @@ def test_a_hollow_knows_its_density() -> None:
         form="solid",
         smooth_radius=None,
         tolerance=0.03,
+        resolution=None,
         voxel=0.2,
         max_triangles=None,
     )
@@ -1001,3 +1002,15 @@ def test_real_parts(name: str, pattern: str, density: float, data: Path) -> None
     assert abs(result.report["density"] - density) < 0.005
     assert result.report["walls"]["least"] >= 0.9 * 1.2
     assert result.report["triangles"] <= 1_000_000
+
+
+def test_a_resolution_is_a_size_of_voxels_along_the_longest_side() -> None:
+    part = box(20, 12, 10)
+    one, other = (fill(part, BAR, density=0.3, wall=1.5, **given) for given in ({"resolution": 50}, {"voxel": 0.4}))
+    np.testing.assert_array_equal(one.surface.vertices, other.surface.vertices)
+    assert one.report["grid"]["spacing"] == pytest.approx([0.4] * 3)
+    assert (one.report["request"]["resolution"], one.report["request"]["voxel"]) == (50, None)
+    with pytest.raises(UsageError, match="voxel and resolution are both given; give one of them"):
+        fill(part, BAR, resolution=50, voxel=0.4)
+    with pytest.raises(ParameterError, match="resolution"):
+        fill(part, BAR, resolution=0)

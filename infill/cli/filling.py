@@ -243,11 +243,20 @@ def fill(
         int | None,
         typer.Option(metavar="N", help="Triangles of the mesh at most. (default: a million)", rich_help_panel=SOLID),
     ] = None,
+    resolution: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="Cells along the longest side of the part, in which voids are computed. (default: what pattern and "
+            "wall need)",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
     voxel: Annotated[
         float | None,
         typer.Option(
             metavar="MM",
-            help="Size of the cells in which voids are computed. (default: what pattern and wall need)",
+            help="Size of these cells instead.",
             rich_help_panel=SOLID,
         ),
     ] = None,
@@ -297,6 +306,7 @@ def fill(
         "overlap": overlap,
         "tolerance": tolerance,
         "max_triangles": max_triangles,
+        "resolution": resolution,
         "voxel": voxel,
     }
     settings = resolve(

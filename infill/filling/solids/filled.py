@@ -23,6 +23,7 @@ from infill.filling.solids.request import (
     TOLERANCE,
     Request,
     checked,
+    on_grid_of,
     voids_of,
 )
 from infill.filling.solids.space import Space
@@ -64,6 +65,7 @@ def fill(
     overlap: float | None = None,
     tolerance: float = TOLERANCE,
     max_triangles: int | None = None,
+    resolution: int | None = None,
     voxel: float | None = None,
     threads: int | None = None,
     max_memory: int | None = None,
@@ -119,6 +121,8 @@ def fill(
         How far simplifying may move the surfaces of voids, mm; 0 keeps every triangle.
     max_triangles : int, optional
         The voids are simplified until there are no more of them, the part's own included.
+    resolution : int, optional
+        Cells of the grid along the longest side of the part; instead of `voxel`.
     voxel : float, optional
         Cell of the grid on which voids are computed, mm.
     threads, max_memory, progress
@@ -169,6 +173,7 @@ def fill(
         open_=open_,
         smooth_radius=smooth_radius,
         tolerance=tolerance,
+        resolution=resolution,
         voxel=voxel,
         max_triangles=max_triangles,
     )
@@ -184,7 +189,7 @@ def filled(
     progress: Progress | None = None,
 ) -> Result[FillStages, FillReport]:
     """Return a part that is filled as a request says: see `fill`."""
-    clock = Clock(progress)
+    clock, request = Clock(progress), on_grid_of(request, given.bounds)
     voids = voids_of(request, given.bounds, threads)
     hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from infill.filling.solids.request import Request, sizes_for, voids_of, voxel_for
+from infill.filling.solids.request import Request, on_grid_of, sizes_for, voids_of, voxel_for
 from infill.filling.solids.space import BYTES_PER_CELL, further_for, grid_of
 from infill.surface import Surface
 
 
 def planned_fill(part: Surface, request: Request, *, threads: int | None = None) -> dict[str, Any]:
     """Return cell, line width, grid and memory, as the report of `fill` has them."""
+    request = on_grid_of(request, part.bounds)
     voids = voids_of(request, part.bounds, threads)
     extents = np.ptp(part.bounds, axis=0)
     cell, width = sizes_for(request, voids, extents)

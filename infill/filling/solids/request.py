@@ -87,6 +87,8 @@ class Request:
         mm
     align : {"part", "bed", "body"}
     form : {"solid", "infill"}
+    resolution : int or None
+        Cells of the grid along the longest side of the part.
     voxel : float or None
         mm
     max_triangles : int or None
@@ -107,6 +109,7 @@ class Request:
     drain: float | None
     smooth_radius: float | None
     tolerance: float
+    resolution: int | None
     voxel: float | None
     max_triangles: int | None
     grading: Grading | None = None
@@ -192,7 +195,8 @@ class Request:
             "open": self.open_,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
-            "voxel": self.voxel,
+            "resolution": self.resolution,
+            "voxel": self.voxel if self.resolution is None else None,
             "max_triangles": self.max_triangles,
         }
 
@@ -219,6 +223,7 @@ def checked(
     drain: float | None,
     smooth_radius: float | None,
     tolerance: float,
+    resolution: int | None,
     voxel: float | None,
     max_triangles: int | None,
     open_: str | None = None,
@@ -226,6 +231,8 @@ def checked(
     """Return a request whose numbers are in range, with what follows from others left open."""
     if density is not None and cell is not None and line_width is not None:
         raise UsageError("density, cell and line_width are all given; give two of them, and the third follows")
+    if resolution is not None and voxel is not None:
+        raise UsageError("voxel and resolution are both given; give one of them")
     if align not in get_args(Align):
         raise UsageError(f"align is {align!r}; choose from {', '.join(get_args(Align))}")
     if form not in get_args(Form):
@@ -272,6 +279,7 @@ def checked(
         drain=None if drain is None else length("drain", drain),
         smooth_radius=None if smooth_radius is None else within("smooth_radius", smooth_radius, 0.0, 100.0, "mm"),
         tolerance=within("tolerance", tolerance, 0.0, 100.0, "mm"),
+        resolution=None if resolution is None else whole("resolution", resolution, 1),
         voxel=None if voxel is None else positive("voxel", voxel, "mm"),
         max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
         grading=grading,
@@ -396,6 +404,13 @@ def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
         return cell, share * cell
     width = request.default_width if request.line_width is None else request.line_width
     return width / share, width
+
+
+def on_grid_of(request: Request, bounds: NDArray[np.floating]) -> Request:
+    """Return the request with the side of the cells that its resolution means for a part within bounds (2, 3), mm."""
+    if request.resolution is None:
+        return request
+    return replace(request, voxel=float(np.ptp(bounds, axis=0).max()) / request.resolution)
 
 
 def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:

@@ -80,6 +80,9 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
     for name in THIRDS:
         if all(each in typed or each in filed for each in THIRDS) and name not in typed:
             filed.pop(name, None)
+    for name, other in (("voxel", "resolution"), ("resolution", "voxel")):
+        if name in typed and other not in typed:
+            filed.pop(other, None)
     if "wall" in typed:
         filed.pop("overlap", None)  # that of another wall
     if isinstance(typed.get("density"), float):
@@ -133,6 +136,7 @@ DEFAULTS: dict[str, Any] = {
     "overlap": None,
     "tolerance": TOLERANCE,
     "max_triangles": None,
+    "resolution": None,
     "voxel": None,
 }
 READERS: Mapping[str, Reader] = {
@@ -156,5 +160,6 @@ READERS: Mapping[str, Reader] = {
     "overlap": parse_number,
     "tolerance": parse_number,
     "max_triangles": parse_whole,
+    "resolution": parse_whole,
     "voxel": parse_number,
 }
