@@ -1014,3 +1014,10 @@ def test_a_resolution_is_a_size_of_voxels_along_the_longest_side() -> None:
         fill(part, BAR, resolution=50, voxel=0.4)
     with pytest.raises(ParameterError, match="resolution"):
         fill(part, BAR, resolution=0)
+
+
+def test_large_fillets_do_not_draw_voids_into_the_wall_where_the_skin_bends_inwards(part: trimesh.Trimesh) -> None:
+    """Around a corner that points inwards, curvature alone would leave half of the wall: R^2 - 4 t = 0.3 of 1.0 mm^2."""
+    report = fill(part, "cubic", density=0.25, wall=1.0, smooth_radius=0.8, voxel=0.25).report
+    assert report["walls"]["least"] >= 0.97
+    assert report["problems"] == []

@@ -56,6 +56,13 @@ class SparseField:
     values: Field
     data: Data
 
+    def gathered(self, whole: Field, *, threads: int | None = None) -> Field:
+        """Return the cells of a whole field (n0, n1, n2) that are in bricks, (n, 8, 8, 16), as `values` has them."""
+        found = np.empty((len(self.where), CELLS), dtype=whole.dtype)
+        count = thread_count(threads)
+        in_threads(transfer_kernels.gather, whole, self.where, found, len(found), None, threads=count)
+        return found.reshape(self.values.shape)
+
     def to_dense(self, *, threads: int | None = None) -> Field:
         """Return the whole field, (n0, n1, n2) float32."""
         count = thread_count(threads)

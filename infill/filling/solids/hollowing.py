@@ -412,6 +412,10 @@ def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, 
         field = smooth_bricks(
             on_profile(out, INTERFACE, threads=threads), smoothing, spacing=(space.size,) * 3, threads=threads
         )
+        if smoothing.steps:
+            # Where the skin bends inwards, curvature would draw voids into the wall.
+            walled = on_profile(field.gathered(inside.depth, threads=threads), INTERFACE, threads=threads)
+            field = replace(field, values=np.minimum(field.values, walled))
         if not (field.values > 0).any():
             continue
         surface = extract_bricks(
