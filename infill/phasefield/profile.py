@@ -54,6 +54,14 @@ class Profile:
     def phase(self, distance: NDArray[np.floating], *, unit: float = 1.0, threads: int | None = None) -> Field:
         """Return phi for distances in units of the one at which they are cut off, +-1 from there on.
 
+        Parameters
+        ----------
+        distance : (...) float
+        unit : float
+            By which they are divided first.
+        threads : int, optional
+            See `infill.kernels.threads.thread_count`.
+
         >>> REFINED.phase(np.array([-2, 0, 2]), unit=2).tolist()
         [-1.0, 0.0, 1.0]
         """

@@ -215,6 +215,14 @@ def level_faces(surface: Surface, tolerance: float, *, threads: int | None = Non
     If all of another surface lies within the tolerance, mm, of this one, such a face lies within it of the other: this
     surface is a single sheet there, and the other, which can only pass its normals close to it, has to pass them.
 
+    Parameters
+    ----------
+    surface : Surface, closed, mm
+    tolerance : float, mm
+        Nothing within `CLEAR` times this may face elsewhere, by more than 30 degrees.
+    threads : int, optional
+        See `infill.kernels.threads.thread_count`.
+
     >>> roof = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 4], [4, 4, 4]])
     >>> faces = np.array([[0, 1, 2], [1, 3, 2], [1, 4, 3], [4, 5, 3]])
     >>> level_faces(Surface(vertices=roof, faces=faces), 0.1).tolist()
