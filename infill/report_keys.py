@@ -477,6 +477,8 @@ class FillSizes(TypedDict):
     cell: float
     line_width: float
     radius: float
+    cells: list[float] | None
+    widths: list[float] | None
 
 
 class FillPart(TypedDict):
@@ -539,6 +541,7 @@ class FillRequest(TypedDict):
     density: float | None
     densities: list[float] | None
     by: str | None
+    grade: str | None
     cell: float | None
     line_width: float | None
     wall: float

@@ -141,6 +141,7 @@ UNREAD = {
         "--max-triangles": "2.5",
         "--for": "foo",
         "--by": "foo",
+        "--grade": "foo",
         "--seed": "2.5",
     },
     "check": {"--for": "foo"},

@@ -104,6 +104,15 @@ def fill(
             rich_help_panel=PATTERN,
         ),
     ] = None,
+    grade: Annotated[
+        Literal["width", "cell"] | None,
+        typer.Option(
+            metavar="width|cell",
+            help="What is changed for two densities: the width of walls; or the size of cells, for walls in space such "
+            "as gyroid. (default: width)",
+            rich_help_panel=PATTERN,
+        ),
+    ] = None,
     cell: Annotated[
         float | None,
         typer.Option(
@@ -290,6 +299,7 @@ def fill(
         "pattern": pattern,
         "density": density,
         "by": by,
+        "grade": grade,
         "cell": cell,
         "line_width": line_width,
         "wall": wall,
@@ -430,6 +440,9 @@ def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) 
         ends = f"{graded[0]['density']:.0%} to {graded[-1]['density']:.0%}"
         wanted = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
         rows["graded"] = f"{ends} by {request['by']}, where {wanted} was asked for"
+        if request["grade"] == "cell":
+            (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
+            rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
     if voids["islands"]:
         rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
     if report["problems"]:

@@ -52,6 +52,7 @@ def fill(
     *,
     density: float | tuple[float, float] | None = None,
     by: object = None,
+    grade: str | None = None,
     cell: float | None = None,
     line_width: float | None = None,
     wall: float | None = None,
@@ -90,8 +91,11 @@ def fill(
     by : str, Path, array or callable, optional
         What the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of x, y, z
         and a value; a .npy of three axes, or a picture seen from above, over the box around the part;
-        "module.py:name"; or such an array, or a function of points (N, 3), mm, that returns (N,). Walls are wider where
-        it is denser, and cells stay as they are.
+        "module.py:name"; or such an array, or a function of points (N, 3), mm, that returns (N,).
+    grade : {"width", "cell"}, optional
+        What makes it denser where it is: wider walls in cells that stay as they are, the default; or smaller cells of
+        walls that stay as they are, for walls along a surface. Cells are whole everywhere, flatter or longer where they
+        must be; what they cannot follow in a flat part, widths do, and it is told.
     cell : float, optional
         Period of the pattern, mm.
     line_width : float, optional
@@ -161,6 +165,7 @@ def fill(
         own=parameters,
         density=density,
         by=by,
+        grade=grade,
         cell=cell,
         line_width=line_width,
         wall=wall,
@@ -244,7 +249,13 @@ def _result(
             "skin": space.skin,
             "tolerance": hollow.tolerance if math.isfinite(hollow.tolerance) else None,
         },
-        "infill": {"cell": hollow.cell, "line_width": facts.width, "radius": request.radius(space.thickness)},
+        "infill": {
+            "cell": hollow.cell,
+            "line_width": facts.width,
+            "radius": request.radius(space.thickness),
+            "cells": facts.cells,
+            "widths": facts.widths,
+        },
         "graded": facts.graded,
         "part": {
             "triangles": len(given.faces),

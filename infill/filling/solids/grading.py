@@ -1,9 +1,10 @@
-"""A density that changes from place to place: where it is higher, walls or bars are wider, and cells stay the same."""
+"""A density that changes from place to place: where it is higher, walls or bars are wider, or cells smaller."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,9 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.filling.solids.fields import Field
 from infill.filling.solids.space import Space
+from infill.filling.solids.stretching import slopes_of, stretched
 
+Varies = Literal["width", "cell"]
 NODES = 48  # along the longest side of a part: where the field is asked for; it is straight in between
 TABLE = 9  # densities of which widths are computed; they are straight in between
 AT_ONCE = 100_000
@@ -30,12 +33,32 @@ class Local:
         The density that is asked for, on average inside the walls.
     shares : (n, m, k) float32
         The density that is asked for.
+    within : (n, m, k) bool
+        Which nodes lie inside the walls.
+    spline : (n + 2, m + 2, k + 2, 3) float64 or None
+        Where the nodes lie in a pattern whose cells follow the field: see `stretched`. None if cells are all alike.
     """
 
     ratio: NDArray[np.float32]
     step: float
     mean: float
     shares: NDArray[np.float32]
+    within: NDArray[np.bool_]
+    spline: NDArray[np.float64] | None = None
+
+    @property
+    def widths(self) -> tuple[float, float]:
+        """How many times as wide as the line width walls are, inside, at least and at most."""
+        inside = self.ratio[self.within]
+        return float(inside.min()), float(inside.max())
+
+    @property
+    def cells(self) -> tuple[float, float]:
+        """How many times as large as called the cells are, inside, at least and at most: as cubes of their volume."""
+        if self.spline is None:
+            return 1.0, 1.0
+        sides = np.abs(np.linalg.det(slopes_of(self.spline)[self.within])) ** (-1 / 3)
+        return float(sides.min()), float(sides.max())
 
     def in_box(self, first: NDArray[np.int64], shape: tuple[int, ...]) -> Local:
         """Return the same at nodes that begin at a cell, for a box of a shape."""
@@ -44,7 +67,7 @@ class Local:
         counts = np.ceil((np.array(shape) - 1) / self.step).astype(int) + 1
         nodes = np.indices(tuple(counts.tolist())) + first.reshape(3, 1, 1, 1) / self.step
         ratio, shares = (map_coordinates(each, nodes, order=1, mode="nearest") for each in (self.ratio, self.shares))
-        return replace(self, ratio=ratio, shares=shares)
+        return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -58,6 +81,8 @@ class Grading:
     by : Field
     name : str
         What the field is called.
+    varies : {"width", "cell"}
+        Whether walls are wider where it is denser, or cells smaller.
     known : dict
         What was found for a space.
     """
@@ -66,6 +91,7 @@ class Grading:
     last: float
     by: Field
     name: str
+    varies: Varies = "width"
     known: dict[tuple[object, ...], Local] = field(default_factory=dict)
 
     @property
@@ -76,7 +102,12 @@ class Grading:
     @property
     def thinnest(self) -> float:
         """The lower density, over the middle: about how many times as wide as the line width walls are there."""
-        return min(self.first, self.last) / self.middle
+        return 1.0 if self.varies == "cell" else min(self.first, self.last) / self.middle
+
+    @property
+    def smallest(self) -> float:
+        """About how many times as large as called cells are where it is densest."""
+        return self.middle / max(self.first, self.last) if self.varies == "cell" else 1.0
 
     def over(self, space: Space, widths: Callable[[float], float]) -> Local:
         """Return the widths of walls in a space; `widths` says which gives a density, in cells of the pattern."""
@@ -110,11 +141,18 @@ class Grading:
         shares = self.first + (self.last - self.first) * share
         table = np.linspace(min(self.first, self.last), max(self.first, self.last), TABLE)
         wide = np.array([widths(each) for each in table]) / widths(self.middle)
+        ratio, spline = np.interp(shares, table, wide).reshape(counts), None
+        if self.varies == "cell":
+            # Walls twice as wide are as much as cells half as large; what cells cannot follow, widths do.
+            spline, more = stretched(ratio)
+            ratio = ratio / more
         return Local(
-            ratio=np.interp(shares, table, wide).reshape(counts).astype(np.float32),
+            ratio=ratio.astype(np.float32),
             step=step,
             mean=float(shares[inside].mean()),
             shares=shares.reshape(counts).astype(np.float32),
+            within=inside.reshape(counts),
+            spline=spline,
         )
 
     def correct(self, factors: Callable[[NDArray[np.float32]], NDArray[np.floating]]) -> None:

@@ -15,7 +15,7 @@ from infill.errors import GeometryError, ParameterError, UsageError
 from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.fields import field_of
-from infill.filling.solids.grading import Grading
+from infill.filling.solids.grading import Grading, Varies
 from infill.filling.solids.naming import Kind, kind_of
 from infill.filling.solids.opening import Open
 from infill.filling.solids.voids import Repeating, Voids
@@ -24,7 +24,7 @@ from patterns.cellular import CELLULAR
 from patterns.declared import parameters
 from patterns.given import nearest
 from patterns.protocol import Pattern
-from patterns.unit_cells import Bars, Cellular, Network, Planes
+from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed", "body"]
@@ -143,6 +143,11 @@ class Request:
         return min(RADIUS, thickness / LEAST_ROUND) if self.smooth_radius is None else self.smooth_radius
 
     @property
+    def smallest(self) -> float:
+        """How many times as large as called cells are at least."""
+        return 1.0 if self.grading is None else self.grading.smallest
+
+    @property
     def lowest(self) -> float | None:
         """The lowest density that is asked for."""
         return self.density if self.grading is None else min(self.grading.first, self.grading.last)
@@ -153,7 +158,8 @@ class Request:
         if self.density is None:
             return ()
         if self.grading is not None:
-            return ("width",) if self.line_width is None or self.cell is not None else ("cell",)
+            narrower = self.cell is not None or (self.line_width is None and self.grading.varies == "width")
+            return ("width",) if narrower else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
         return ("width",) if barred(self.kind) else ("cell", "width")
@@ -183,6 +189,7 @@ class Request:
             "density": None if self.grading is not None else self.density,
             "densities": None if self.grading is None else [self.grading.first, self.grading.last],
             "by": None if self.grading is None else self.grading.name,
+            "grade": None if self.grading is None else self.grading.varies,
             "cell": self.cell,
             "line_width": self.line_width,
             "wall": self.wall,
@@ -227,6 +234,7 @@ def checked(
     voxel: float | None,
     max_triangles: int | None,
     open_: str | None = None,
+    grade: str | None = None,
 ) -> Request:
     """Return a request whose numbers are in range, with what follows from others left open."""
     if density is not None and cell is not None and line_width is not None:
@@ -252,10 +260,13 @@ def checked(
     kind, name = kind_of(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
-        grading = graded(density, by)
+        grading = graded(density, by, grade or "width")
         density = grading.middle
-    elif by is not None:
-        raise UsageError("by is given with one density; give two, such as 15%:40%, or leave it out")
+        if grading.varies == "cell":
+            _cells_that_follow(kind, name, align)
+    elif by is not None or grade is not None:
+        given = "by" if by is not None else "grade"
+        raise UsageError(f"{given} is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
         density = within("density", density, LOWEST, HIGHEST)
     elif cell is None or line_width is None:
@@ -287,13 +298,26 @@ def checked(
     )
 
 
-def graded(densities: Sequence[float], by: object) -> Grading:
+def _cells_that_follow(kind: Kind, name: str, align: str) -> None:
+    """Raise an error if the cells of a pattern cannot follow a field."""
+    if not isinstance(kind, Surfaces):
+        raise UsageError(
+            f"grade is 'cell', and cells of {name} cannot follow a field; choose walls along a surface, such as "
+            "gyroid, or grade 'width'"
+        )
+    if align == "body":
+        raise UsageError("grade is 'cell', and cells that follow a field cannot begin anew in every body; align 'part'")
+
+
+def graded(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
     """Return two densities, where a field is lowest and where it is highest, checked."""
+    if grade not in get_args(Varies):
+        raise UsageError(f"grade is {grade!r}; choose from {', '.join(get_args(Varies))}")
     if len(densities) != 2:
         raise UsageError(f"density has {len(densities)} numbers; give one, or two such as 15%:40%")
     first, last = (within("density", each, LOWEST, HIGHEST) for each in densities)
     field, name = field_of("z" if by is None else by)
-    return Grading(first=first, last=last, by=field, name=name)
+    return Grading(first=first, last=last, by=field, name=name, varies=grade)  # type: ignore[arg-type]
 
 
 def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None) -> Voids:
@@ -424,7 +448,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
     elif _has_bars(voids):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
     else:
-        size = min(size, voids.widths(FIFTH) * cell / FINE)
+        size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
     size = min(max(size, _finest(extents)), math.cbrt(_box(extents) / FEWEST))
     if size > request.wall / LEAST_ACROSS:
         raise GeometryError(
@@ -459,7 +483,7 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
         return min(size, voids.apart * cell / LEAST_FINE_LINES)
     if _has_bars(voids):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
-    return min(size, voids.widths(FIFTH) * cell / LEAST_FINE)
+    return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
 
 
 def _has_bars(voids: Voids) -> bool:

@@ -87,6 +87,7 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
         filed.pop("overlap", None)  # that of another wall
     if isinstance(typed.get("density"), float):
         filed.pop("by", None)  # that of two
+        filed.pop("grade", None)
     both = {**filed, **typed}
     slicer, units = both.pop("for", None), both.pop("units", None)
     form = both.pop("as", "solid" if slicer is None else "project")
@@ -125,6 +126,7 @@ def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
 DEFAULTS: dict[str, Any] = {
     "density": None,
     "by": None,
+    "grade": None,
     "cell": None,
     "line_width": None,
     "wall": None,
@@ -144,6 +146,7 @@ READERS: Mapping[str, Reader] = {
     "density": parse_densities,
     "densities": parse_densities,
     "by": parse_word,
+    "grade": parse_word,
     "cell": parse_number,
     "line_width": parse_number,
     "wall": parse_number,

@@ -25,6 +25,7 @@ from infill.surfaces.winding import winding
 OFF = 0.005  # of the density: what is further off is told
 OFF_LOCAL = 0.03  # of the density in a step: chance alone is off by a hundredth, in three of a thousand
 OFF_WIDTH = 0.06  # of the line width: what is further off is told
+LEAST_WIDTH = 0.8  # of the line width, where cells follow the density: narrower walls are told
 STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
@@ -99,6 +100,9 @@ class Measured:
         Density asked for, on average.
     graded : list of dict
         Of a density that changes: what was asked for and what is there, in steps.
+    cells, widths : list of float or None
+        Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
+        the widest walls, mm.
     """
 
     least: float | None
@@ -111,6 +115,8 @@ class Measured:
     drawn: float
     wanted: float | None
     graded: list[dict[str, float]]
+    cells: list[float] | None = None
+    widths: list[float] | None = None
 
 
 def measured(
@@ -137,7 +143,19 @@ def measured(
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
         graded=[] if voids.grading is None else steps(hollow, voids),
+        **_ranges(hollow, voids),
     )
+
+
+def _ranges(hollow: Hollow, voids: Voids) -> dict[str, list[float]]:
+    """Return how small and large cells are, and how narrow and wide walls, where the density changes."""
+    if voids.grading is None:
+        return {}
+    local = voids.grading.over(hollow.space, voids.widths)
+    return {
+        "cells": [hollow.cell * each for each in local.cells],
+        "widths": [hollow.width * each for each in local.widths],
+    }
 
 
 def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
@@ -164,6 +182,13 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
             yield (
                 f"where {each['wanted']:.1%} was asked for, the density is {each['density']:.1%}; cells that are small "
                 "beside the field's changes follow it better"
+            )
+    if request.grading is not None and request.grading.varies == "cell" and facts.widths is not None:
+        narrow, wide = facts.widths
+        if narrow < LEAST_WIDTH * hollow.width:
+            yield (
+                f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
+                "little room for cells of such sizes beside one another; give densities that are nearer to one another"
             )
     if hollow.density < LEAST_LEFT * facts.drawn:
         yield (

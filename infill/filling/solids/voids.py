@@ -144,12 +144,30 @@ class Repeating:
                 out,
                 threads=threads,
             )
+        elif (spline := _spline(self, space)) is not None:
+            from infill.kernels.stretched import from_stretched_period
+
+            filled = in_threads(
+                from_stretched_period,
+                space.depth,
+                -BAND,
+                period_table(self.pattern),
+                self.turn,
+                start,
+                period,
+                1.0 if which == 0 else -1.0,
+                half,
+                *sizes,
+                spline,
+                out,
+                threads=threads,
+            )
         else:
             filled = in_threads(
                 from_period,
                 space.depth,
                 -BAND,
-                _period(self.pattern),
+                period_table(self.pattern),
                 self.turn,
                 start,
                 period,
@@ -174,8 +192,14 @@ def local_widths(voids: Voids, space: Space) -> tuple[NDArray[np.float32], float
     return found.ratio, found.step
 
 
+def _spline(voids: Voids, space: Space) -> NDArray[np.float64] | None:
+    """Return where cells of the grid lie in a pattern whose cells follow a field."""
+    return None if voids.grading is None else voids.grading.over(space, voids.widths).spline
+
+
 @cache
-def _period(pattern: Surfaces | Network) -> NDArray[np.float32]:
+def period_table(pattern: Surfaces | Network) -> NDArray[np.float32]:
+    """Return the distances from a surface at the nodes of one period, in periods, as kernels read them."""
     line = np.arange(NODES) / NODES
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
@@ -206,7 +230,7 @@ def _samples(pattern: Cellular) -> NDArray[np.floating]:
         from_polyhedra(deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, every, 0.0, *NONE, found, 0, 1)
         return found.ravel()
     if not isinstance(pattern, Bars):
-        return np.abs(_period(pattern)).ravel()
+        return np.abs(period_table(pattern)).ravel()
     from infill.kernels.cells import from_bars
 
     nodes = NODES * pattern.cells

@@ -1,0 +1,155 @@
+"""Distances to a surface that repeats in coordinates of its own, which a cubic spline gives."""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from infill.kernels.cells import local
+from infill.kernels.compiling import njit
+
+LEAST_SLOPE = 0.05  # of a distance: on the ridge between two walls it has none
+
+
+@njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def weights(at, value, slope):
+    """Write the weights of the four nodes around a place between the second and third, and their slopes."""
+    value[0] = (1 - at) ** 3 / 6
+    value[1] = (3 * at**3 - 6 * at**2 + 4) / 6
+    value[2] = (-3 * at**3 + 3 * at**2 + 3 * at + 1) / 6
+    value[3] = at**3 / 6
+    slope[0] = -((1 - at) ** 2) / 2
+    slope[1] = (3 * at**2 - 4 * at) / 2
+    slope[2] = (-3 * at**2 + 2 * at + 1) / 2
+    slope[3] = at**2 / 2
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def from_stretched_period(
+    depth, least, table, turn, start, period, sign, half, ratio, step, spline, out, thread, threads
+):
+    """Fill `out` with the lesser of the depth and the distance into the void beside a stretched surface, in cells.
+
+    To the first order: the distance in the coordinates of the pattern, over how much the stretching makes of a step
+    across the wall. So walls are as wide as asked for, however their cells are stretched.
+
+    Parameters
+    ----------
+    spline : (n, m, l, 3) float64
+        Where cells lie in the pattern before it is turned, in units of `step` cells: coefficients of a cubic spline
+        over nodes that are `step` cells apart, of which the second along each axis is at cell 0.
+    start : (3,) float64
+        Of where the spline is 0, in the pattern, in cells.
+    depth, least, table, turn, period, sign, half, ratio, step, out, thread, threads
+        As in `cells.from_period`.
+    """
+    nx, ny, nz = depth.shape
+    n = len(table)
+    inner = spline.shape[2]
+    # Of the spline over one row of cells: coordinates, and their slopes along x and y.
+    rows = np.empty((inner, 9))
+    xs, ys, zs = np.empty(4), np.empty(4), np.empty(4)
+    xd, yd, zd = np.empty(4), np.empty(4), np.empty(4)
+    flat = np.empty(9)
+    up = np.empty(3)
+    filled = 0.0
+    for i in range(thread, nx, threads):
+        first = min(int(i / step), spline.shape[0] - 4)
+        weights(i / step - first, xs, xd)
+        for j in range(ny):
+            second = min(int(j / step), spline.shape[1] - 4)
+            weights(j / step - second, ys, yd)
+            known = False
+            for k in range(nz):
+                deep = depth[i, j, k]
+                if deep <= least:
+                    out[i, j, k] = deep
+                    continue
+                if not known:
+                    known = True
+                    for c in range(inner):
+                        for d in range(9):
+                            rows[c, d] = 0.0
+                        for a in range(4):
+                            for b in range(4):
+                                for d in range(3):
+                                    node = spline[first + a, second + b, c, d]
+                                    rows[c, d] += xs[a] * ys[b] * node
+                                    rows[c, 3 + d] += xd[a] * ys[b] * node
+                                    rows[c, 6 + d] += xs[a] * yd[b] * node
+                third = min(int(k / step), inner - 4)
+                weights(k / step - third, zs, zd)
+                for d in range(9):
+                    flat[d] = (
+                        zs[0] * rows[third, d]
+                        + zs[1] * rows[third + 1, d]
+                        + zs[2] * rows[third + 2, d]
+                        + zs[3] * rows[third + 3, d]
+                    )
+                for d in range(3):
+                    up[d] = (
+                        zd[0] * rows[third, d]
+                        + zd[1] * rows[third + 1, d]
+                        + zd[2] * rows[third + 2, d]
+                        + zd[3] * rows[third + 3, d]
+                    )
+                u, v, w = flat[0] * step, flat[1] * step, flat[2] * step
+                x = (start[0] + turn[0, 0] * u + turn[0, 1] * v + turn[0, 2] * w) / period
+                y = (start[1] + turn[1, 0] * u + turn[1, 1] * v + turn[1, 2] * w) / period
+                z = (start[2] + turn[2, 0] * u + turn[2, 1] * v + turn[2, 2] * w) / period
+                x, y, z = (x - math.floor(x)) * n, (y - math.floor(y)) * n, (z - math.floor(z)) * n
+                a, b, c = int(x), int(y), int(z)
+                x, y, z = x - a, y - b, z - c
+                a, b, c = a % n, b % n, c % n
+                d, e, f = (a + 1) % n, (b + 1) % n, (c + 1) % n
+                t000, t001, t010, t011 = table[a, b, c], table[a, b, f], table[a, e, c], table[a, e, f]
+                t100, t101, t110, t111 = table[d, b, c], table[d, b, f], table[d, e, c], table[d, e, f]
+                low0, low1 = t000 * (1 - z) + t001 * z, t010 * (1 - z) + t011 * z
+                high0, high1 = t100 * (1 - z) + t101 * z, t110 * (1 - z) + t111 * z
+                low, high = low0 * (1 - y) + low1 * y, high0 * (1 - y) + high1 * y
+                value = low * (1 - x) + high * x
+                # The slope of the distance in the pattern, turned back, and what the stretching makes of it.
+                gx = (high - low) * n
+                gy = ((low1 - low0) * (1 - x) + (high1 - high0) * x) * n
+                gz = (
+                    ((t001 - t000) * (1 - y) + (t011 - t010) * y) * (1 - x)
+                    + ((t101 - t100) * (1 - y) + (t111 - t110) * y) * x
+                ) * n
+                p = turn[0, 0] * gx + turn[1, 0] * gy + turn[2, 0] * gz
+                q = turn[0, 1] * gx + turn[1, 1] * gy + turn[2, 1] * gz
+                r = turn[0, 2] * gx + turn[1, 2] * gy + turn[2, 2] * gz
+                long = math.sqrt(p * p + q * q + r * r)
+                p, q, r = p / max(long, LEAST_SLOPE), q / max(long, LEAST_SLOPE), r / max(long, LEAST_SLOPE)
+                across = math.sqrt(
+                    (flat[3] * p + flat[4] * q + flat[5] * r) ** 2
+                    + (flat[6] * p + flat[7] * q + flat[8] * r) ** 2
+                    + (up[0] * p + up[1] * q + up[2] * r) ** 2
+                )
+                away = sign * value * period / max(across, LEAST_SLOPE)
+                away = min(away - half * local(ratio, step, i, j, k), deep)
+                out[i, j, k] = away
+                filled += min(1.0, max(0.0, 0.5 + away))
+    return filled
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def places(spline, at, out):
+    """Write where points (N, 3), in nodes, lie by a spline as that of `from_stretched_period`, in nodes."""
+    value, slope = np.empty((3, 4)), np.empty((3, 4))
+    for m in range(len(at)):
+        first = np.empty(3, dtype=np.int64)
+        for axis in range(3):
+            first[axis] = min(max(int(at[m, axis]), 0), spline.shape[axis] - 4)
+            weights(at[m, axis] - first[axis], value[axis], slope[axis])
+        for d in range(3):
+            total = 0.0
+            for a in range(4):
+                for b in range(4):
+                    for c in range(4):
+                        node = spline[first[0] + a, first[1] + b, first[2] + c, d]
+                        total += value[0, a] * value[1, b] * value[2, c] * node
+            out[m, d] = total
