@@ -340,6 +340,7 @@ def test_python_callers_read_the_names_of_their_arguments(folder: Path) -> None:
 def test_the_choices_are_those_of_the_library() -> None:
     from typing import get_args
 
+    from infill.filling.solids.grading import Varies
     from infill.filling.solids.opening import Open
     from infill.filling.solids.request import Align, Form
     from infill.formats.units import UNITS
@@ -354,6 +355,7 @@ def test_the_choices_are_those_of_the_library() -> None:
     assert told["fill", "--for"].split("|") == told["check", "--for"].split("|") == [*SLICERS]
     assert told["fill", "--align"].split("|") == [*get_args(Align)]
     assert told["fill", "--open"].split("|") == [*get_args(Open)]
+    assert told["fill", "--grade"].split("|") == [*get_args(Varies)]
     assert told["make", "--stamp"].split("|") == [*DEFAULT_CELLS]
     assert set(told["motion", "--model"].split("|")) == {*MODELS}
     from infill.cli import checking, filling, making, smoothing, timing
@@ -366,6 +368,7 @@ def test_the_choices_are_those_of_the_library() -> None:
         (filling, "fill", "kind", get_args(Form)),
         (filling, "fill", "align", get_args(Align)),
         (filling, "fill", "open_", get_args(Open)),
+        (filling, "fill", "grade", get_args(Varies)),
         (filling, "fill", "slicer", SLICERS),
         (checking, "check", "slicer", SLICERS),
         (timing, "motion", "model", MODELS),
