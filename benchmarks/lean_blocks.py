@@ -2,18 +2,22 @@
 
 PrusaSlicer slices the default honeycomb both ways, in turn, with each of its two generators of perimeters; seconds are
 those of the processor, since slicing is threaded. It takes many minutes: ``--runs 1`` for a first look, ``--size 30``
-for a smaller block.
+for a smaller block. With ``--turns``, both are also sliced turned by a quarter and by half a turn: how much the
+filament of one and the same block changes then is what a difference between two blocks is to be seen against.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import re
 import statistics
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
+
+import trimesh
 
 from benchmarks.pairs import row
 from infill import make
@@ -44,10 +48,20 @@ def sliced(mesh: str, generator: str, folder: Path, settings: dict[str, object])
     return Sliced(seconds=after.children_user - before.children_user, filament=float(found[1]))
 
 
+def turned(folder: Path, mesh: str, degrees: int) -> str:
+    """Write a mesh of the folder turned about z, and return the name of the file."""
+    block = trimesh.load_mesh(folder / f"{mesh}.stl")
+    block.apply_transform(trimesh.transformations.rotation_matrix(math.radians(degrees), [0, 0, 1]))
+    name = f"{mesh}{degrees}.stl"
+    block.export(folder / name)
+    return name
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--size", type=float, default=60.0, help="mm")
+    parser.add_argument("--turns", action="store_true", help="how much filament one block takes, turned")
     given = parser.parse_args()
     if missing_prusa():
         raise SystemExit(missing_prusa())
@@ -70,6 +84,12 @@ def main() -> None:
                 holds=faster >= FASTER,
             )
             row(f"the filament of it, {generator}", f"{change:+.2%}", f"{SAME:.1%}", holds=abs(change) <= SAME)
+            for mesh, first in (("grid", raw[0]), ("prism", lean[0])) if given.turns else ():
+                changes = [
+                    sliced(turned(folder, mesh, degrees), generator, folder, DEFAULTS).filament / first.filament - 1
+                    for degrees in (90, 180)
+                ]
+                row(f"the filament of {mesh}.stl turned, {generator}", ", ".join(f"{each:+.2%}" for each in changes))
 
 
 if __name__ == "__main__":
