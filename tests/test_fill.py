@@ -427,7 +427,7 @@ def test_a_right_angle_is_rounded_to_the_radius_asked_for(radius: float) -> None
     tip = corner[np.argmin(np.abs(corner[:, 0] - corner[:, 1]))]
     tip = corner[np.linalg.norm(corner - tip, axis=1) < 0.5 * radius]
     centre, fitted = circle(tip)
-    assert fitted == pytest.approx(radius, rel=0.1)
+    assert radius <= fitted <= 1.2 * radius  # at least, on a coarse grid too: see `fillets.COARSE`
     assert (centre < 13 - radius).all()  # further from the corner than that of a circle that touches both sides
 
 

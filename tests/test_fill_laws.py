@@ -124,8 +124,6 @@ def test_tips_are_those_of_corners_that_stay_themselves() -> None:
 
 
 RADIUS = 0.8  # mm, four cells of the grid
-# Of radii, where corners are not acute enough to ask for more time: 0.93 was measured in grid, 0.94 in quarter-cubic.
-LEAST = {"grid": 0.9, "cubic": 0.9, "quarter-cubic": 0.9}
 
 
 def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray:
@@ -175,10 +173,7 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
 
 @pytest.mark.parametrize("name", ["grid", "triangles", "honeycomb", "cubic", "quarter-cubic", "octet"])
 def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
-    """At 95 % of all places where walls meet, at 60 and 120 degrees, or bars, six radii thick.
-
-    Right angles, and those of 70 degrees, have up to a tenth less where the grid lies badly, at four cells to a radius.
-    """
+    """At 95 % of all places where walls meet, at 60, 70, 90 and 120 degrees, or bars, six radii thick."""
     given = {"density": 0.25, "line_width": 0.8, "voxel": RADIUS / 4}
     radius = RADIUS
     if name == "octet":
@@ -187,7 +182,7 @@ def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
     result = fill(box(24, 24, 24), name, smooth_radius=radius, tolerance=0, wall=1.0, **given)
     found = fillets(result.stages.voids, result.stages.part, radius)
     assert len(found) > 40
-    assert np.quantile(found, 0.05) >= LEAST.get(name, 1.0) * radius
+    assert np.quantile(found, 0.05) >= radius
 
 
 def test_a_fillet_that_is_too_sharp_is_found() -> None:

@@ -12,6 +12,8 @@ from patterns.unit_cells import Bars, Cellular, Planes
 # angle and stays itself, the larger the longer.
 DEGREES = (45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0)
 TIPS = (1.4976, 1.3727, 1.2632, 1.166, 1.0785, 0.9992, 0.9265, 0.8593, 0.7969, 0.7386)
+COARSE, CELLS = 0.12, 4.0  # of the radius, what a grid costs at corners along it with so many cells to the radius
+BLUNT = 1.7  # cells: grids that are coarser beside the radius round corners more than asked for anyway
 GRID = 0.05 / 30  # of the radius, for each degree that a corner is sharper than a right angle: what a coarse grid costs
 THINNER = 0.1  # of a bar, which curvature may take for corners sharper than right angles
 FEW = 0.05  # of the corners may be sharper
@@ -30,7 +32,7 @@ def tip(degrees: float) -> float:
     return float(np.interp(degrees, DEGREES, TIPS))
 
 
-def times_for(radius: float, degrees: float, bar: float | None = None) -> float:
+def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: float = 0.0) -> float:
     """Return the time in which curvature rounds corners to a radius.
 
     Parameters
@@ -41,19 +43,22 @@ def times_for(radius: float, degrees: float, bar: float | None = None) -> float:
     bar : float, optional
         Diameter of bars, which curvature makes thinner: for corners that are sharper than right angles, no more than a
         tenth is taken from it.
+    cell : float
+        Of the grid, on which corners stay sharper for a while: by the square of its share in the radius. 0 for none.
 
     Returns
     -------
     float
-        In squares of the unit of the radius.
+        In squares of the unit of the lengths.
 
     >>> round(times_for(1.0, 90.0), 4), times_for(1.0, 60.0) > 2.4 * times_for(1.0, 90.0)
     (0.2728, True)
     >>> times_for(1.0, 60.0, bar=1.0) == times_for(1.0, 90.0)
     True
     """
-    right = (tip(90.0) * radius) ** 2 / 2
-    sharp = (tip(degrees) * radius * (1 + GRID * (90.0 - min(degrees, 90.0)))) ** 2 / 2
+    more = 1 + COARSE * min(1.0, (CELLS * cell / radius) ** 2) if radius >= BLUNT * cell > 0 else 1.0
+    right = (tip(90.0) * radius * more) ** 2 / 2
+    sharp = (tip(degrees) * radius * (more + GRID * (90.0 - min(degrees, 90.0)))) ** 2 / 2
     if bar is None:
         return sharp
     # The square of the radius of a cylinder falls by twice the time.

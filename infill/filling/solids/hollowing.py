@@ -388,7 +388,8 @@ def _smoothing(space: Space, voids: Voids, request: Request, width: float) -> Sm
     """Return the steps that round the corners between walls of a width, mm, or bars, to the radius asked for."""
     smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
     bar = width * request.thinnest if isinstance(voids, Repeating) and voids.pattern.bars else None
-    times = times_for(request.radius(space.thickness), voids.sharpest, bar) / space.size**2  # cells²
+    radius = request.radius(space.thickness)
+    times = times_for(radius, voids.sharpest, bar, cell=space.size) / space.size**2  # cells²
     if times < SHORTEST:
         return replace(smoothing, steps=0)
     steps = math.ceil(times / smoothing.alpha)
