@@ -1,9 +1,12 @@
-"""Closed cells between parallel planes that cross: cubes, and octahedra and tetrahedra."""
+"""Closed cells between parallel planes that cross: cubes, octahedra and tetrahedra; and tubes on their side."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
+from patterns.declared import check_parameters, parameter
+from patterns.errors import PatternError
 from patterns.unit_cells import Planes
 
 # A cube stands on one corner: its diagonal is upright, so that each plane is inclined alike.
@@ -33,4 +36,35 @@ QUARTER_CUBIC = Planes(
     offsets=(0.0, 0.0, 0.0, 0.5),
 )
 
-PLANES = (CUBIC, QUARTER_CUBIC, TETRAHEDRAL)
+LEAST_APART = 15.0  # degrees: walls that cross at less leave slivers
+
+
+@dataclass(frozen=True, kw_only=True)
+class LateralLattice(Planes):
+    """Walls that lean this way and that, around tubes along x; `cell` is how far those of a family are apart, level.
+
+    A wing or a blade is printed standing: such walls run across it, and meet its skin at an angle of one's own.
+    """
+
+    name: str = "lateral-lattice"
+    summary: str = "walls that lean this way and that, around tubes along x; for ribs, wings and blades"
+    normals: tuple[tuple[float, float, float], ...] = ()
+    first: float = parameter(-45.0, "how far walls one way lean from upright", unit="deg", low=-75.0, high=75.0)
+    second: float = parameter(45.0, "how far those the other way lean", unit="deg", low=-75.0, high=75.0)
+
+    def __post_init__(self) -> None:
+        """Check the parameters, and lay the planes."""
+        check_parameters(self)
+        if abs(self.first - self.second) < LEAST_APART:
+            raise PatternError(
+                f"first and second of {self.name} are {self.first:g} and {self.second:g} degrees; they must be at "
+                f"least {LEAST_APART:g} degrees apart"
+            )
+        leaning = (self.first, self.second)
+        normals = tuple((0.0, 1.0, round(math.tan(math.radians(each)), 12)) for each in leaning)
+        object.__setattr__(self, "normals", normals)
+
+
+LATERAL_LATTICE = LateralLattice()
+
+PLANES = (CUBIC, QUARTER_CUBIC, TETRAHEDRAL, LATERAL_LATTICE)

@@ -35,6 +35,7 @@ from patterns import PATTERNS
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
 from patterns.honeycombs import LateralHoneycomb
+from patterns.planes import LateralLattice
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
@@ -193,7 +194,8 @@ def test_every_point_is_in_one_class_of_cells_and_no_two_of_a_class_touch(name: 
     pattern = CELLULAR[name]
     assert isinstance(pattern, Planes)
     line = np.linspace(0, 2, 84)
-    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3) + 0.0041
+    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    points += (0.0041, 0.0013, 0.0029)  # none lies on a plane
     depths = np.array([pattern.depth(points, which) for which in range(pattern.classes)])
     assert ((depths > 0).sum(axis=0) == 1).all()
     assert depths.max(axis=0) == pytest.approx(pattern.distance(points), abs=1e-12)
@@ -274,6 +276,27 @@ def test_the_lateral_honeycomb_takes_its_overhang() -> None:
     assert steep[1] > steep[0] + 0.1
     with pytest.raises(PatternError, match="overhang of lateral-honeycomb is 80 degrees"):
         fill(block, "lateral-honeycomb", overhang=80.0)
+
+
+@pytest.mark.parametrize(("first", "second"), [(-45.0, 45.0), (-20.0, 50.0), (0.0, 30.0)])
+def test_the_walls_of_the_lateral_lattice_lean_as_asked(first: float, second: float) -> None:
+    """As lines in the plane across them, a cell apart along y; and the part is as dense as asked for."""
+    lines = []
+    for lean in (first, second):
+        up = np.array([-np.tan(np.radians(lean)), 1.0])
+        lines += [[(at, 0.0) - 20 * up, (at, 0.0) + 20 * up] for at in range(-80, 81)]
+    points = np.random.default_rng(5).random((3000, 3)) * (9.0, 4.0, 4.0)
+    exact = shapely.distance(shapely.points(points[:, 1:]), shapely.MultiLineString(lines))
+    assert LateralLattice(first=first, second=second).distance(points) == pytest.approx(exact, abs=1e-9)
+    given = {"density": 0.2, "voxel": 0.4, "wall": 1.0, "first": first, "second": second}
+    report = fill(box(16, 16, 16), "lateral-lattice", **given).report
+    assert report["problems"] == []
+    assert report["density"] == pytest.approx(0.2, abs=0.005)
+
+
+def test_walls_of_the_lateral_lattice_that_hardly_cross_are_refused() -> None:
+    with pytest.raises(PatternError, match="first and second of lateral-lattice are 10 and 20 degrees"):
+        fill(box(15, 15, 15), "lateral-lattice", first=10.0, second=20.0)
 
 
 @pytest.mark.parametrize("name", [name for name, each in CELLULAR.items() if isinstance(each, Network)])

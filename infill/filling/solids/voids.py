@@ -20,6 +20,7 @@ from infill.kernels.threads import in_threads, thread_count
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Binned, Cellular, Network, Planes, Surfaces
 
+WIDE = 1000.0  # cells, in which planes that are aslant to one another lie every way
 NODES = 48  # of the table of a period, along each axis
 FIELD = NDArray[np.float32]
 
@@ -219,6 +220,9 @@ def _binned(pattern: Bars) -> Binned:
 def _samples(pattern: Cellular) -> NDArray[np.floating]:
     """Return how far points spread evenly over a period lie from the walls or bars, in cells."""
     if isinstance(pattern, Planes):
+        if not all(float(each).is_integer() for normal in pattern.normals for each in normal):
+            # They repeat in no cube.
+            return pattern.distance(np.random.default_rng(0).uniform(0, WIDE, (NODES**3, 3)))
         line = (np.arange(NODES) + 0.5) / NODES
         return pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
     if isinstance(pattern, Polyhedra):
