@@ -276,19 +276,19 @@ TURNED: dict[str, Any] = {"voxel": 0.4, "wall": 1.0, "angle": 30}
 
 
 @pytest.mark.parametrize(
-    ("name", "more"), [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT)]
+    ("name", "more"),
+    [("rectilinear", EXACT), ("rectilinear", TURNED), ("waved", EXACT), ("grid", EXACT), ("grid", TURNED)],
 )
 def test_lines_and_the_function_that_is_0_on_them_fill_alike(name: str, more: dict[str, Any]) -> None:
-    """Where walls cross, a function's table, straight between its nodes, has blunter corners: one vertex in ten."""
+    """Where walls cross too."""
     lines, cell, function = FORMS[name]
     given = {"line_width": 0.8, **more, "smooth_radius": 0.0}
     one = fill(PART, lines, cell=cell, **given)
     other = fill(PART, function, cell=10.0, **given)
-    assert other.report["density"] == pytest.approx(one.report["density"], abs=0.005)
+    assert other.report["density"] == pytest.approx(one.report["density"], abs=0.002)
     there = Tree.of(one.stages.voids).nearest(np.asarray(other.stages.voids.vertices, np.float64))[0]
     back = Tree.of(other.stages.voids).nearest(np.asarray(one.stages.voids.vertices, np.float64))[0]
-    most = 0.9 if name == "grid" else 1.0
-    assert max(np.quantile(there, most), np.quantile(back, most)) < 0.04
+    assert max(there.max(), back.max()) < 0.04
 
 
 @pytest.mark.parametrize("name", EVERY)
