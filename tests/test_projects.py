@@ -132,6 +132,15 @@ def test_walls_that_are_one_line_are_told() -> None:
     assert any("less than two lines" in each for each in report["problems"])
 
 
+def test_walls_that_slicers_leave_out_are_told() -> None:
+    """As in a screw that two perimeters all but fill."""
+    report = fill(box(6, 6, 10), as_="project", density=0.2).report
+    assert report["infill"]["line_width"] < 0.4
+    assert any(
+        "less than a line of a usual nozzle: slicers leave most of them out" in each for each in report["problems"]
+    )
+
+
 @pytest.mark.parametrize("slicer", SLICERS)
 def test_readers_take_every_flavour(slicer: Slicer, filled: Result[Any, FillReport], tmp_path: Path) -> None:
     path = save_project(filled, tmp_path / "part.3mf", slicer=slicer)

@@ -28,6 +28,7 @@ OFF_WIDTH = 0.06  # of the line width: what is further off is told
 LEAST_WIDTH = 0.8  # of the line width, where cells follow the density: narrower walls are told
 STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
+THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
 LEAST_WALL = 0.9  # of the wall asked for
 
@@ -197,7 +198,12 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
         )
     if request.line_width is not None and request.grading is None and not near(facts.width, request.line_width):
         yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
-    if request.form == "project" and facts.width < THIN:
+    if request.form == "project" and facts.width < THINNEST:
+        yield (
+            f"walls or bars inside are {facts.width:.2g} mm wide, less than a line of a usual nozzle: slicers leave most "
+            "of them out; give a line width of 0.9 mm, or print so small a part solid"
+        )
+    elif request.form == "project" and facts.width < THIN:
         yield (
             f"walls or bars inside are {facts.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
             "such bodies in many short moves, and extrude up to a tenth more; give a line width of 0.9 mm"
