@@ -200,8 +200,8 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
         yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
     if request.form == "project" and facts.width < THINNEST:
         yield (
-            f"walls or bars inside are {facts.width:.2g} mm wide, less than a line of a usual nozzle: slicers leave most "
-            "of them out; give a line width of 0.9 mm, or print so small a part solid"
+            f"walls or bars inside are {facts.width:.2g} mm wide, less than a line of a usual nozzle: slicers leave "
+            "most of them out; give a line width of 0.9 mm, or print so small a part solid"
         )
     elif request.form == "project" and facts.width < THIN:
         yield (
