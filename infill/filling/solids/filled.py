@@ -86,7 +86,7 @@ def fill(
     density : float, optional
         Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
         and a line width of 0.45 mm (0.9 in a project) if nothing is given, or for bars, 0.2 and a cell of 8 mm (in
-        a project, a diameter of 1.8 mm).
+        a project, a diameter of 2.7 mm).
         Two densities are those where `by` is lowest and where it is highest.
     by : str, Path, array or callable, optional
         What the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of x, y, z

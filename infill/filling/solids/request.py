@@ -33,7 +33,7 @@ Size = Literal["cell", "width"]
 DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
 SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
 BAR_CELL = 8.0  # mm: bars are as thick as the density asks for
-SLICED_BAR = 1.8  # mm, in a project: slicers fill thinner ones less than to the full
+SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
 LOWEST, HIGHEST = 0.01, 0.9  # densities
 # Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
 # of bars; across a wall of the part and a bar; in all.
