@@ -79,7 +79,7 @@ class Flat(Placed):
 
 @dataclass(frozen=True, kw_only=True)
 class Centred(Sized):
-    """Outlines about a point."""
+    """Outlines or turns about a point."""
 
     angle: float = angle_parameter()
     middle: tuple[float, float] | None = parameter(
@@ -93,8 +93,9 @@ class Centred(Sized):
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
         from infill.filling.families.heart import ConcentricHeart
+        from infill.filling.families.spirals import Spirals
 
-        assert isinstance(family, ConcentricHeart)
+        assert isinstance(family, ConcentricHeart | Spirals)
         return replace(family, angle=self.angle, middle=self.middle)
 
 
@@ -102,6 +103,8 @@ KINDS: Mapping[str, type[Plain]] = {
     "keep": Plain,
     "concentric": Sized,
     "concentric-heart": Centred,
+    "archimedean-chords": Centred,
+    "octagram-spiral": Centred,
     "honeycomb": Flat,
 }
 

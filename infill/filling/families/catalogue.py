@@ -22,6 +22,12 @@ _HOMES = {
     "schwarz-p": ("level_sets", "SchwarzP"),
     "schwarz-d": ("level_sets", "SchwarzD"),
     "concentric": ("concentric", "Concentric"),
+    "octagons": ("octagons", "Octagons"),
+    "cross": ("cross", "Cross"),
+    "archimedean-chords": ("spirals", "ARCHIMEDEAN_CHORDS"),
+    "octagram-spiral": ("spirals", "OCTAGRAM_SPIRAL"),
+    "lateral-honeycomb": ("lateral_honeycomb", "LateralHoneycomb"),
+    "quarter-cubic": ("quarter_cubic", "QuarterCubic"),
 }
 
 
