@@ -11,7 +11,7 @@ from patterns.declared import check_parameters, parameter
 from patterns.declared import parameters as declared
 from patterns.errors import PatternError
 from patterns.given import nearest
-from patterns.shared import angle_parameter, phase_parameter
+from patterns.shared import angle_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
     from infill.filling.families.protocol import Family
@@ -78,6 +78,20 @@ class Flat(Placed):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Scattered(Placed):
+    """Cells about points at random."""
+
+    seed: int = seed_parameter()
+
+    def placed(self, family: Family) -> Family:
+        """Return a family with these parameters."""
+        from infill.filling.families.voronoi import Voronoi
+
+        assert isinstance(family, Voronoi)
+        return super().placed(replace(family, seed=self.seed))
+
+
+@dataclass(frozen=True, kw_only=True)
 class Centred(Sized):
     """Outlines or turns about a point."""
 
@@ -105,6 +119,7 @@ KINDS: Mapping[str, type[Plain]] = {
     "concentric-heart": Centred,
     "archimedean-chords": Centred,
     "octagram-spiral": Centred,
+    "voronoi": Scattered,
     "honeycomb": Flat,
 }
 

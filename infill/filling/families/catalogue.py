@@ -26,6 +26,7 @@ _HOMES = {
     "cross": ("cross", "Cross"),
     "archimedean-chords": ("spirals", "ARCHIMEDEAN_CHORDS"),
     "octagram-spiral": ("spirals", "OCTAGRAM_SPIRAL"),
+    "voronoi": ("voronoi", "Voronoi"),
     "cross-hatch": ("cross_hatch", "CrossHatch"),
     "lateral-honeycomb": ("lateral_honeycomb", "LateralHoneycomb"),
     "quarter-cubic": ("quarter_cubic", "QuarterCubic"),
