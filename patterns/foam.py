@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from patterns.declared import check_parameters, parameter
 from patterns.scattering import scattered
+from patterns.shared import seed_parameter
 from patterns.unit_cells import Bars
 
 Floats = NDArray[np.float64]

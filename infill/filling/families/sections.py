@@ -1,0 +1,152 @@
+"""Sections of surfaces that are given by a formula alone: sampled over one period, followed, and repeated.
+
+At some heights sheets of such a surface meet in saddles, where its section crosses itself. A layer near such a height
+takes the nearest one at which lines are still `TOUCH` line widths apart everywhere.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.families.protocol import TOUCH, Bounds, Path
+from infill.filling.families.waves import cell_of
+from infill.filling.tile_nodes import TileGrid
+from infill.filling.tile_paths import Strand, repeated, tile_strands
+
+Floats = NDArray[np.float64]
+
+HEIGHTS = 240  # sections of a period: for periods of 12 mm a height is met to 0.025 mm
+NODES = 160  # of a period, along x and y: a saddle is missed by less than a thousandth of it
+PAD = 2
+STEP = 0.004  # of a period, between points by which spacings are judged
+REACH = 0.3  # of a period: lines that far apart are far enough for any line width
+BACK = 4.0  # a line comes back to itself where the way along it is so many times as long as that across
+SURE = 1.01  # of the spacing of beads that touch
+MEAN_OF = 20  # sections by which the mean length over heights is taken
+SIZES = 2.0  # ratio of the periods, mm, for which sections are cut into chords
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sections:
+    """A minimal surface of `patterns.tpms`; `cell` is its period. Loops that would be a blot are left out.
+
+    Periods at which lines would come too near at every height are drawn as the smallest at which they do not.
+
+    Parameters
+    ----------
+    widest : float
+        How far apart lines are, in periods, at the height at which they are farthest apart, or a little less.
+    """
+
+    name: str
+    summary: str
+    widest: float
+    prismatic: bool = False
+    wide: bool = False
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height says it
+        radius: float,  # noqa: ARG002 - there are no corners
+    ) -> list[Path]:
+        """Return the section at the height, or near it; see `Family`."""
+        gap = TOUCH * line_width
+        period = self._period(cell, line_width)
+        found = self._section(round(z / period * HEIGHTS), gap / period)
+        size = SIZES ** round(math.log(period, SIZES))
+        strands = [
+            Strand(points=strand.points * (period / size), tiles=strand.tiles)
+            for strand in cut(self.name, found, size)
+            if strand.tiles != (0, 0) or _length(strand.points) * period / size > math.pi * gap
+        ]
+        return repeated(strands, (period, period), bounds)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, in the mean over heights; see `Family`."""
+
+        def length_per_area(cell: float) -> float:
+            period = self._period(cell, line_width)
+            gap = TOUCH * line_width / period
+            heights = [(2 * part + 1) * HEIGHTS // MEAN_OF // 2 for part in range(MEAN_OF)]
+            lengths = [
+                sum(_length(strand.points) for strand in cut(self.name, self._section(height, gap), 1.0))
+                for height in heights
+            ]
+            return sum(lengths) / MEAN_OF / period
+
+        return cell_of(length_per_area, density, line_width)
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
+
+    def _period(self, cell: float, line_width: float) -> float:
+        return max(cell, SURE * TOUCH * line_width / self.widest)
+
+    def _section(self, height: int, gap: float) -> int:
+        """Return the number of the height nearest to one at which lines are `gap` apart, in periods."""
+        for away in range(HEIGHTS // 2 + 1):
+            for near in (height + away, height - away):
+                if spacing(self.name, near % HEIGHTS) >= SURE * gap:
+                    return near % HEIGHTS
+        raise AssertionError(f"lines of {self.name} are nowhere {gap:g} periods apart")
+
+
+@lru_cache(maxsize=512)
+def cut(name: str, height: int, size: float) -> tuple[Strand, ...]:
+    """Return the lines of a surface at one of the heights, for a period of `size` mm; each once."""
+    from patterns.tpms import TPMS
+
+    value = {each.name: each for each in TPMS}[name].value
+    grid = TileGrid(size=(size, size), shape=(NODES, NODES), pad=PAD)
+    x, y = ((grid.first[axis] + np.arange(grid.nodes[axis]) * grid.spacing[axis]) / size for axis in (0, 1))
+    places = np.meshgrid(x * math.tau, y * math.tau, indexing="ij")
+    field = value(*places, np.full(grid.nodes, math.tau * height / HEIGHTS))
+    return tuple(tile_strands(field, grid))
+
+
+@lru_cache(maxsize=4 * HEIGHTS)
+def spacing(name: str, height: int) -> float:
+    """Return how near lines of a surface at one of the heights come to each other, in periods; `REACH` at most."""
+    from scipy.spatial import cKDTree
+
+    points, owners, places, rounds = [], [], [], []
+    size = 8.0
+    for number, strand in enumerate(cut(name, height, size)):
+        line = strand.points / size
+        passed = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+        place = np.linspace(0, passed[-1], math.ceil(passed[-1] / STEP), endpoint=False)
+        points.append(np.stack([np.interp(place, passed, axis) for axis in line.T], axis=-1))
+        places.append(place)
+        owners.append(np.full(len(place), number))
+        rounds.append(np.full(len(place), passed[-1]))
+    point, owner, place, around = (np.concatenate(each) for each in (points, owners, places, rounds))
+    tree = cKDTree(np.mod(point, 1.0) % 1.0, boxsize=1.0)
+    one, other = tree.query_pairs(REACH, output_type="ndarray").T
+    across = point[one] - point[other]
+    away = np.hypot(*(across - np.round(across)).T)
+    along = np.abs(place[one] - place[other])
+    along = np.minimum(along, around[one] - along)
+    return float(away[(owner[one] != owner[other]) | (along > BACK * away)].min(initial=REACH))
+
+
+def _length(line: Path) -> float:
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
+
+
+FISCHER_KOCH_S = Sections(
+    name="fischer-koch-s", summary="curves around winding channels that change with height", widest=0.23
+)
+LIDINOID = Sections(name="lidinoid", summary="curves around winding channels, close to one another", widest=0.13)
+NEOVIUS = Sections(name="neovius", summary="loops around chambers with twelve openings", widest=0.2)
+I_WP = Sections(name="i-wp", summary="loops around chambers that are joined along the diagonals", widest=0.28)
