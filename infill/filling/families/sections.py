@@ -23,12 +23,12 @@ Floats = NDArray[np.float64]
 HEIGHTS = 240  # sections of a period: for periods of 12 mm a height is met to 0.025 mm
 NODES = 160  # of a period, along x and y: a saddle is missed by less than a thousandth of it
 PAD = 2
-STEP = 0.004  # of a period, between points by which spacings are judged
+STEP = 0.008  # of a period, between points by which spacings are judged
 REACH = 0.3  # of a period: lines that far apart are far enough for any line width
 BACK = 4.0  # a line comes back to itself where the way along it is so many times as long as that across
 SURE = 1.01  # of the spacing of beads that touch
 MEAN_OF = 20  # sections by which the mean length over heights is taken
-SIZES = 2.0  # ratio of the periods, mm, for which sections are cut into chords
+SIZE, RATIO = 8.0, 2.0  # mm: a period for which sections are cut into chords, and of those the ratio
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,7 +63,7 @@ class Sections:
         gap = TOUCH * line_width
         period = self._period(cell, line_width)
         found = self._section(round(z / period * HEIGHTS), gap / period)
-        size = SIZES ** round(math.log(period, SIZES))
+        size = SIZE * RATIO ** round(math.log(period / SIZE, RATIO))
         strands = [
             Strand(points=strand.points * (period / size), tiles=strand.tiles)
             for strand in cut(self.name, found, size)
@@ -79,7 +79,7 @@ class Sections:
             gap = TOUCH * line_width / period
             heights = [(2 * part + 1) * HEIGHTS // MEAN_OF // 2 for part in range(MEAN_OF)]
             lengths = [
-                sum(_length(strand.points) for strand in cut(self.name, self._section(height, gap), 1.0))
+                sum(_length(strand.points) for strand in cut(self.name, self._section(height, gap), SIZE)) / SIZE
                 for height in heights
             ]
             return sum(lengths) / MEAN_OF / period
@@ -121,9 +121,8 @@ def spacing(name: str, height: int) -> float:
     from scipy.spatial import cKDTree
 
     points, owners, places, rounds = [], [], [], []
-    size = 8.0
-    for number, strand in enumerate(cut(name, height, size)):
-        line = strand.points / size
+    for number, strand in enumerate(cut(name, height, SIZE)):
+        line = strand.points / SIZE
         passed = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
         place = np.linspace(0, passed[-1], math.ceil(passed[-1] / STEP), endpoint=False)
         points.append(np.stack([np.interp(place, passed, axis) for axis in line.T], axis=-1))
