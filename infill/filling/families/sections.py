@@ -27,7 +27,7 @@ STEP = 0.008  # of a period, between points by which spacings are judged
 REACH = 0.3  # of a period: lines that far apart are far enough for any line width
 BACK = 4.0  # a line comes back to itself where the way along it is so many times as long as that across
 SURE = 1.01  # of the spacing of beads that touch
-MEAN_OF = 20  # sections by which the mean length over heights is taken
+MEAN_OF = 48  # sections by which the mean length over heights is taken
 SIZE, RATIO = 8.0, 2.0  # mm: a period for which sections are cut into chords, and of those the ratio
 
 
@@ -77,7 +77,7 @@ class Sections:
         def length_per_area(cell: float) -> float:
             period = self._period(cell, line_width)
             gap = TOUCH * line_width / period
-            heights = [(2 * part + 1) * HEIGHTS // MEAN_OF // 2 for part in range(MEAN_OF)]
+            heights = [part * HEIGHTS // MEAN_OF for part in range(MEAN_OF)]
             lengths = [
                 sum(_length(strand.points) for strand in cut(self.name, self._section(height, gap), SIZE)) / SIZE
                 for height in heights
