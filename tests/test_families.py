@@ -22,7 +22,7 @@ from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.honeycomb import Honeycomb
 from infill.filling.families.level_sets import Gyroid, SchwarzD, SchwarzP
 from infill.filling.families.protocol import TOUCH, Family, Path, RegionFamily
-from infill.filling.families.sections import HEIGHTS, Sections, spacing
+from infill.filling.families.sections import Sections
 from infill.filling.families.spirals import Spirals
 from infill.filling.families.waves import BOND
 from patterns.contours import zero_lines
@@ -183,9 +183,9 @@ def test_the_cell_gives_the_density(name: str, density: float) -> None:
     """Within 1 % on a square of whole periods or of 40 cells, in the mean over a period of heights."""
     family = FAMILIES[name]
     cell = family.cell_for(density, WIDTH)
-    half = cell * (2 if family in SAMPLED else 40.3 / SIDE if name == "cross" else 20)
+    half = cell * (2 if family in SECTIONS else 40.3 / SIDE if name == "cross" else 20)
     square = box(-half, -half, half, half)
-    count = 96 if family in SAMPLED else 16
+    count = 96 if family in SECTIONS else 16
     layers = [0.0] if family.prismatic else [EXACT[name] * cell * (part + 0.5) / count for part in range(count)]
     total = 0.0
     for z in layers:
@@ -286,11 +286,11 @@ def test_three_dimensional_honeycomb_lies_on_itself_where_rows_turn() -> None:
     assert supported / above.intersection(inner).length > 0.95
 
 
-SAMPLED = [family for family in FAMILIES.values() if isinstance(family, Sections)]
+SECTIONS = [family for family in FAMILIES.values() if isinstance(family, Sections)]
 SPATIAL = [
     family
     for family in FAMILIES.values()
-    if not family.prismatic and family.name != "rectilinear" and family not in SAMPLED
+    if not family.prismatic and family.name != "rectilinear" and family not in SECTIONS
 ]
 AROUND = (-8.0, -8.0, 8.0, 8.0)
 
@@ -306,7 +306,7 @@ def test_each_layer_lies_on_the_one_below(family: Family) -> None:
     assert min(shares) > (0.9 if planes else 0.5)
 
 
-@pytest.mark.parametrize("family", SAMPLED, ids=lambda family: family.name)
+@pytest.mark.parametrize("family", SECTIONS, ids=lambda family: family.name)
 def test_sampled_sections_are_supported_as_the_surface_is(family: Family) -> None:
     """In the mean, and within a tenth in the worst layer, as those near saddles are drawn at another height."""
     shares = supported([strands(family, 6.5, bounds=AROUND, z=0.2 * layer) for layer in range(41)])
@@ -338,29 +338,19 @@ def section(family: Family, cell: float, z: float) -> list[Path]:
     return [shapely.get_coordinates(line) for line in lines]
 
 
-@pytest.mark.parametrize("family", SAMPLED, ids=lambda family: family.name)
+@pytest.mark.parametrize("family", SECTIONS, ids=lambda family: family.name)
 @pytest.mark.parametrize("cell", [6.5, 11.0])
 def test_sampled_lines_lie_on_the_surface(family: Family, cell: float) -> None:
     """Of a height that is near: to 0.01 mm and the chords, that is to 0.03 mm, and all of the surface is drawn."""
     for z in (0.21 * cell, 0.45 * cell, 0.9 * cell):
-        height = drawn_at(family, cell, z)
+        assert isinstance(family, Sections)
+        height = family.drawn_at(z, cell=cell, line_width=WIDTH)
         assert abs(height - z) < 0.06 * cell
         drawn, true = multi(strands(family, cell, bounds=AROUND, z=z)), multi(section(family, cell, height))
         inner = box(-7, -7, 7, 7)
         for one, other in ((drawn, true), (true, drawn)):
             points = shapely.get_coordinates(shapely.segmentize(one.intersection(inner), 0.1))
             assert shapely.distance(other, shapely.points(points)).max() < 0.03
-
-
-def drawn_at(family: Family, cell: float, z: float) -> float:
-    """Return the height, mm, of the section that stands in for that of a layer."""
-    assert isinstance(family, Sections)
-    step = cell / HEIGHTS
-    for away in sorted(range(-HEIGHTS // 2, HEIGHTS // 2), key=abs):
-        height = round(z / step) + away
-        if spacing(family.name, height % HEIGHTS) * cell > 1.01 * GAP:
-            return height * step
-    raise AssertionError
 
 
 def test_concentric_lines_follow_the_region() -> None:

@@ -20,7 +20,8 @@ from infill.filling.tile_paths import Strand, repeated, tile_strands
 
 Floats = NDArray[np.float64]
 
-HEIGHTS = 240  # sections of a period: for periods of 12 mm a height is met to 0.025 mm
+HEIGHTS = 960  # sections of a period: from one to the next, lengths change by a hundredth at most
+COARSE = 4  # of them, from one to the next that is tried where lines would come too near
 NODES = 160  # of a period, along x and y: a saddle is missed by less than a thousandth of it
 PAD = 2
 STEP = 0.008  # of a period, between points by which spacings are judged
@@ -62,7 +63,7 @@ class Sections:
         """Return the section at the height, or near it; see `Family`."""
         gap = TOUCH * line_width
         period = self._period(cell, line_width)
-        found = self._section(round(z / period * HEIGHTS), gap / period)
+        found = self._section(z / period, gap / period)
         size = SIZE * RATIO ** round(math.log(period / SIZE, RATIO))
         strands = [
             Strand(points=strand.points * (period / size), tiles=strand.tiles)
@@ -77,10 +78,9 @@ class Sections:
         def length_per_area(cell: float) -> float:
             period = self._period(cell, line_width)
             gap = TOUCH * line_width / period
-            heights = [part * HEIGHTS // MEAN_OF for part in range(MEAN_OF)]
             lengths = [
-                sum(_length(strand.points) for strand in cut(self.name, self._section(height, gap), SIZE)) / SIZE
-                for height in heights
+                sum(_length(strand.points) for strand in cut(self.name, self._section(part / MEAN_OF, gap), SIZE)) / SIZE
+                for part in range(MEAN_OF)
             ]
             return sum(lengths) / MEAN_OF / period
 
@@ -93,10 +93,18 @@ class Sections:
     def _period(self, cell: float, line_width: float) -> float:
         return max(cell, SURE * TOUCH * line_width / self.widest)
 
-    def _section(self, height: int, gap: float) -> int:
-        """Return the number of the height nearest to one at which lines are `gap` apart, in periods."""
-        for away in range(HEIGHTS // 2 + 1):
-            for near in (height + away, height - away):
+    def drawn_at(self, z: float, *, cell: float, line_width: float) -> float:
+        """Return the height, mm, of the section that is drawn at a height: modulo the period, and near it."""
+        period = self._period(cell, line_width)
+        return self._section(z / period, TOUCH * line_width / period) * period / HEIGHTS
+
+    def _section(self, height: float, gap: float) -> int:
+        """Return the number of the section nearest to a height in which lines are `gap` apart; both in periods."""
+        exact, middle = round(height * HEIGHTS) % HEIGHTS, round(height * HEIGHTS / COARSE) * COARSE
+        if spacing(self.name, exact) >= SURE * gap:
+            return exact
+        for away in range(0, HEIGHTS // 2 + 1, COARSE):
+            for near in (middle + away, middle - away):
                 if spacing(self.name, near % HEIGHTS) >= SURE * gap:
                     return near % HEIGHTS
         raise AssertionError(f"lines of {self.name} are nowhere {gap:g} periods apart")
@@ -115,7 +123,7 @@ def cut(name: str, height: int, size: float) -> tuple[Strand, ...]:
     return tuple(tile_strands(field, grid))
 
 
-@lru_cache(maxsize=4 * HEIGHTS)
+@lru_cache(maxsize=8 * HEIGHTS)
 def spacing(name: str, height: int) -> float:
     """Return how near lines of a surface at one of the heights come to each other, in periods; `REACH` at most."""
     from scipy.spatial import cKDTree
