@@ -53,9 +53,7 @@ class Voronoi(Pattern):
         return self.cell
 
 
-def evened(
-    low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, even: int
-) -> NDArray[np.float64]:
+def evened(low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, even: int) -> NDArray[np.float64]:
     """Return scattered points, one for every unit square, evened out: (N, 2), from `low` to `high` and beyond.
 
     Parameters

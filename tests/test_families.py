@@ -28,6 +28,7 @@ from infill.filling.families.waves import BOND
 from patterns.contours import zero_lines
 from patterns.cross import SIDE
 from patterns.hilbert import numbers
+from patterns.octagons import NEAR as NEAR_SIDE
 from patterns.tpms import TPMS
 
 WIDTH = 0.45
@@ -40,6 +41,7 @@ SAMPLED = 0.002  # mm, by which the measure of spacings may be wrong
 # Lines of these repeat in every layer and run beside a neighbour that they touch.
 TOUCHING = {"honeycomb": math.radians(60), "zigzag": HALF_RIGHT, "grid": HALF_RIGHT, "tri-hexagon": math.radians(60)}
 TOUCHING["triangles"] = math.radians(60)
+TOUCHING["quarter-cubic"] = HALF_RIGHT  # at every height
 # How many cells above one another a pattern repeats itself.
 EXACT = dict.fromkeys(("octagons", "cross", "archimedean-chords", "octagram-spiral", "voronoi"), 0.0) | {
     "cross-hatch": 2.0,
@@ -214,7 +216,32 @@ def test_rows_touch_however_they_are_rounded(name: str, cell: float) -> None:
             assert doubled >= BOND * WIDTH * len(line.coords) / 4 * 0.5
 
 
-def cut_back(path: Path, back: float) -> Path:
+@every_cell
+@pytest.mark.parametrize("share", [0.0, 1.0])
+def test_a_third_of_the_walls_of_octagons_touches(cell: float, share: float) -> None:
+    """All double walls, with what their bond needs left of each at the largest radius."""
+    family = FAMILIES["octagons"]
+    radius = share * family.largest_radius(cell, WIDTH)
+    bounds = (-3 * cell, -3 * cell, 3 * cell, 3 * cell)
+    paths = strands(family, cell, bounds=bounds, radius=radius)
+    cut = []
+    for path in paths:
+        step = np.diff(path, axis=0)
+        angle = np.arctan2(step[:, 1], step[:, 0])
+        turn = np.abs((np.diff(angle) + math.pi) % math.tau - math.pi)
+        assert {round(math.degrees(each)) for each in turn.tolist()} <= {45, 90}
+        cut.append(shapely.LineString(cut_back(path, radius * np.tan(turn / 2)[:, None])))
+    middle = shapely.MultiPoint([(x, y) for x in (-cell, cell) for y in (-cell, cell)]).envelope
+    doubled = 0.0
+    for number, line in enumerate(cut):
+        others = shapely.MultiLineString(cut[:number] + cut[number + 1 :])
+        doubled += line.intersection(others.buffer(GAP * 1.001, cap_style="flat")).intersection(middle).length
+    # A square of two cells has four squares and eight double walls, of two lines each.
+    assert doubled > 8 * 2 * BOND * WIDTH * (1 if share else 1.5)
+    assert doubled < 8 * 2 * cell * 2 * NEAR_SIDE * (1.4 if cell < 3 else 1.1)
+
+
+def cut_back(path: Path, back: float | np.ndarray) -> Path:
     """Return a path with its corners cut off, `back` mm from each."""
     step = np.diff(path, axis=0)
     step /= np.hypot(*step.T)[:, None]

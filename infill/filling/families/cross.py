@@ -16,7 +16,7 @@ AROUND = 2  # octagons, beyond the box, whose steps are drawn
 
 @dataclass(frozen=True, kw_only=True)
 class Cross:
-    """The one curve of order 24 about (0, 0), with steps `cell` long: neighbouring lines are at least that far apart."""
+    """The one curve of order 24 about (0, 0), with steps `cell` long: lines are nowhere nearer to one another."""
 
     name: str = "cross"
     summary: str = "one line around a tree of crosses; soft in every direction"

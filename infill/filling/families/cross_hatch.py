@@ -18,10 +18,10 @@ PLACES = 256  # along a wave
 
 @dataclass(frozen=True, kw_only=True)
 class CrossHatch:
-    """The surface of `patterns.hatch`; `cell` is the period in x and y, in which two walls lie; in height it is twice that.
+    """The surface of `patterns.hatch`; `cell` is its period in x and y, with two walls; upwards it is twice that.
 
-    With weights a of cos x and b of cos y, where b is larger, cos y = -a / b cos x. Where both are the same, waves would
-    meet: they stay `TOUCH` line widths apart.
+    With weights a of cos x and b of cos y, where b is larger, cos y = -a / b cos x. Where both are the same, waves
+    would meet: they stay `TOUCH` line widths apart.
     """
 
     name: str = "cross-hatch"

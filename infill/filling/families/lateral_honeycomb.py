@@ -1,12 +1,12 @@
-"""Lateral honeycomb: hexagonal tubes along x, one upon another. A layer of it is of straight lines.
+r"""Lateral honeycomb: hexagonal tubes along x, one upon another. A layer of it is of straight lines.
 
 Seen from an end of the tubes, every wall is two lines wide::
 
-       \\    //   //    \\
-        \\  //     \\  //       two leaning walls part,
+       \    //   //    \
+        \  //     \  //       two leaning walls part,
          ||         ||          and stand upright again where they meet others
          ||         ||
-        //  \\     //  \\
+        //  \     //  \
 """
 
 from __future__ import annotations
@@ -43,7 +43,10 @@ class LateralHoneycomb:
         normals, _ = LATERAL_HONEYCOMB.faces()
         period, _ = LATERAL_HONEYCOMB.lattice()
         _, across, up = normals[1]
-        rise, height = across / up / 2, period[2] / 2  # of a leaning wall, and of a tube with one upright wall, in cells
+        rise, height = (
+            across / up / 2,
+            period[2] / 2,
+        )  # of a leaning wall, and of a tube with one upright wall, in cells
         # The tubes of a height have their middles at y = 0, and those of the next one half a cell beside; in between,
         # two lines lean from where the upright walls of the first stand, by half a cell each.
         part = z / cell / height % 2

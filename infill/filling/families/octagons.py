@@ -83,7 +83,7 @@ class Octagons:
         return max(cell, LEAST * TOUCH * line_width)
 
     def _waves(self, cell: float, line_width: float) -> list[Path]:
-        """Return one period of each wave, and the first corner of the next one: (N, 2), turned so that rows are level."""
+        """Return one period of each wave and the first corner of the next, (N, 2), turned so that rows are level."""
         from patterns.linework import turn
 
         width, gap = self._width(cell, line_width), TOUCH * line_width
@@ -99,9 +99,10 @@ def _corners(walls: tuple[tuple[int, tuple[float, float], tuple[int, int]], ...]
     ends = np.array([sides[side] + middle for side, middle, _ in walls])
     to = np.array([towards for _, _, towards in walls], dtype=np.float64)
     ends += (to / np.maximum(np.hypot(*to.T), 1.0)[:, None] * gap / 2)[:, None]
-    ends = np.concatenate([ends, ends[:2] + (-1.0, 1.0)])
+    ends = np.concatenate([ends, ends[:2] + np.array([-1.0, 1.0])])
     begin, along = ends[:, 0], ends[:, 1] - ends[:, 0]
     beside = begin[1:] - begin[:-1]
     cross = along[:-1, 0] * along[1:, 1] - along[:-1, 1] * along[1:, 0]
     part = (beside[:, 0] * along[1:, 1] - beside[:, 1] * along[1:, 0]) / cross
-    return begin[:-1] + part[:, None] * along[:-1]
+    found: Path = begin[:-1] + part[:, None] * along[:-1]
+    return found

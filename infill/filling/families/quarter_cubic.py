@@ -61,7 +61,7 @@ class QuarterCubic:
         top = np.array([(u - v) / 2, (u + v) / 2])
         down = np.array([(u + v) / 2 + crest, (u - v) / 2])
         last = np.array([cell / 2 - (u - v) / 2 + 2 * crest, cell / 2 - (u + v) / 2])
-        upper = np.array([left, top, down, last]) + (0.0, gap / 2)
+        upper = np.array([left, top, down, last]) + np.array([0.0, gap / 2])
         # A half turn about the middle of both pairs puts the wave above on the one below.
         lower = -upper[[2, 1, 0, 3]]
         lower[3, 0] += period
@@ -101,7 +101,7 @@ def _pair(z: float, sign: int) -> tuple[float, float]:
     normals, offsets = QUARTER_CUBIC.families()
     # A plane n . p + offset = 0 cuts the height z in x + sign y = -(n_z z + offset) n_x, modulo 1.
     along = normals[:, 0] * normals[:, 1] == sign
-    one, other = (-(normals[along, 2] * z + offsets[along]) * normals[along, 0]).tolist()
+    one = -(normals[along, 2] * z + offsets[along])[0] * normals[along, 0][0]
     middle = (offsets[along] @ -normals[along, 0]) / 2 % 0.5
     half = one - middle
     return float(middle), float(abs((half + 0.5) % 1 - 0.5))

@@ -79,7 +79,8 @@ class Sections:
             period = self._period(cell, line_width)
             gap = TOUCH * line_width / period
             lengths = [
-                sum(_length(strand.points) for strand in cut(self.name, self._section(part / MEAN_OF, gap), SIZE)) / SIZE
+                sum(_length(strand.points) for strand in cut(self.name, self._section(part / MEAN_OF, gap), SIZE))
+                / SIZE
                 for part in range(MEAN_OF)
             ]
             return sum(lengths) / MEAN_OF / period
@@ -118,8 +119,8 @@ def cut(name: str, height: int, size: float) -> tuple[Strand, ...]:
     value = {each.name: each for each in TPMS}[name].value
     grid = TileGrid(size=(size, size), shape=(NODES, NODES), pad=PAD)
     x, y = ((grid.first[axis] + np.arange(grid.nodes[axis]) * grid.spacing[axis]) / size for axis in (0, 1))
-    places = np.meshgrid(x * math.tau, y * math.tau, indexing="ij")
-    field = value(*places, np.full(grid.nodes, math.tau * height / HEIGHTS))
+    x, y = np.meshgrid(x * math.tau, y * math.tau, indexing="ij")
+    field = value(x, y, np.full(grid.nodes, math.tau * height / HEIGHTS))
     return tuple(tile_strands(field, grid))
 
 

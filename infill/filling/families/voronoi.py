@@ -77,7 +77,8 @@ def _cells(low: tuple[float, float], high: tuple[float, float], seed: int) -> ND
 
     points = evened(np.array(low), np.array(high), seed=seed, even=EVEN)
     found: NDArray[np.object_] = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
-    return found[shapely.intersects(found, shapely.box(*low, *high))]
+    near: NDArray[np.bool_] = shapely.intersects(found, shapely.box(*low, *high))
+    return found[near]
 
 
 def _without_specks(loop: Path) -> Path:

@@ -72,7 +72,7 @@ def strands(rows: Rows, bounds: Bounds) -> list[Path]:
     paths: list[Path] = []
     for wave in rows.waves:
         lines = repeated(
-            _corners(wave) + (0.0, wave.base),
+            _corners(wave) + np.array([0.0, wave.base]),
             wave.period,
             rows.pitch,
             shift=wave.shift,
