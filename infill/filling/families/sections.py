@@ -26,7 +26,9 @@ NODES = 160  # of a period, along x and y: a saddle is missed by less than a tho
 PAD = 2
 STEP = 0.008  # of a period, between points by which spacings are judged
 REACH = 0.3  # of a period: lines that far apart are far enough for any line width
-BACK = 4.0  # a line comes back to itself where the way along it is so many times as long as that across
+BACK = (
+    2.0  # a line comes back to itself where the way along it is so many times as long as across: more than on a circle
+)
 SURE = 1.01  # of the spacing of beads that touch
 MEAN_OF = 48  # sections by which the mean length over heights is taken
 SIZE, RATIO = 8.0, 2.0  # mm: a period for which sections are cut into chords, and of those the ratio
@@ -156,5 +158,5 @@ FISCHER_KOCH_S = Sections(
     name="fischer-koch-s", summary="curves around winding channels that change with height", widest=0.23
 )
 LIDINOID = Sections(name="lidinoid", summary="curves around winding channels, close to one another", widest=0.13)
-NEOVIUS = Sections(name="neovius", summary="loops around chambers with twelve openings", widest=0.2)
+NEOVIUS = Sections(name="neovius", summary="loops around chambers with twelve openings", widest=0.16)
 I_WP = Sections(name="i-wp", summary="loops around chambers that are joined along the diagonals", widest=0.28)
