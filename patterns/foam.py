@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from patterns.declared import check_parameters, parameter
 from patterns.scattering import scattered
+from patterns.shared import seed_parameter
 from patterns.unit_cells import Bars
 
 Floats = NDArray[np.float64]
@@ -29,7 +30,7 @@ class Foam(Bars):
 
     edges: tuple[()] = ()
     cells: int = ALONG
-    seed: int = parameter(0, "which of all such patterns", unit="", low=0, high=2**31 - 1, whole=True)
+    seed: int = seed_parameter()
     even: int = parameter(3, "how often cells are evened out", unit="", low=0, high=20, whole=True)
 
     def __post_init__(self) -> None:

@@ -12,6 +12,19 @@ from patterns.shared import angle_parameter, cell_parameter, frame_parameter, ph
 if TYPE_CHECKING:
     from shapely import MultiLineString, MultiPolygon, Polygon
 
+FAR = 0.5  # of an octagon's width
+NEAR = FAR * (math.sqrt(2) - 1)  # half a side
+# Of an octagon as wide as 1, about (0, 0): the side to the right, the one on top, and the four that it shares with
+# squares. Those of all octagons are all walls, each once.
+SIDES = (
+    ((FAR, -NEAR), (FAR, NEAR)),
+    ((-NEAR, FAR), (NEAR, FAR)),
+    ((FAR, NEAR), (NEAR, FAR)),
+    ((-NEAR, FAR), (-FAR, NEAR)),
+    ((-FAR, -NEAR), (-NEAR, -FAR)),
+    ((NEAR, -FAR), (FAR, -NEAR)),
+)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Octagons(Pattern):
@@ -40,19 +53,7 @@ class Octagons(Pattern):
         first, last = np.floor(low / self.cell) - 1, np.ceil(high / self.cell) + 1
         column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
         centres = np.stack([column, row], axis=-1).reshape(-1, 1, 1, 2) * self.cell
-        far = self.cell / 2
-        near = far * (math.sqrt(2) - 1)  # half a side
-        # Of every octagon, the side to the right, the one on top, and the four that it shares with squares.
-        own = np.array(
-            [
-                [(far, -near), (far, near)],
-                [(-near, far), (near, far)],
-                [(far, near), (near, far)],
-                [(-near, far), (-far, near)],
-                [(-far, -near), (-near, -far)],
-                [(near, -far), (far, -near)],
-            ]
-        )
+        own = np.array(SIDES) * self.cell
         walls = turn((centres + own).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
         lines = clip(shapely.linestrings(walls), region)
         return framed(lines, region) if self.frame else lines

@@ -34,6 +34,11 @@ def phase_parameter(default: tuple[float, float] = (0.0, 0.0)) -> Any:  # noqa: 
     return parameter(default, "shifts the pattern in x and y", low=-1e4, high=1e4)
 
 
+def seed_parameter() -> Any:  # noqa: ANN401 - a field of type int
+    """Return the field that says which of all patterns of a kind, scattered at random, one is."""
+    return parameter(0, "which of all such patterns", unit="", low=0, high=2**31 - 1, whole=True)
+
+
 def frame_parameter(*, default: bool = True) -> Any:  # noqa: ANN401 - a field of type bool
     """Return the field that says whether the outline of the region is a wall too."""
     return parameter(default, "a wall around the block", unit="")

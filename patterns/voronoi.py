@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 from patterns.declared import parameter
 from patterns.protocol import Pattern
-from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
+from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
 BEYOND, PER_ROUND = 4, 3  # cells around a region in which seeds have a say, and more for every round that evens them
@@ -26,7 +28,7 @@ class Voronoi(Pattern):
     summary: ClassVar[str] = "irregular cells; no direction is weaker than another"
 
     cell: float = cell_parameter(8.0)
-    seed: int = parameter(0, "which of all such patterns", unit="", low=0, high=2**31 - 1, whole=True)
+    seed: int = seed_parameter()
     even: int = parameter(2, "how often cells are evened out", unit="", low=0, high=20, whole=True)
     angle: float = angle_parameter()
     phase: tuple[float, float] = phase_parameter()
@@ -38,17 +40,9 @@ class Voronoi(Pattern):
         import shapely
 
         from patterns.linework import clip, framed, turn
-        from patterns.scattering import scattered
 
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / self.cell
-        beyond = BEYOND + PER_ROUND * self.even
-        low, high = np.floor(corners.min(axis=0)) - beyond, np.ceil(corners.max(axis=0)) + beyond
-        points = scattered(low.astype(np.int64), high.astype(np.int64), self.seed)
-        for _ in range(self.even):
-            cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
-            # Cells on the rim reach as far as the box; they are left out, ever further in, as nothing of them is seen.
-            points = shapely.get_coordinates(shapely.centroid(cells))
-            points = points[((points > low) & (points < high)).all(axis=1)]
+        points = evened(np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0)), seed=self.seed, even=self.even)
         borders = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points), only_edges=True))
         placed = shapely.transform(borders, lambda ends: turn(ends * self.cell, self.angle) + np.array(self.phase))
         lines = clip(placed, region)
@@ -57,3 +51,28 @@ class Voronoi(Pattern):
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the side of a square as large as a cell is on average, mm."""
         return self.cell
+
+
+def evened(low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, even: int) -> NDArray[np.float64]:
+    """Return scattered points, one for every unit square, evened out: (N, 2), from `low` to `high` and beyond.
+
+    Parameters
+    ----------
+    low, high : (2,) float64
+        Whole numbers. The cells of points up to one square beyond are the same however far they reach.
+    seed, even : int
+        Which of all such patterns, and how often points move to the middle of their cell.
+    """
+    import shapely
+
+    from patterns.scattering import scattered
+
+    beyond = BEYOND + PER_ROUND * even
+    low, high = low - beyond, high + beyond
+    points = scattered(low.astype("int64"), high.astype("int64"), seed)
+    for _ in range(even):
+        cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
+        # Cells on the rim reach as far as the box; they are left out, ever further in, as nothing of them is seen.
+        points = shapely.get_coordinates(shapely.centroid(cells))
+        points = points[((points > low) & (points < high)).all(axis=1)]
+    return points

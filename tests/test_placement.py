@@ -93,7 +93,7 @@ def test_what_can_be_turned() -> None:
 @every_turning
 def test_a_turn_keeps_the_lines(name: str) -> None:
     """They are those of the pattern, turned: as long within a disc about (0, 0), and where they should be."""
-    more = {"middle": (0.0, 0.0)} if name == "concentric-heart" else {}
+    more = {"middle": (0.0, 0.0)} if "middle" in parameters(unplaced(name)) else {}
     plain, other = lines(family_of(name, more)), lines(family_of(name, {**more, "angle": ANGLE}))
     assert apart(turned(plain, ANGLE), other) < 1e-6
     lengths = [found.intersection(AROUND).length for found in (plain, other)]

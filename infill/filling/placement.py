@@ -11,7 +11,7 @@ from patterns.declared import check_parameters, parameter
 from patterns.declared import parameters as declared
 from patterns.errors import PatternError
 from patterns.given import nearest
-from patterns.shared import angle_parameter, phase_parameter
+from patterns.shared import angle_parameter, phase_parameter, seed_parameter
 
 if TYPE_CHECKING:
     from infill.filling.families.protocol import Family
@@ -78,8 +78,22 @@ class Flat(Placed):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Scattered(Placed):
+    """Cells about points at random."""
+
+    seed: int = seed_parameter()
+
+    def placed(self, family: Family) -> Family:
+        """Return a family with these parameters."""
+        from infill.filling.families.voronoi import Voronoi
+
+        assert isinstance(family, Voronoi)
+        return super().placed(replace(family, seed=self.seed))
+
+
+@dataclass(frozen=True, kw_only=True)
 class Centred(Sized):
-    """Outlines about a point."""
+    """Outlines or turns about a point."""
 
     angle: float = angle_parameter()
     middle: tuple[float, float] | None = parameter(
@@ -93,8 +107,9 @@ class Centred(Sized):
     def placed(self, family: Family) -> Family:
         """Return a family with these parameters."""
         from infill.filling.families.heart import ConcentricHeart
+        from infill.filling.families.spirals import Spirals
 
-        assert isinstance(family, ConcentricHeart)
+        assert isinstance(family, ConcentricHeart | Spirals)
         return replace(family, angle=self.angle, middle=self.middle)
 
 
@@ -102,6 +117,9 @@ KINDS: Mapping[str, type[Plain]] = {
     "keep": Plain,
     "concentric": Sized,
     "concentric-heart": Centred,
+    "archimedean-chords": Centred,
+    "octagram-spiral": Centred,
+    "voronoi": Scattered,
     "honeycomb": Flat,
 }
 

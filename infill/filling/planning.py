@@ -14,6 +14,7 @@ from infill.filling.contact import sampled
 from infill.filling.covering import check_cell, solve_cell, total_length
 from infill.filling.families.heart import ConcentricHeart
 from infill.filling.families.protocol import TOUCH, Family
+from infill.filling.families.spirals import Spirals
 from infill.filling.regions import INFILL_STEP, STEP, Region, region_of
 from infill.filling.rounding import Rounding, rounded_paths
 from infill.filling.support import filled
@@ -121,7 +122,7 @@ def planned(
             length += float(batch.infill.length[chosen].sum()) if density is None else density * area.area / spacing
     if not regions:
         return None
-    if isinstance(family, ConcentricHeart) and family.middle is None:  # one centre for the whole print
+    if isinstance(family, ConcentricHeart | Spirals) and family.middle is None:  # one centre for the whole print
         boxes = np.array([area.bounds for area, _, _ in regions])
         low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
         family = replace(family, middle=tuple(((low + high) / 2).tolist()))

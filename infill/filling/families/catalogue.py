@@ -21,7 +21,19 @@ _HOMES = {
     "gyroid": ("level_sets", "Gyroid"),
     "schwarz-p": ("level_sets", "SchwarzP"),
     "schwarz-d": ("level_sets", "SchwarzD"),
+    "fischer-koch-s": ("sections", "FISCHER_KOCH_S"),
+    "lidinoid": ("sections", "LIDINOID"),
+    "neovius": ("sections", "NEOVIUS"),
+    "i-wp": ("sections", "I_WP"),
     "concentric": ("concentric", "Concentric"),
+    "octagons": ("octagons", "Octagons"),
+    "cross": ("cross", "Cross"),
+    "archimedean-chords": ("spirals", "ARCHIMEDEAN_CHORDS"),
+    "octagram-spiral": ("spirals", "OCTAGRAM_SPIRAL"),
+    "voronoi": ("voronoi", "Voronoi"),
+    "cross-hatch": ("cross_hatch", "CrossHatch"),
+    "lateral-honeycomb": ("lateral_honeycomb", "LateralHoneycomb"),
+    "quarter-cubic": ("quarter_cubic", "QuarterCubic"),
 }
 
 

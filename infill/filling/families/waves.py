@@ -69,20 +69,53 @@ def strands(rows: Rows, bounds: Bounds) -> list[Path]:
     >>> [line[:3].tolist() for line in strands(Rows(waves=[square], pitch=2, slip=0), (0, 0.2, 1, 0.8))][1]
     [[-5.0, 0.0], [-3.0, 0.0], [-3.0, 1.0]]
     """
-    x0, y0, x1, y1 = _turned(bounds, -rows.angle)
     paths: list[Path] = []
     for wave in rows.waves:
-        first, last = math.floor((y0 - wave.base - wave.height) / rows.pitch), math.ceil((y1 - wave.base) / rows.pitch)
-        row = np.arange(first, last + 1, dtype=np.float64)
-        shift = (wave.shift + row * rows.slip) % wave.period
-        column = np.arange(math.floor(x0 / wave.period) - 1, math.ceil(x1 / wave.period) + 1, dtype=np.float64)
-        corners = _corners(wave)
-        x = ((column * wave.period)[:, None] + corners[:, 0]).ravel() + shift[:, None]
-        y = np.tile(corners[:, 1], len(column)) + (wave.base + row * rows.pitch)[:, None]
-        if not wave.height:
-            x, y = x[:, [0, -1]], y[:, [0, -1]]
-        paths.extend(_turn(np.stack([x, y], axis=-1), rows.angle))
+        lines = repeated(
+            _corners(wave) + np.array([0.0, wave.base]),
+            wave.period,
+            rows.pitch,
+            shift=wave.shift,
+            slip=rows.slip,
+            angle=rows.angle,
+            bounds=bounds,
+        )
+        paths.extend(lines if wave.height else [line[[0, -1]] for line in lines])
     return paths
+
+
+def repeated(
+    corners: Path,
+    period: float,
+    pitch: float,
+    *,
+    shift: float = 0.0,
+    slip: float = 0.0,
+    angle: float = 0.0,
+    bounds: Bounds,
+) -> list[Path]:
+    """Return rows of a line, each from beyond one side of a box to beyond the other.
+
+    Parameters
+    ----------
+    corners : (N, 2) float64
+        Of one period, mm: the first at x <= 0, the last at x >= 0. The next ones begin `period` further along x.
+    period, pitch, shift, slip : float
+        mm: along a row, from row to row, and how much further on row 0 lies, and each row than the one below.
+    angle : float
+        Degrees by which all of it is turned.
+    bounds : (x0, y0, x1, y1)
+        mm.
+    """
+    x0, y0, x1, y1 = _turned(bounds, -angle)
+    first = math.floor((y0 - corners[:, 1].max()) / pitch)
+    last = math.ceil((y1 - corners[:, 1].min()) / pitch)
+    row = np.arange(first, last + 1, dtype=np.float64)
+    further = (shift + row * slip) % period
+    column = np.arange(math.floor(x0 / period) - 1, math.ceil(x1 / period) + 1, dtype=np.float64)
+    x = ((column * period)[:, None] + corners[:, 0]).ravel() + further[:, None]
+    y = np.tile(corners[:, 1], len(column)) + (row * pitch)[:, None]
+    return list(_turn(np.stack([x, y], axis=-1), angle))
 
 
 def cell_of(length_per_area: Callable[[float], float], density: float, line_width: float) -> float:
