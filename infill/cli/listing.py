@@ -13,7 +13,7 @@ from infill.cli.console import can_show, print_json, say, table
 
 if TYPE_CHECKING:
     from patterns import Pattern
-    from patterns.unit_cells import Cellular
+    from patterns.cellular import InSpace
 
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
@@ -57,7 +57,7 @@ def list_patterns(
         typer.echo(_shown(kinds[pattern]))
 
 
-def _show_in_space(name: str, kind: Cellular, *, pictured: bool, as_json: bool) -> None:
+def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -> None:
     """Print what a pattern that repeats in space is for, and its parameters."""
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")

@@ -1,0 +1,188 @@
+"""The voids of a pattern that depends on the part: cubes that are split where its skin is near."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.solids.bodies import DEEP, Bodies
+from infill.filling.solids.grading import Grading
+from infill.filling.solids.roots import root
+from infill.filling.solids.space import BAND, Space
+from infill.filling.solids.voids import FIELD, local_widths
+from infill.kernels.threads import in_threads, thread_count
+from patterns.octree import Octree, doubled
+
+SHELL = 1.5  # cells of the grid: so far outside of the inner side of a wall it is looked for
+FLAT = 0.5**0.5  # cosine of 45 degrees: a roof that is steeper needs nothing below it
+SHARES = (0.6, 0.3, 0.1)  # of a part, that the smallest cubes and larger ones take: a guess
+NEAR, TRIES = 1e-4, 40  # of the density of that: when it is near enough
+ONCE = 1 << 20  # cells of the grid that are looked at at a time
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Tree:
+    """Cubes in the space of a part.
+
+    Parameters
+    ----------
+    space : Space
+        For which it was made.
+    doubled : (n, m, k) uint8
+        How often the cube is doubled in which each of the smallest ones lies.
+    first : (3,) int64
+        The number of the first of these, along each axis of the pattern.
+    colours : tuple of int
+        Those of cubes that lie in the part: see `infill.kernels.cells.from_cubes`.
+    """
+
+    space: Space
+    doubled: NDArray[np.uint8]
+    first: NDArray[np.int64]
+    colours: tuple[int, ...]
+
+    @property
+    def reach(self) -> float:
+        """How far from cubes distances to them are known, in the smallest ones."""
+        return 0.5 * float(1 << int(self.doubled.min()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Subdivided:
+    """The voids in cubes that are split where the skin of a part is near.
+
+    Parameters
+    ----------
+    pattern : Octree
+    turn : (3, 3) float64
+        From the part to the pattern.
+    anchor : (3,) float64
+        The point of the part at which cubes of all sizes have a corner, mm.
+    threads : int, optional
+    grading : Grading, optional
+    bodies : Bodies, optional
+        How it begins anew in each component of the part: the anchor is then that from its middle.
+    known : dict
+        The cubes, for a space and a cell.
+    """
+
+    pattern: Octree
+    turn: NDArray[np.float64]
+    anchor: NDArray[np.float64]
+    threads: int | None = None
+    grading: Grading | None = None
+    bodies: Bodies | None = None
+    known: dict[tuple[int, float], Tree] = field(default_factory=dict)
+
+    @property
+    def sharpest(self) -> float:
+        """See `Voids`."""
+        return 90.0
+
+    def about(self, middle: NDArray[np.float64]) -> Subdivided:
+        """See `Anchored`."""
+        return replace(self, anchor=middle + self.anchor, bodies=None, known={})
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:
+        """As many as there are colours."""
+        if self.bodies is not None:
+            return self.bodies.count(self, space, cell=cell, width=width)
+        return len(self.tree(space, cell).colours)
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """See `Voids`."""
+        from infill.kernels.cells import from_cubes
+
+        if self.bodies is not None:
+            return self.bodies.into(self, out, space, which, cell=cell, width=width)
+        tree, period = self.tree(space, cell), cell / space.size
+        filled = in_threads(
+            from_cubes,
+            space.depth,
+            -BAND,
+            tree.doubled,
+            self.turn / period,
+            self._start(space, cell) - tree.first,
+            period,
+            tree.reach,
+            tree.colours[which],
+            width / 2 / space.size,
+            *local_widths(self, space),
+            out,
+            threads=thread_count(self.threads),
+        )
+        return float(sum(filled))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`: a guess, as nothing is known of the part."""
+        shares = np.array(SHARES[: self.pattern.levels + 1])
+        shares, sides = shares / shares.sum(), 2.0 ** np.arange(len(shares))
+
+        def off(times: float) -> float:
+            voids = np.maximum(1 - times * density / 3 / sides, 0) ** 3
+            return float(np.log((1 - shares @ voids) / density))
+
+        return density / 3 * root(off, NEAR, TRIES)
+
+    def tree(self, space: Space, cell: float) -> Tree:
+        """Return the cubes in a space, the smallest of which have sides of a cell, mm."""
+        key = id(space), cell
+        if key not in self.known:
+            self.known.clear()
+            self.known[key] = self._found(space, cell)
+        return self.known[key]
+
+    def _start(self, space: Space, cell: float) -> NDArray[np.float64]:
+        """Return where the first cell of the grid lies in the pattern, in the smallest cubes."""
+        start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell
+        return start
+
+    def _found(self, space: Space, cell: float) -> Tree:
+        from infill.kernels.cells import colours_of_cubes
+
+        start, step, most = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
+        ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
+        first = (np.floor(ends.min(axis=0) / most) * most).astype(np.int64)
+        count = (np.floor(ends.max(axis=0) / most) * most).astype(np.int64) + most - first
+        followed = np.zeros(tuple(count.tolist()), dtype=bool)
+        for cells in self._followed(_walled(space)):
+            followed[tuple((np.floor(cells @ step.T + start).astype(np.int64) - first).T)] = True
+        tree = doubled(followed, self.pattern.levels)
+        seen = in_threads(colours_of_cubes, space.depth, tree, step, start - first, threads=thread_count(self.threads))
+        return Tree(
+            space=space,
+            doubled=tree,
+            first=first,
+            colours=tuple(np.flatnonzero(np.any(seen, axis=0)).tolist()),
+        )
+
+    def _followed(self, depth: NDArray[np.float32]) -> list[NDArray[np.intp]]:
+        """Return the cells of a grid, (N, 3) at a time, that lie where the pattern follows the inner side of a wall.
+
+        They are those just outside of it, or of a roof just inside: where depths rise downwards by `FLAT` or more.
+        """
+        every = max(1, ONCE // depth[0].size)
+        found = []
+        for low in range(0, len(depth), every):
+            some = depth[low : low + every]
+            if self.pattern.roofs:
+                near = np.zeros(some.shape, dtype=bool)
+                below, above = some[:, :, :-1], some[:, :, 1:]
+                near[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
+            else:
+                near = (some <= 0) & (some > -SHELL)
+            found.append(np.argwhere(near) + np.array([low, 0, 0]))
+        return found
+
+
+def _walled(space: Space) -> NDArray[np.float32]:
+    """Return the depths below the walls, also where voids reach through them."""
+    if space.box_of is None:
+        return (space.walled or space).depth
+    whole, first = space.box_of
+    if whole.walled is None:
+        return space.depth
+    box = tuple(slice(low, low + n) for low, n in zip(first.tolist(), space.depth.shape, strict=True))
+    return np.where(space.depth > DEEP, whole.walled.depth[box], DEEP)
