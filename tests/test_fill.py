@@ -35,6 +35,7 @@ from patterns import PATTERNS
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
 from patterns.honeycombs import LateralHoneycomb
+from patterns.octree import Octree
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
@@ -94,7 +95,7 @@ def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     one = fill(block, name, **given).surface
     kind = CELLULAR[name]
     period = np.array([1, -2, 1]) * 6.0 * kind.cells
-    if isinstance(kind, Planes):
+    if isinstance(kind, (Planes, Octree)):
         period = period @ np.array(kind.upright)
     if isinstance(kind, Polyhedra):
         period = period * kind.lattice()[0]
