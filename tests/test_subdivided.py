@@ -153,7 +153,7 @@ def tree_in(part: trimesh.Trimesh, name: str, cell: float, **more: Any) -> tuple
 def at_cells(space: Space, tree: Tree, voids: Subdivided, cell: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Of each cell of the grid: how often its cube is doubled, and corner and side of this, in the smallest ones."""
     index = np.stack(np.meshgrid(*map(np.arange, space.depth.shape), indexing="ij"), axis=-1)
-    places = (space.origin + space.size * index - voids.anchor) @ voids.turn.T / cell
+    places = (space.origin + space.size * index - voids.anchor) @ voids.turn.T / cell + voids.pattern.cells / 2
     at = np.floor(places).astype(int) - tree.first
     level = tree.doubled[tuple(np.moveaxis(at, -1, 0))].astype(int)
     return level, (at >> level[..., None]) << level[..., None], 1 << level
@@ -165,7 +165,7 @@ def test_cubes_larger_than_the_smallest_lie_inside_the_walls_and_are_large_far_i
     level, corner, side = at_cells(space, tree, voids, cell)
     inside = space.depth > 0
     ends = corner.reshape(-1, 1, 3) + side.reshape(-1, 1, 1) * np.array(list(np.ndindex(2, 2, 2)))
-    corners = (ends + tree.first) @ voids.turn * cell + voids.anchor
+    corners = (ends + tree.first - voids.pattern.cells / 2) @ voids.turn * cell + voids.anchor
     room = (np.abs(corners) <= np.array([30, 25, 35]) - 1.0 + 0.75).all(axis=(1, 2)).reshape(level.shape)
     assert room[(level > 0) & inside].all()  # or within `SHELL`, 1.5 cells of the grid
     away = distance_transform_edt(inside) * space.size
@@ -208,13 +208,13 @@ def test_a_core_is_lighter_than_that_of_cubic_and_the_skin_is_not() -> None:
     core, roof, floor = [], [], []
     for name in ("cubic", *NAMES):
         voids = fill(part, name, **GIVEN).stages.voids
-        line = np.arange(-20, 20, 0.5)
+        line = np.arange(-23, 23, 0.5)
         corners = (np.asarray(voids.vertices, dtype=np.float64) - line[0]) / 0.5
-        solid = ~filled(crossings(corners, voids.faces, (80, 80, 80)), (80, 80, 80))
+        solid = ~filled(crossings(corners, voids.faces, (92,) * 3), (92,) * 3)
         away = np.abs(line) < 8
         core.append(solid[np.ix_(away, away, away)].mean())
-        roof.append(solid[:, :, line > 17].mean())
-        floor.append(solid[np.ix_(away, away, line < -16)].mean())
+        roof.append(solid[np.ix_(away, away, (line > 17) & (line < 20.5))].mean())
+        floor.append(solid[np.ix_(away, away, (line < -16) & (line > -20.5))].mean())
     assert max(core[1:]) < 0.65 * core[0]
     assert roof[1:] == pytest.approx([roof[0]] * 2, rel=0.15)
     assert floor[1] == pytest.approx(floor[0], rel=0.15)

@@ -59,7 +59,7 @@ class Subdivided:
     turn : (3, 3) float64
         From the part to the pattern.
     anchor : (3,) float64
-        The point of the part at which cubes of all sizes have a corner, mm.
+        The point of the part in the middle of one of the largest cubes, mm: where those half as large have a corner.
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
@@ -136,7 +136,7 @@ class Subdivided:
 
     def _start(self, space: Space, cell: float) -> NDArray[np.float64]:
         """Return where the first cell of the grid lies in the pattern, in the smallest cubes."""
-        start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell
+        start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.cells / 2
         return start
 
     def _found(self, space: Space, cell: float) -> Tree:
