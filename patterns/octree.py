@@ -9,6 +9,8 @@ from patterns.declared import check_parameters, parameter
 from patterns.planes import ON_A_CORNER
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -21,8 +23,9 @@ Rows = tuple[tuple[float, float, float], ...]
 class Octree:
     """Walls around cubes, of which the larger have sides twice, four times ... those of the smallest: `cell`.
 
-    A cube is split into eight as long as what the pattern follows runs through it, and it is not one of the smallest.
-    Cubes that touch, if only at a corner, differ by one level at most.
+    A cube is split into eight, down to the smallest, as long as what the pattern follows comes nearer to its middle
+    than half its side, or than half its diagonal, if its middle is not inside the walls. Cubes that touch, if only at a
+    corner, differ by one level at most.
 
     Parameters
     ----------
@@ -54,37 +57,44 @@ class Octree:
         """How many of the smallest cubes lie along the largest."""
         return 1 << self.levels
 
+    @property
+    def middle(self) -> int:
+        """Where the pattern begins, along each axis, in the smallest cubes from a corner of one of the largest.
 
-def doubled(followed: Flags, levels: int) -> NDArray[np.uint8]:
+        In the middle of a cube of twice the side of the smallest, and far from the faces of all larger ones.
+        """
+        return round(self.cells / 3)
+
+
+def doubled(whole: Sequence[Flags]) -> NDArray[np.uint8]:
     """Return how often the cube is doubled in which each of the smallest ones lies, (n, m, k).
 
     Parameters
     ----------
-    followed : (n, m, k) bool
-        The smallest cubes through which it runs what the pattern follows; n, m and k are multiples of 2**levels.
-    levels : int
+    whole : sequence of (n / 2**level, m / 2**level, k / 2**level) bool
+        For each level from 1 on, which cubes need not be split for what the pattern follows.
 
     Notes
     -----
-    From the smallest upwards: eight cubes become one, if nothing runs through them, and neither they nor the 56 of
-    their size around them are split themselves. So no cube touches one less than half as large.
+    From the smallest upwards: eight cubes become one that is whole, if neither they nor the 56 of their size around
+    them are split themselves. So no cube touches one less than half as large.
 
     >>> import numpy as np
-    >>> doubled(np.arange(12).reshape(12, 1, 1).repeat(4, 1).repeat(4, 2) == 0, 2)[:, 0, 0].tolist()
+    >>> fine, coarse = np.ones((6, 2, 2), dtype=bool), np.ones((3, 1, 1), dtype=bool)
+    >>> fine[0] = coarse[0] = False
+    >>> doubled([fine, coarse])[:, 0, 0].tolist()
     [0, 0, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2]
     """
     import numpy as np
 
-    whole, free = ~followed, np.ones_like(followed)
-    found = np.zeros(followed.shape, dtype=np.uint8)
-    for level in range(1, levels + 1):
-        around = np.pad(free, 1, constant_values=True)
+    found = np.zeros(tuple(2 * n for n in whole[0].shape), dtype=np.uint8)
+    free = np.ones(found.shape, dtype=bool)
+    for level, own in enumerate(whole, start=1):
+        free = np.pad(free, 1, constant_values=True)
         for axis in range(3):
-            along = np.moveaxis(whole, axis, 0)
-            whole = np.moveaxis(along[::2] & along[1::2], 0, axis)
-            along = np.moveaxis(around, axis, 0)
-            around = np.moveaxis(along[:-3:2] & along[1:-2:2] & along[2:-1:2] & along[3::2], 0, axis)
-        free = whole & around
+            along = np.moveaxis(free, axis, 0)
+            free = np.moveaxis(along[:-3:2] & along[1:-2:2] & along[2:-1:2] & along[3::2], 0, axis)
+        free &= own
         fine = free
         for axis in range(3):
             fine = fine.repeat(1 << level, axis=axis)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +16,13 @@ from infill.filling.solids.voids import FIELD, local_widths
 from infill.kernels.threads import in_threads, thread_count
 from patterns.octree import Octree, doubled
 
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
 SHELL = 1.5  # cells of the grid: so far outside of the inner side of a wall it is looked for
 FLAT = 0.5**0.5  # cosine of 45 degrees: a roof that is steeper needs nothing below it
 SHARES = (0.6, 0.3, 0.1)  # of a part, that the smallest cubes and larger ones take: a guess
+DIAGONAL = 3**0.5  # of a cube, over its side
 NEAR, TRIES = 1e-4, 40  # of the density of that: when it is near enough
 ONCE = 1 << 20  # cells of the grid that are looked at at a time
 
@@ -59,13 +64,15 @@ class Subdivided:
     turn : (3, 3) float64
         From the part to the pattern.
     anchor : (3,) float64
-        The point of the part in the middle of one of the largest cubes, mm: where those half as large have a corner.
+        The point of the part in the middle of a cube of twice the smallest side, mm.
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
         How it begins anew in each component of the part: the anchor is then that from its middle.
     known : dict
         The cubes, for a space and a cell.
+    skins : dict
+        What the pattern follows, for a space.
     """
 
     pattern: Octree
@@ -75,6 +82,7 @@ class Subdivided:
     grading: Grading | None = None
     bodies: Bodies | None = None
     known: dict[tuple[int, float], Tree] = field(default_factory=dict)
+    skins: dict[int, tuple[Space, cKDTree]] = field(default_factory=dict)
 
     @property
     def sharpest(self) -> float:
@@ -83,7 +91,7 @@ class Subdivided:
 
     def about(self, middle: NDArray[np.float64]) -> Subdivided:
         """See `Anchored`."""
-        return replace(self, anchor=middle + self.anchor, bodies=None, known={})
+        return replace(self, anchor=middle + self.anchor, bodies=None, known={}, skins={})
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
         """As many as there are colours."""
@@ -136,7 +144,7 @@ class Subdivided:
 
     def _start(self, space: Space, cell: float) -> NDArray[np.float64]:
         """Return where the first cell of the grid lies in the pattern, in the smallest cubes."""
-        start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.cells / 2
+        start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.middle
         return start
 
     def _found(self, space: Space, cell: float) -> Tree:
@@ -145,36 +153,51 @@ class Subdivided:
         start, step, most = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
         first = (np.floor(ends.min(axis=0) / most) * most).astype(np.int64)
-        count = (np.floor(ends.max(axis=0) / most) * most).astype(np.int64) + most - first
-        followed = np.zeros(tuple(count.tolist()), dtype=bool)
-        for cells in self._followed(_walled(space)):
-            followed[tuple((np.floor(cells @ step.T + start).astype(np.int64) - first).T)] = True
-        tree = doubled(followed, self.pattern.levels)
-        seen = in_threads(colours_of_cubes, space.depth, tree, step, start - first, threads=thread_count(self.threads))
-        return Tree(
-            space=space,
-            doubled=tree,
-            first=first,
-            colours=tuple(np.flatnonzero(np.any(seen, axis=0)).tolist()),
-        )
+        counts = (np.floor(ends.max(axis=0) / most) * most).astype(np.int64) + most - first
+        depth, tree, whole = _walled(space), self._skin(space), []
+        for level in range(1, self.pattern.levels + 1):
+            side = 1 << level
+            middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + first
+            cells = (middles - start) @ np.linalg.inv(step).T
+            reach = side / 2 * cell / space.size
+            reaches = np.where(_inside(depth, cells), reach, DIAGONAL * reach)
+            away, _ = tree.query(cells, distance_upper_bound=DIAGONAL * reach, workers=thread_count(self.threads))
+            whole.append((away >= reaches).reshape(counts // side))
+        cubes = doubled(whole)
+        seen = in_threads(colours_of_cubes, space.depth, cubes, step, start - first, threads=thread_count(self.threads))
+        colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
+        return Tree(space=space, doubled=cubes, first=first, colours=colours)
 
-    def _followed(self, depth: NDArray[np.float32]) -> list[NDArray[np.intp]]:
-        """Return the cells of a grid, (N, 3) at a time, that lie where the pattern follows the inner side of a wall.
+    def _skin(self, space: Space) -> cKDTree:
+        """Return the cells of a grid where the pattern follows the inner side of a wall, as places to look up.
 
         They are those just outside of it, or of a roof just inside: where depths rise downwards by `FLAT` or more.
         """
-        every = max(1, ONCE // depth[0].size)
-        found = []
-        for low in range(0, len(depth), every):
-            some = depth[low : low + every]
-            if self.pattern.roofs:
-                near = np.zeros(some.shape, dtype=bool)
-                below, above = some[:, :, :-1], some[:, :, 1:]
-                near[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
-            else:
-                near = (some <= 0) & (some > -SHELL)
-            found.append(np.argwhere(near) + np.array([low, 0, 0]))
-        return found
+        from scipy.spatial import cKDTree
+
+        if id(space) not in self.skins:
+            self.skins.clear()
+            depth = _walled(space)
+            every = max(1, ONCE // depth[0].size)
+            found = []
+            for low in range(0, len(depth), every):
+                some = depth[low : low + every]
+                if self.pattern.roofs:
+                    near = np.zeros(some.shape, dtype=bool)
+                    below, above = some[:, :, :-1], some[:, :, 1:]
+                    near[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
+                else:
+                    near = (some <= 0) & (some > -SHELL)
+                found.append(np.argwhere(near) + np.array([low, 0, 0]))
+            self.skins[id(space)] = space, cKDTree(np.concatenate(found))
+        return self.skins[id(space)][1]
+
+
+def _inside(depth: NDArray[np.float32], cells: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which of some points (N, 3), in cells of the grid, lie inside the walls."""
+    at, most = np.round(cells).astype(np.int64), np.array(depth.shape) - 1
+    within: NDArray[np.bool_] = ((at >= 0) & (at <= most)).all(axis=1)
+    return within & (depth[tuple(np.clip(at, 0, most).T)] > 0)
 
 
 def _walled(space: Space) -> NDArray[np.float32]:
