@@ -325,8 +325,8 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
     Parameters
     ----------
     doubled : (n, m, l) uint8
-        How often the cube is doubled in which each of the smallest ones lies; one that is doubled so often lies at
-        multiples of its side.
+        How often the cube is doubled in which each of the smallest ones lies, to one of these beyond the grid; a cube
+        lies at a multiple of its side.
     turn : (3, 3) float64
         From the part to the pattern, in the smallest cubes for each cell.
     start : (3,) float64
@@ -341,7 +341,6 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
-    n, m, l = doubled.shape  # noqa: E741
     at, low, high = np.empty(3), np.empty(3, dtype=np.int64), np.empty(3, dtype=np.int64)
     filled = 0.0
     for i in range(thread, nx, threads):
@@ -363,23 +362,19 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
                 if colour_of_cube(level, low[0], low[1], low[2]) != colour:
                     away = reach
                     if inside < reach:
-                        # All cubes within reach hold a corner of the cube of that half side around the point.
+                        # At most two of the smallest cubes within reach follow one another along an axis.
                         for axis in range(3):
                             low[axis], high[axis] = math.floor(at[axis] - reach), math.floor(at[axis] + reach)
-                        for corner in range(8):
-                            a = high[0] if corner & 1 else low[0]
-                            b = high[1] if corner & 2 else low[1]
-                            c = high[2] if corner & 4 else low[2]
-                            if not (0 <= a < n and 0 <= b < m and 0 <= c < l):
-                                continue
-                            level = doubled[a, b, c]
-                            if colour_of_cube(level, a, b, c) != colour:
-                                continue
-                            side = 1 << level
-                            x = at[0] - ((a >> level) << level)
-                            y = at[1] - ((b >> level) << level)
-                            z = at[2] - ((c >> level) << level)
-                            away = min(away, max(-x, x - side, -y, y - side, -z, z - side, 0.0))
+                        for a in range(low[0], high[0] + 1):
+                            for b in range(low[1], high[1] + 1):
+                                for c in range(low[2], high[2] + 1):
+                                    level = doubled[a, b, c]
+                                    if colour_of_cube(level, a, b, c) == colour:
+                                        side = 1 << level
+                                        x = at[0] - ((a >> level) << level)
+                                        y = at[1] - ((b >> level) << level)
+                                        z = at[2] - ((c >> level) << level)
+                                        away = min(away, max(-x, x - side, -y, y - side, -z, z - side, 0.0))
                     inside = -away
                 value = min(inside * period - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value

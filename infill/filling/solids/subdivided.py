@@ -114,7 +114,7 @@ class Subdivided:
             self.turn / period,
             self._start(space, cell) - tree.first,
             period,
-            tree.reach,
+            min(tree.reach, BAND / period),
             tree.colours[which],
             width / 2 / space.size,
             *local_widths(self, space),
@@ -152,8 +152,8 @@ class Subdivided:
 
         start, step, most = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
-        first = (np.floor(ends.min(axis=0) / most) * most).astype(np.int64)
-        counts = (np.floor(ends.max(axis=0) / most) * most).astype(np.int64) + most - first
+        first = (np.floor((ends.min(axis=0) - 1) / most) * most).astype(np.int64)
+        counts = (np.floor((ends.max(axis=0) + 1) / most) * most).astype(np.int64) + most - first
         depth, tree, whole = _walled(space), self._skin(space), []
         for level in range(1, self.pattern.levels + 1):
             side = 1 << level
