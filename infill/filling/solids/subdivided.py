@@ -196,8 +196,9 @@ class Subdivided:
 def _inside(depth: NDArray[np.float32], cells: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which of some points (N, 3), in cells of the grid, lie inside the walls."""
     at, most = np.round(cells).astype(np.int64), np.array(depth.shape) - 1
-    within: NDArray[np.bool_] = ((at >= 0) & (at <= most)).all(axis=1)
-    return within & (depth[tuple(np.clip(at, 0, most).T)] > 0)
+    inside: NDArray[np.bool_] = depth[tuple(np.clip(at, 0, most).T)] > 0
+    inside &= np.all((at >= 0) & (at <= most), axis=1)
+    return inside
 
 
 def _walled(space: Space) -> NDArray[np.float32]:
