@@ -12,7 +12,8 @@ from infill import Surface, fill
 from infill.inspection.stiffness import Stiffness, stiffness
 from infill.pictures.render import render
 from patterns import PATTERNS, Pattern, parameters
-from patterns.cellular import CELLULAR
+from patterns.cellular import CELLULAR, InSpace
+from patterns.octree import Octree
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Cellular, Planes, Surfaces
 
@@ -33,7 +34,8 @@ Drawings and patterns of your own join them.
 * *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
   the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
   Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet comes
-  within 16 % of what theory has for slender bars (Deshpande, Fleck & Ashby, 2001).
+  within 16 % of what theory has for slender bars (Deshpande, Fleck & Ashby, 2001). Patterns that depend on the part
+  have none.
 * *Overhang* is the share of the surfaces of the voids that hang over by more than 45°: what a printer without support
   bridges.
 * *Voids* is how many there are in this cube. Each needs a drain of its own in resin and powder.
@@ -75,7 +77,7 @@ def distance_to_bars(pattern: Bars, points: np.ndarray) -> np.ndarray:
 def modulus(found: Stiffness | None, kind: object) -> list[str]:
     """Return the columns of the stiffness; upright walls are as stiff along z as there is of them."""
     if found is None:
-        return ["", f"{DENSITY:.0%}", "", ""]
+        return ["", "" if isinstance(kind, Octree) else f"{DENSITY:.0%}", "", ""]
     upright = np.array(kind.upright) if isinstance(kind, Planes) else np.eye(3)
     along = found.modulus(upright[:, [0, 2]].T)
     return [f"{each:.1%}" for each in (*along, *found.extremes())]
@@ -95,7 +97,7 @@ def shown(name: str, solid: Surface) -> None:
     picture.quantize(32).save(FOLDER / f"{name}.png", optimize=True)
 
 
-def entry(name: str, kind: Cellular | type[Pattern]) -> tuple[str, str]:
+def entry(name: str, kind: InSpace | type[Pattern]) -> tuple[str, str]:
     """Return the row and the section of a pattern, and write its picture."""
     result = fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=DENSITY, wall=WALL)
     shown(name, result.surface)
@@ -103,7 +105,7 @@ def entry(name: str, kind: Cellular | type[Pattern]) -> tuple[str, str]:
     found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
     columns = [f"[{name}](#{name})", f"{sizes['cell']:.1f}", f"{sizes['line_width']:.2f}", *modulus(found, kind)]
     columns += [f"{overhang(result.stages.voids):.0%}", str(voids)]
-    own = [each for each in parameters(type(kind) if isinstance(kind, Cellular) else kind) if each not in GIVEN]
+    own = [each for each in parameters(type(kind) if isinstance(kind, InSpace) else kind) if each not in GIVEN]
     options = f" Its own parameters: {', '.join(f'`--set {each}`' for each in own)}." if own else ""
     picture = f"![{name}](pictures/gallery/{name}.png)"
     section = f"## {name}\n\n{kind.summary[0].upper()}{kind.summary[1:]}.{options}\n\n{picture}\n"
@@ -113,7 +115,7 @@ def entry(name: str, kind: Cellular | type[Pattern]) -> tuple[str, str]:
 def main() -> None:
     """Fill a cube with every pattern, and write the page."""
     FOLDER.mkdir(parents=True, exist_ok=True)
-    kinds: dict[str, Cellular | type[Pattern]] = {
+    kinds: dict[str, InSpace | type[Pattern]] = {
         **CELLULAR,
         **{name: kind for name, kind in PATTERNS.built_in.items() if kind.prismatic},
     }

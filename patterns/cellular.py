@@ -1,4 +1,4 @@
-"""The patterns that repeat in space, by name."""
+"""The patterns in space, by name: those that repeat, and those that follow the skin of a part."""
 
 from __future__ import annotations
 
@@ -6,22 +6,26 @@ import difflib
 from collections.abc import Iterable, Iterator, Mapping
 
 from patterns.errors import PatternError
+from patterns.octree import Octree
 from patterns.unit_cells import Cellular
 
+InSpace = Cellular | Octree
 
-class _Catalogue(Mapping[str, Cellular]):
+
+class _Catalogue(Mapping[str, InSpace]):
     """Patterns in space by name."""
 
-    def _all(self) -> dict[str, Cellular]:
+    def _all(self) -> dict[str, InSpace]:
         from patterns.hatch import CROSS_HATCH
         from patterns.honeycombs import HONEYCOMBS
+        from patterns.octree import OCTREES
         from patterns.planes import PLANES
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        return {each.name: each for each in (*TPMS, CROSS_HATCH, *PLANES, *HONEYCOMBS, *NETWORKS, *STRUTS)}
+        return {each.name: each for each in (*TPMS, CROSS_HATCH, *PLANES, *OCTREES, *HONEYCOMBS, *NETWORKS, *STRUTS)}
 
-    def __getitem__(self, name: str) -> Cellular:
+    def __getitem__(self, name: str) -> InSpace:
         return self._all()[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -31,7 +35,7 @@ class _Catalogue(Mapping[str, Cellular]):
         return len(self._all())
 
 
-CELLULAR: Mapping[str, Cellular] = _Catalogue()
+CELLULAR: Mapping[str, InSpace] = _Catalogue()
 
 
 def no_such(name: str, names: Iterable[str]) -> PatternError:

@@ -161,6 +161,13 @@ def test_list_shows_a_pattern_that_repeats_in_space(name: str, tmp_path: Path) -
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("name", ["adaptive-cubic", "support-cubic"])
+def test_list_shows_a_pattern_that_follows_the_part(name: str) -> None:
+    text = run("list", name).stdout
+    assert text.startswith(f"{name}: {CELLULAR[name].summary}\n  follows the part")
+    assert "--set levels" in text
+
+
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_list_shows_one_pattern(name: str) -> None:
     text, kind = run("list", name).stdout, PATTERNS[name]

@@ -35,6 +35,7 @@ from patterns import PATTERNS
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError
 from patterns.honeycombs import LateralHoneycomb
+from patterns.octree import Octree
 from patterns.planes import LateralLattice
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
@@ -95,7 +96,7 @@ def test_a_shift_by_a_period_changes_nothing(name: str) -> None:
     one = fill(block, name, **given).surface
     kind = CELLULAR[name]
     period = np.array([1, -2, 1]) * 6.0 * kind.cells
-    if isinstance(kind, Planes):
+    if isinstance(kind, (Planes, Octree)):
         period = period @ np.array(kind.upright)
     if isinstance(kind, Polyhedra):
         period = period * kind.lattice()[0]
@@ -571,7 +572,7 @@ def test_the_infill_alone_reaches_into_the_wall(form: str) -> None:
         )  # its edges are cut
 
 
-@pytest.mark.parametrize("pattern", ["gyroid", BAR, "honeycomb"])
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "honeycomb", "adaptive-cubic"])
 def test_every_void_drains_or_is_listed(pattern: str, part: trimesh.Trimesh) -> None:
     shut = fill(part, pattern, **FEW)
     assert len(shut.report["voids"]["closed"]) == shut.report["voids"]["count"] > 0
@@ -613,7 +614,7 @@ def test_a_void_that_stays_closed_is_told() -> None:
 # --- bodies ------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("pattern", ["gyroid", BAR, "cubic", "honeycomb", "concentric-heart"])
+@pytest.mark.parametrize("pattern", ["gyroid", BAR, "cubic", "adaptive-cubic", "honeycomb", "concentric-heart"])
 def test_equal_bodies_are_filled_alike(pattern: str) -> None:
     """Whole cells of the grid apart, so that not even that tells them apart; the third is another size."""
     shapes = [box(16, 14, 12), box(16, 14, 12, (20, 3.5, 0)), box(10, 10, 12, (-17, 2, 0))]
@@ -668,7 +669,14 @@ def waves(x: Any, y: Any, z: Any) -> Any:
 
 @pytest.mark.parametrize(
     ("pattern", "open_"),
-    [("gyroid", "top"), (BAR, "bottom"), ("honeycomb", "both"), ("cubic", "both"), ("grid", "top")],
+    [
+        ("gyroid", "top"),
+        (BAR, "bottom"),
+        ("honeycomb", "both"),
+        ("cubic", "both"),
+        ("grid", "top"),
+        ("support-cubic", "top"),
+    ],
 )
 def test_an_open_part_is_one_solid_with_its_own_skin_but_for_the_side(pattern: str, open_: str) -> None:
     result = fill(STEPPED, pattern, density=0.25, open_=open_)
@@ -1015,6 +1023,7 @@ def test_prusaslicer_slices_it_without_repairs(tmp_path: Path, part: trimesh.Tri
         ("prusa_x-carriage.stl", "concentric-heart", 0.15),
         ("voron_thread_test_2.stl", "gyroid", 0.3),
         ("far_out_ring.stl", "honeycomb", 0.15),
+        ("spur_gear.stl", "adaptive-cubic", 0.3),
     ],
 )
 def test_real_parts(name: str, pattern: str, density: float, data: Path) -> None:

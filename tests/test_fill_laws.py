@@ -17,10 +17,11 @@ from infill.filling.solids.fillets import DEGREES, TIPS
 from infill.surfaces.distance import Tree
 from infill.surfaces.winding import winding
 from patterns import PATTERNS, Pattern
-from patterns.cellular import CELLULAR
+from patterns.cellular import CELLULAR, InSpace
 from patterns.declared import parameter
+from patterns.octree import Octree
 from patterns.polyhedra import Polyhedra
-from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
+from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -202,7 +203,7 @@ def test_the_mirror_image_of_part_and_pattern_is_that_of_the_result(name: str) -
     assert farthest(one, replace(other, vertices=np.asarray(other.vertices) @ FLIP)) < 0.1
 
 
-def in_space(kind: Cellular) -> Cellular:
+def in_space(kind: InSpace) -> InSpace:
     """The mirror image of a pattern in space, at x = 0."""
     if isinstance(kind, Network):
         surfaces = in_space(kind.surfaces)
@@ -224,6 +225,8 @@ def in_space(kind: Cellular) -> Cellular:
             period=tuple(period.tolist()),
             middles=tuple(tuple(map(tuple, each)) for each in (middles @ FLIP).tolist()),
         )
+    if isinstance(kind, Octree):
+        return replace(kind, upright=tuple(map(tuple, (np.array(kind.upright) @ FLIP).tolist())))
     assert isinstance(kind, Planes)
     normals = kind.families()[0] @ np.array(kind.upright) @ FLIP
     return replace(kind, normals=tuple(map(tuple, normals.tolist())), upright=tuple(map(tuple, np.eye(3).tolist())))

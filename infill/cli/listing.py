@@ -13,7 +13,7 @@ from infill.cli.console import can_show, print_json, say, table
 
 if TYPE_CHECKING:
     from patterns import Pattern
-    from patterns.unit_cells import Cellular
+    from patterns.cellular import InSpace
 
 BRAILLE_BLANK = "\N{BRAILLE PATTERN BLANK}"
 
@@ -57,14 +57,17 @@ def list_patterns(
         typer.echo(_shown(kinds[pattern]))
 
 
-def _show_in_space(name: str, kind: Cellular, *, pictured: bool, as_json: bool) -> None:
+def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -> None:
     """Print what a pattern that repeats in space is for, and its parameters."""
+    from patterns.octree import Octree
+
     if pictured:
         raise typer.BadParameter(f"'infill fill PART --pattern {name} --preview FILE' shows {name}, in a part")
     if as_json:
         print_json({"patterns": {}, "in_space": {name: kind.summary}})
     else:
-        title = f"{name}: {kind.summary}\n  repeats in space, for 'infill fill': see its --cell and --line-width\n"
+        what = "follows the part" if isinstance(kind, Octree) else "repeats in space"
+        title = f"{name}: {kind.summary}\n  {what}, for 'infill fill': see its --cell and --line-width\n"
         typer.echo(_parameters(type(kind), title).rstrip("\n"))
 
 

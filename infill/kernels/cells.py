@@ -281,3 +281,102 @@ def lower_to_segments(segments, reach, squared) -> None:
                 along = min(1.0, max(0.0, (ux * vx + uy * vy) / long))
                 vx, vy = vx - along * ux, vy - along * uy
                 squared[i, j] = min(squared[i, j], np.float32(vx * vx + vy * vy))
+
+
+@njit(nogil=True, cache=True, error_model="numpy", inline="always")
+def colour_of_cube(level, a, b, c):
+    """Return the number, 0 to 15, of the colour of cube (a, b, c) of a level: cubes of one colour do not touch.
+
+    Those of a level do not, as all numbers of one are even where those of the other are; nor do those of two levels, if
+    cubes that touch differ by one level at most.
+    """
+    return (level & 1) << 3 | ((a >> level) & 1) << 2 | ((b >> level) & 1) << 1 | (c >> level) & 1
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def colours_of_cubes(depth, doubled, turn, start, thread, threads):
+    """Return which colours cubes have that hold the centre of a cell below the wall, (16,) bool.
+
+    Parameters
+    ----------
+    depth, doubled, turn, start, thread, threads
+        As in `from_cubes`.
+    """
+    nx, ny, nz = depth.shape
+    seen = np.zeros(16, dtype=np.bool_)
+    for i in range(thread, nx, threads):
+        for j in range(ny):
+            for k in range(nz):
+                if depth[i, j, k] > 0:
+                    a = math.floor(start[0] + turn[0, 0] * i + turn[0, 1] * j + turn[0, 2] * k)
+                    b = math.floor(start[1] + turn[1, 0] * i + turn[1, 1] * j + turn[1, 2] * k)
+                    c = math.floor(start[2] + turn[2, 0] * i + turn[2, 1] * j + turn[2, 2] * k)
+                    seen[colour_of_cube(doubled[a, b, c], a, b, c)] = True
+    return seen
+
+
+@njit(nogil=True, cache=True, error_model="numpy")
+def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, ratio, step, out, thread, threads):
+    """Fill `out` with the lesser of the depth and the distance into the cubes of a colour, in cells.
+
+    The cubes are of several sizes, and fill space. Outside of them, the distance is the largest of those along the
+    three axes, up to `reach`.
+
+    Parameters
+    ----------
+    doubled : (n, m, l) uint8
+        How often the cube is doubled in which each of the smallest ones lies, to one of these beyond the grid; a cube
+        lies at a multiple of its side.
+    turn : (3, 3) float64
+        From the part to the pattern, in the smallest cubes for each cell.
+    start : (3,) float64
+        Of cell (0, 0, 0), in the pattern, in the smallest cubes.
+    period : float
+        Side of the smallest cubes, in cells.
+    reach : float
+        In the smallest cubes; at most half of the side of any.
+    colour : int
+        See `colour_of_cube`.
+    depth, least, half, ratio, step, out, thread, threads
+        As in `from_period`.
+    """
+    nx, ny, nz = depth.shape
+    at, low, high = np.empty(3), np.empty(3, dtype=np.int64), np.empty(3, dtype=np.int64)
+    filled = 0.0
+    for i in range(thread, nx, threads):
+        for j in range(ny):
+            for k in range(nz):
+                deep = depth[i, j, k]
+                if deep <= least:
+                    out[i, j, k] = deep
+                    continue
+                for axis in range(3):
+                    at[axis] = start[axis] + turn[axis, 0] * i + turn[axis, 1] * j + turn[axis, 2] * k
+                    low[axis] = math.floor(at[axis])
+                level = doubled[low[0], low[1], low[2]]
+                side = 1 << level
+                inside = np.inf
+                for axis in range(3):
+                    beside = at[axis] - ((low[axis] >> level) << level)
+                    inside = min(inside, beside, side - beside)
+                if colour_of_cube(level, low[0], low[1], low[2]) != colour:
+                    away = reach
+                    if inside < reach:
+                        # At most two of the smallest cubes within reach follow one another along an axis.
+                        for axis in range(3):
+                            low[axis], high[axis] = math.floor(at[axis] - reach), math.floor(at[axis] + reach)
+                        for a in range(low[0], high[0] + 1):
+                            for b in range(low[1], high[1] + 1):
+                                for c in range(low[2], high[2] + 1):
+                                    level = doubled[a, b, c]
+                                    if colour_of_cube(level, a, b, c) == colour:
+                                        side = 1 << level
+                                        x = at[0] - ((a >> level) << level)
+                                        y = at[1] - ((b >> level) << level)
+                                        z = at[2] - ((c >> level) << level)
+                                        away = min(away, max(-x, x - side, -y, y - side, -z, z - side, 0.0))
+                    inside = -away
+                value = min(inside * period - half * local(ratio, step, i, j, k), deep)
+                out[i, j, k] = value
+                filled += min(1.0, max(0.0, 0.5 + value))
+    return filled

@@ -79,7 +79,7 @@ def fill(
     ----------
     part : Surface or trimesh.Trimesh, mm
         Closed; holes in it are closed first, and that is told.
-    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Network, Bars or callable
+    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Octree, Network, Bars or callable
         A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
         the same at every height; a drawing, which is repeated; "module.py:name"; a pattern itself; or a function of x,
         y and z, of one shape, in radians (2 pi is a cell): walls are where it is 0.

@@ -10,9 +10,9 @@ import numpy as np
 from infill.errors import ParameterError
 from infill.formats.modules import MARK, object_in
 from patterns import PATTERNS
-from patterns.cellular import CELLULAR, no_such
+from patterns.cellular import CELLULAR, InSpace, no_such
 from patterns.protocol import Pattern, gives
-from patterns.unit_cells import Cellular, Surfaces
+from patterns.unit_cells import Surfaces
 
 if TYPE_CHECKING:
     from infill.filling.solids.tiled import Tiled
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
 SAMPLES = 16  # points along a cell, at which a function is tried
 
-Kind = Cellular | Pattern | type[Pattern]
+Kind = InSpace | Pattern | type[Pattern]
 
 
 def kind_of(pattern: object) -> tuple[Kind, str]:
@@ -28,7 +28,7 @@ def kind_of(pattern: object) -> tuple[Kind, str]:
 
     Parameters
     ----------
-    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Network, Bars or callable
+    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Octree, Network, Bars or callable
         A name; a drawing; "module.py:name"; what such a name stands for: a pattern, or a class of patterns; or a
         function of x, y and z, of one shape, in radians (2 pi is a cell), whose zeros are walls.
 
@@ -62,7 +62,7 @@ def _drawing(name: str) -> Tiled:
 
 
 def _made(found: Any, name: str) -> tuple[Kind, str]:  # noqa: ANN401 - whatever a user gives
-    if isinstance(found, Cellular) or gives(found):
+    if isinstance(found, InSpace) or gives(found):
         return found, name
     if callable(found) and not isinstance(found, type):
         return _level_set(found, name), name

@@ -18,13 +18,15 @@ from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading, Varies
 from infill.filling.solids.naming import Kind, kind_of
 from infill.filling.solids.opening import Open
+from infill.filling.solids.subdivided import Subdivided
 from infill.filling.solids.voids import Repeating, Voids
 from infill.formats.assignments import Source, assignments, merged, values
-from patterns.cellular import CELLULAR
+from patterns.cellular import CELLULAR, InSpace
 from patterns.declared import parameters
 from patterns.given import nearest
+from patterns.octree import Octree
 from patterns.protocol import Pattern
-from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
+from patterns.unit_cells import Bars, Network, Planes, Surfaces
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed", "body"]
@@ -63,7 +65,7 @@ class Request:
     ----------
     pattern : str
         Its name.
-    kind : Surfaces, Planes, Polyhedra, Network, Bars, Pattern or class of patterns
+    kind : Surfaces, Planes, Polyhedra, Octree, Network, Bars, Pattern or class of patterns
         What the name stands for.
     parameters : mapping
         The pattern's own, by name.
@@ -329,10 +331,14 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     anchor = request.phase + (middle if bodies is None else np.zeros(3))
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
-    if isinstance(request.kind, Cellular):
+    if isinstance(request.kind, InSpace):
         pattern = cellular_of(request.kind, request)
-        if isinstance(pattern, Planes):
+        if isinstance(pattern, (Planes, Octree)):
             turn = np.array(pattern.upright) @ turn
+        if isinstance(pattern, Octree):
+            return Subdivided(
+                pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies
+            )
         return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
     lines = pattern_of(request.kind, request)
     return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
@@ -368,7 +374,7 @@ def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]
     return {**own, SEED: seed}
 
 
-def cellular_of(kind: Cellular, request: Request) -> Cellular:
+def cellular_of(kind: InSpace, request: Request) -> InSpace:
     """Return the pattern in space that is asked for, or raise ParameterError."""
     known = list(parameters(kind))
     for name in request.parameters:
