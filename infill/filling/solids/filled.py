@@ -16,7 +16,8 @@ import numpy as np
 
 from infill.errors import GeometryError
 from infill.filling.solids.drains import drained
-from infill.filling.solids.hollowing import Hollow, hollowed
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.inside import SHARE, inner_side
 from infill.filling.solids.opening import between, cut_open
 from infill.filling.solids.request import (

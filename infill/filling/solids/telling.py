@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.solids.drains import trapped
-from infill.filling.solids.hollowing import Hollow, even, share_of_cells, wanted
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.opening import Opening
 from infill.filling.solids.request import Request
