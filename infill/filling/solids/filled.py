@@ -234,7 +234,7 @@ def _result(
         "problems": list(problems(request, hollow, facts)),
         "request": request.facts(),
         "grid": {
-            "shape": list(space.depth.shape),
+            "shape": list(space.shape),
             "spacing": [space.size] * 3,
             "origin": (space.origin - space.size / 2).tolist(),
             "space": "",

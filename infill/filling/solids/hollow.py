@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,6 +14,22 @@ from infill.surfaces.measuring import volume_and_area
 from infill.surfaces.parting import joined
 from infill.surfaces.shells import with_faces
 from infill.surfaces.solids import volume_within
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Unmade:
+    """Voids whose surfaces are yet to be made.
+
+    Parameters
+    ----------
+    volume : float
+        mm³
+    made : callable
+        Returns them, simplified within a tolerance, mm.
+    """
+
+    volume: float
+    made: Callable[[float], Hollow]
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -35,6 +52,8 @@ class Hollow:
         The inner side of the walls, if voids reach through them.
     loose : float
         mm³ of infill that hung free where the part was cut open, and was left out.
+    unmade : Unmade or None
+        What is known in place of surfaces.
     """
 
     space: Space
@@ -46,6 +65,7 @@ class Hollow:
     specks: int
     walls: Surface | None = None
     loose: float = 0.0
+    unmade: Unmade | None = None
 
     @property
     def surface(self) -> Surface:
@@ -85,6 +105,8 @@ class Hollow:
     def volume(self) -> float:
         """Of all voids inside the walls, mm³."""
         opening = self.space.opening
+        if self.unmade is not None:
+            return self.unmade.volume
         if opening is not None:
             return self.loose + sum(opening.volume(surface) for surface in self.surfaces)
         if self.walls is None:

@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.inside import SHARE
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.request import Request, Size, coarsest_for, sizes_for, voxel_for
+from infill.filling.solids.request import Request, Size, coarsest_for, goes_by_slabs, sizes_for, voxel_for
 from infill.filling.solids.roots import root
+from infill.filling.solids.slabwise import cells_filled, unmade
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.surfacing import smoothing_for, surfaces_of, useful
 from infill.filling.solids.voids import Repeating, Voids
@@ -80,6 +82,7 @@ def hollowed(
                 open_=request.open_,
                 beyond=request.beyond,
                 held=request.held,
+                slabs=goes_by_slabs(request, voids),
                 threads=threads,
                 max_memory=max_memory,
             )
@@ -159,6 +162,8 @@ def _coarser(
 
 def _shortened(found: Hollow, tolerance: float) -> Hollow:
     """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
+    if found.unmade is not None:
+        found = found.unmade.made(tolerance)
     if tolerance == 0:
         return found
     few = (
@@ -181,6 +186,8 @@ def _about(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:
 
 def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> float:
     """Return the solid share of what lies inside the walls, as the pattern has it before it is smoothed."""
+    if space.layers.in_slabs and isinstance(voids, Drawn):
+        return max(1 - cells_filled(space, voids, cell=cell, width=width) / space.cells, LEAST)
     out = np.empty_like(space.depth)
     count = voids.count(space, cell=cell, width=width)
     filled = 0.0
@@ -243,6 +250,8 @@ def _corrected(
 
 def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None) -> Hollow:
     """Return the surfaces of the voids, or if they are made slab by slab, for now only what they enclose."""
+    if space.layers.in_slabs and isinstance(voids, Drawn):
+        return unmade(space, voids, request, sizes, threads=threads)
     return surfaces_of(space, voids, request, sizes, threads=threads)
 
 

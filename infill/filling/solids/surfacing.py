@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.filling.solids.fillets import times_for
 from infill.filling.solids.hollow import Hollow
@@ -15,7 +16,7 @@ from infill.filling.solids.space import Space
 from infill.filling.solids.voids import Repeating, Voids
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import on_profile
-from infill.phasefield.sparse import smooth_bricks
+from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
 from infill.surfaces.shells import first_of_shells, shell_volumes, with_faces
@@ -51,16 +52,8 @@ def surfaces_of(
     lost: list[Surface] = []
     for which in range(voids.count(inside, cell=cell, width=width)):
         voids.into(out, inside, which, cell=cell, width=width)
-        if not (out > 0).any():
-            continue
-        field = smooth_bricks(
-            on_profile(out, INTERFACE, threads=threads), smoothing, spacing=(space.size,) * 3, threads=threads
-        )
-        if smoothing.steps:
-            # Where the skin bends inwards, curvature would draw voids into the wall.
-            walled = on_profile(field.gathered(inside.depth, threads=threads), INTERFACE, threads=threads)
-            field = replace(field, values=np.minimum(field.values, walled))
-        if not (field.values > 0).any():
+        field = smoothed_void(out, inside.depth, smoothing, threads=threads)
+        if field is None:
             continue
         surface = extract_bricks(
             field, spacing=(space.size,) * 3, origin=tuple((space.origin - space.size / 2).tolist()), threads=threads
@@ -86,6 +79,27 @@ def surfaces_of(
         specks=specks,
         walls=walls,
     )
+
+
+def smoothed_void(
+    distance: NDArray[np.float32], depth: NDArray[np.float32], smoothing: Smoothing, *, threads: int | None
+) -> SparseField | None:
+    """Return the smoothed field of a void, or None if nothing of it is left.
+
+    Parameters
+    ----------
+    distance, depth : (nx, ny, nz) float32
+        Into the void, and below the inner side of the wall, in cells.
+    smoothing : Smoothing
+    """
+    if not (distance > 0).any():
+        return None
+    field = smooth_bricks(on_profile(distance, INTERFACE, threads=threads), smoothing, threads=threads)
+    if smoothing.steps:
+        # Where the skin bends inwards, curvature would draw voids into the wall.
+        walled = on_profile(field.gathered(depth, threads=threads), INTERFACE, threads=threads)
+        field = replace(field, values=np.minimum(field.values, walled))
+    return field if (field.values > 0).any() else None
 
 
 def useful(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
