@@ -40,6 +40,7 @@ FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
 FARTHER_OFF = 0.005  # of the density: not for walls of the right width
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
+FIRST = 0.75  # of a tolerance, for the pieces of a surface that is made slab by slab; the rest is for all of it
 AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: so much less memory
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
@@ -162,13 +163,12 @@ def _coarser(
 
 def _shortened(found: Hollow, tolerance: float) -> Hollow:
     """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
+    left = tolerance
     if found.unmade is not None:
-        found = found.unmade.made(tolerance)
+        found, left = found.unmade.made(FIRST * tolerance), (1 - FIRST) * tolerance
     if tolerance == 0:
         return found
-    few = (
-        joined([shortened(batch, SHARE * tolerance) for batch in in_batches(each, AT_ONCE)]) for each in found.surfaces
-    )
+    few = (joined([shortened(batch, SHARE * left) for batch in in_batches(each, AT_ONCE)]) for each in found.surfaces)
     kept = (useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
     return replace(found, surfaces=[each for each in kept if each is not None], tolerance=tolerance)
 
