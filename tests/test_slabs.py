@@ -229,7 +229,8 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Space) 
     every = surfaces_by_slabs(slabs, voids, request, SIZES, tolerance=0.0, threads=None)
     few = hollowing._shortened(unmade(slabs, voids, request, SIZES, threads=None), request.tolerance)
     alone = hollowing._shortened(replace(every, unmade=None), request.tolerance)
-    assert few.triangles < 1.05 * alone.triangles < every.triangles / 2
+    assert few.triangles < 1.4 * alone.triangles  # with a plane at every eleventh layer, at which all are kept at first
+    assert few.triangles < every.triangles / 2
     assert few.count == every.count
     assert few.density == pytest.approx(every.density, abs=0.005)
     for one, other in zip(every.surfaces, few.surfaces, strict=True):
