@@ -146,7 +146,7 @@ def stitched(pieces: Sequence[tuple[int, Piece | None]]) -> Surface:
         own[lower] = False
         number = count + np.cumsum(own) - 1
         number[lower] = upper
-        faces.append(number[piece.surface.faces])
+        faces.append(number[piece.surface.faces].astype(np.int32))
         vertices.append(points[own] + np.array([0, 0, height]))
         count += int(own.sum())
         rim = piece.rim(piece.high)

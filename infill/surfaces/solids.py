@@ -127,7 +127,7 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
         return surface
     for share in SHARES:
         mesh = solid.simplify(share * MOVED * tolerance).to_mesh64()
-        faces = np.array(mesh.tri_verts).astype(np.int64)[np.array(mesh.face_id) == 0]
+        faces = np.array(mesh.tri_verts).astype(np.int32)[np.array(mesh.face_id) == 0]
         few = with_faces(
             Surface(vertices=np.array(mesh.vert_properties)[:, :3], faces=faces, space=surface.space),
             np.ones(len(faces), dtype=bool),
@@ -155,7 +155,7 @@ def _with_rim(surface: Surface, edges: NDArray[np.integer], rim: NDArray[np.floa
     if len(follows) < len(rim) or any(place not in follows for place in places):
         return None
     count, faces = len(surface.vertices), surface.faces
-    codes = faces * count + np.roll(faces, -1, axis=1)
+    codes = faces.astype(np.int64) * count + np.roll(faces, -1, axis=1)
     gone: list[Place] = []
     cut: list[int] = []
     pieces: list[tuple[int, int, int]] = []
@@ -174,7 +174,7 @@ def _with_rim(surface: Surface, edges: NDArray[np.integer], rim: NDArray[np.floa
     return replace(
         surface,
         vertices=np.concatenate([surface.vertices, np.array(gone)]),
-        faces=np.concatenate([np.delete(faces, cut, axis=0), np.array(pieces)]),
+        faces=np.concatenate([np.delete(faces, cut, axis=0), np.array(pieces, dtype=faces.dtype)]),
     )
 
 

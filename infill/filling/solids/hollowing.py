@@ -42,6 +42,7 @@ FARTHER_OFF = 0.005  # of the density: not for walls of the right width
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 FIRST = 0.75  # of a tolerance, for the pieces of a surface that is made slab by slab; the rest is for all of it
 AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: so much less memory
+FEW_AT_ONCE = 100_000  # of voids that were made slab by slab, with few triangles from the beginning
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
@@ -163,12 +164,12 @@ def _coarser(
 
 def _shortened(found: Hollow, tolerance: float) -> Hollow:
     """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
-    left = tolerance
+    left, at_once = tolerance, AT_ONCE
     if found.unmade is not None:
-        found, left = found.unmade.made(FIRST * tolerance), (1 - FIRST) * tolerance
+        found, left, at_once = found.unmade.made(FIRST * tolerance), (1 - FIRST) * tolerance, FEW_AT_ONCE
     if tolerance == 0:
         return found
-    few = (joined([shortened(batch, SHARE * left) for batch in in_batches(each, AT_ONCE)]) for each in found.surfaces)
+    few = (joined([shortened(batch, SHARE * left) for batch in in_batches(each, at_once)]) for each in found.surfaces)
     kept = (useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
     return replace(found, surfaces=[each for each in kept if each is not None], tolerance=tolerance)
 

@@ -91,7 +91,9 @@ def surfaces_by_slabs(
         return replace(found, piece=few_of(found.piece, SHARE * tolerance / space.size))
 
     surfaces = []
-    for slabs in _by_field(space, voids, request, sizes, few, threads):
+    fields = _by_field(space, voids, request, sizes, few, threads)
+    while fields:  # what is stitched together is not kept in pieces too
+        slabs = fields.pop(0)
         counts += np.sum([each.counts for _, each in slabs if each is not None] or [(0, 0)], axis=0)
         pieces = [(low, None if each is None else each.piece) for low, each in slabs]
         if all(piece is None for _, piece in pieces):
