@@ -17,12 +17,12 @@ from patterns.polyhedra import Polyhedra
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-    from scipy.spatial import cKDTree
 
     Floats = NDArray[np.float64]
 
 STEPS, AGAIN = 3, 2  # of Newton's method, from near the surface to it, and from nearer
-SHEET, AMONG = 40, 0.37  # points along a cell, between which the surface is looked for; of a step, where they begin
+SHEET, SHIFT = 40, 0.0093  # nodes along a cell, between which the surface is looked for; where they begin
+JUMPS = (16, 8, 4, 2, 1, 1)  # nodes
 ROUNDS = 3  # in which the point of the surface that is nearest is looked for
 NEAR = 1e-3  # values that count as 0
 DIFFERENCE = 1e-6  # of a cell, for slopes
@@ -66,26 +66,35 @@ class Surfaces:
         import numpy as np
 
         points = np.asarray(points, dtype=np.float64)
-        away = np.full(len(points), STEEPEST)
-        tree, sheet = points_of(self)
-        if len(sheet):
-            first, nearest = tree.query(points % 1.0)
-            foot = sheet[nearest]
-            foot += np.round(points - foot)  # of its copies, that beside the point
-            away = np.minimum(away, first)
-            some = np.flatnonzero(first < STEEPEST)
-            foot = foot[some]
-            for _ in range(ROUNDS):
-                # To where the plane across the slope at the foot is nearest to the point, and back to the surface.
-                beside, normal = points[some] - foot, _unit(self._slope(foot, self._at(foot)))
-                across = beside - (beside * normal).sum(axis=1, keepdims=True) * normal
-                moving = np.linalg.norm(across, axis=1) > MOVED
-                some, foot = some[moving], foot[moving]
-                foot, value = self._on_surface(foot + across[moving], AGAIN)
-                there = np.linalg.norm(points[some] - foot, axis=1)
-                away[some] = np.where(np.abs(value) < NEAR, np.minimum(away[some], there), away[some])
+        foot = points + self._towards(points)
+        away = np.minimum(np.linalg.norm(points - foot, axis=1), STEEPEST)
+        some = np.flatnonzero(away < STEEPEST)
+        foot = foot[some]
+        for _ in range(ROUNDS):
+            # To where the plane across the slope at the foot is nearest to the point, and back to the surface.
+            beside, normal = points[some] - foot, _unit(self._slope(foot, self._at(foot)))
+            across = beside - (beside * normal).sum(axis=1, keepdims=True) * normal
+            moving = np.linalg.norm(across, axis=1) > MOVED
+            some, foot = some[moving], foot[moving]
+            foot, value = self._on_surface(foot + across[moving], AGAIN)
+            there = np.linalg.norm(points[some] - foot, axis=1)
+            away[some] = np.where(np.abs(value) < NEAR, np.minimum(away[some], there), away[some])
         signed: Floats = np.where(self._at(points) < 0, -1.0, 1.0) * away
         return signed
+
+    def _towards(self, points: Floats) -> Floats:
+        """Return the way from points (N, 3) to the nearest of those that the nodes around them know, (N, 3)."""
+        import numpy as np
+
+        ways, places = feet_of(self), (points - SHIFT) * SHEET
+        low = np.floor(places).astype(np.int64)
+        best = np.full(points.shape, np.inf)
+        for corner in itertools.product((0, 1), repeat=3):
+            node = low + corner
+            way = ways[tuple((node % SHEET).T)] + (node - places) / SHEET
+            nearer = (way**2).sum(axis=1) < (best**2).sum(axis=1)
+            best[nearer] = way[nearer]
+        return best
 
     def _on_surface(self, points: Floats, steps: int) -> tuple[Floats, Floats]:
         """Return points (N, 3) moved to the surface by Newton's method, and what values are left there."""
@@ -118,26 +127,38 @@ class Surfaces:
 
 
 @cache
-def points_of(surfaces: Surfaces) -> tuple[cKDTree, Floats]:
-    """Return many points of a surface in one period, (N, 3) in cells, and a tree of them that repeats."""
-    import numpy as np
-    from scipy.spatial import cKDTree
+def feet_of(surfaces: Surfaces) -> Floats:
+    """Return the way from each node of a period to about the nearest point of the surface, (n, n, n, 3), in cells.
 
-    line = (np.arange(SHEET) + AMONG) / SHEET
-    grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1)
-    value = surfaces._at(grid.reshape(-1, 3)).reshape(grid.shape[:3])
-    found = []
-    for axis in range(3):
+    Where the value changes sign between two nodes, there is such a point; from these on, nodes ask others further and
+    nearer away for theirs: jump flooding (Rong and Tan 2006, doi:10.1145/1111411.1111431). Infinite if there is none.
+    """
+    import numpy as np
+
+    line = np.arange(SHEET) / SHEET + SHIFT
+    nodes = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1)
+    value = surfaces._at(nodes.reshape(-1, 3)).reshape(nodes.shape[:3])
+    ways, least = np.full(nodes.shape, np.inf), np.full(value.shape, np.inf)
+
+    def nearer(found: Floats) -> None:
+        squared = np.einsum("...i,...i", found, found)
+        better = squared < least
+        ways[better], least[better] = found[better], squared[better]
+
+    for axis, step in enumerate(np.eye(3) / SHEET):
         beyond = np.roll(value, -1, axis=axis)
         crossed = (value < 0) != (beyond < 0)
         share = value[crossed] / (value[crossed] - beyond[crossed])
-        at = grid[crossed]
-        at[:, axis] += share / SHEET
-        found.append(at)
-    foot, left = surfaces._on_surface(np.concatenate(found), STEPS)
-    sheet = foot[np.abs(left) < NEAR] % 1.0
-    sheet[sheet >= 1.0] = 0.0  # by rounding
-    return cKDTree(sheet, boxsize=1.0), sheet
+        foot, left = surfaces._on_surface(nodes[crossed] + share[:, None] * step, STEPS)
+        found = np.full(nodes.shape, np.inf)
+        found[crossed] = np.where((np.abs(left) < NEAR)[:, None], foot - nodes[crossed], np.inf)
+        nearer(found)
+        nearer(np.roll(found - step, 1, axis=axis))
+    around = [np.array(each) for each in itertools.product((-1, 0, 1), repeat=3) if any(each)]
+    for jump in JUMPS:
+        for each in around:
+            nearer(np.roll(ways, tuple(-jump * each), axis=(0, 1, 2)) + jump * each / SHEET)
+    return ways
 
 
 def _unit(vectors: Floats) -> Floats:

@@ -107,3 +107,22 @@ def sum_shells(vertices, faces, names, middle, sums):
         bx, by, bz = vertices[j, 0] - middle[0], vertices[j, 1] - middle[1], vertices[j, 2] - middle[2]
         cx, cy, cz = vertices[k, 0] - middle[0], vertices[k, 1] - middle[1], vertices[k, 2] - middle[2]
         sums[names[i]] += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+
+
+@njit(nogil=True, cache=True)
+def sum_flows(vertices, faces, names, sums):
+    """Add the flow of (x, 0, 0) through each face to the sum of its shell, (n,): the volume, where lids lie level."""
+    for f in range(len(faces)):
+        i, j, k = faces[f]
+        by, bz = vertices[j, 1] - vertices[i, 1], vertices[j, 2] - vertices[i, 2]
+        cy, cz = vertices[k, 1] - vertices[i, 1], vertices[k, 2] - vertices[i, 2]
+        sums[names[i]] += (vertices[i, 0] + vertices[j, 0] + vertices[k, 0]) * (by * cz - bz * cy) / 6
+
+
+@njit(nogil=True, cache=True)
+def within_heights(vertices, faces, low, high, found):
+    """Set which faces (F,) have the middle of their lowest and their highest place between two heights."""
+    for f in range(len(faces)):
+        a, b, c = vertices[faces[f, 0], 2], vertices[faces[f, 1], 2], vertices[faces[f, 2], 2]
+        middle = (min(a, b, c) + max(a, b, c)) / 2
+        found[f] = low <= middle < high

@@ -9,6 +9,7 @@ from typing import Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.filling.solids.layers import Layers
 from infill.filling.solids.space import BAND, Space
 from infill.surfaces.components import shell_names
 from infill.surfaces.shells import shell_volumes, with_faces
@@ -89,7 +90,7 @@ class Bodies:
                 first = np.array([each.start for each in body.box])
                 part = replace(
                     space,
-                    depth=np.where(body.cells, space.depth[body.box], DEEP),
+                    layers=Layers.of(np.where(body.cells, space.depth[body.box], DEEP)),
                     origin=space.origin + space.size * first,
                     walled=None,
                     box_of=(space, first),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.fillets import between_lines, sharpest
-from infill.filling.solids.grading import Grading
+from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import BAND, Space
 from infill.filling.solids.voids import FIELD, local_widths
@@ -69,14 +69,40 @@ class Drawn:
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
-        from infill.kernels.cells import from_plane
-
         if self.bodies is not None:
             return self.bodies.into(self, out, space, which, cell=cell, width=width)
-        plane = self._faces(space, cell, width).colours[which]
-        half, ratio = width / 2 / space.size, local_widths(self, space)
+        plane = self.planes(space, cell=cell, width=width)[which]
+        return self.lesser(out, space.depth, plane, width / space.size, local_widths(self, space))
+
+    def planes(self, space: Space, *, cell: float, width: float) -> list[NDArray[np.float32]]:
+        """Return how deep the points of a layer lie between the lines, (nx, ny) in cells, for each field."""
+        return self._faces(space, cell, width).colours
+
+    def lesser(
+        self,
+        out: FIELD,
+        depth: FIELD,
+        plane: NDArray[np.float32],
+        width: float,
+        ratio: tuple[NDArray[np.float32], float] = NONE,
+    ) -> float:
+        """Write the lesser of the depth and the distance into a void; return how many cells that fills.
+
+        Parameters
+        ----------
+        out, depth : (nx, ny, n) float32
+            Some layers.
+        plane : (nx, ny) float32
+            One of `planes`.
+        width : float
+            Of the lines, in cells.
+        ratio
+            How many times as wide they are from place to place: see `local_widths`.
+        """
+        from infill.kernels.cells import from_plane
+
         threads = thread_count(self.threads)
-        return float(sum(in_threads(from_plane, space.depth, plane, half, *ratio, out, threads=threads)))
+        return float(sum(in_threads(from_plane, depth, plane, width / 2, *ratio, out, threads=threads)))
 
     @cached_property
     def apart(self) -> float:
@@ -133,7 +159,7 @@ class Drawn:
         return float(ratio.max()), float(ratio.min())
 
     def _found(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
-        used = (space.depth > -BAND).any(axis=2)
+        used = np.logical_or.reduce([(slab > -BAND).any(axis=2) for _, slab in space.layers.each()])
         first, last = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(used))
         low = space.origin[:2] + np.array([first[0], last[0]]) * space.size - self.anchor[:2]
         high = space.origin[:2] + np.array([first[1], last[1]]) * space.size - self.anchor[:2]
@@ -143,7 +169,7 @@ class Drawn:
         lines = shapely.intersection(lines, region)
         polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
         polygons = polygons[shapely.intersects(polygons, box)]
-        nx, ny, _ = space.depth.shape
+        nx, ny, _ = space.shape
         x, y = (space.origin[i] + space.size * np.arange(n) - self.anchor[i] for i, n in enumerate((nx, ny)))
         start = space.origin[:2] - self.anchor[:2]
         away = _away(shapely.get_parts(lines), start, space.size, reach, (nx, ny))

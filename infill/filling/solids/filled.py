@@ -16,7 +16,8 @@ import numpy as np
 
 from infill.errors import GeometryError
 from infill.filling.solids.drains import drained
-from infill.filling.solids.hollowing import Hollow, hollowed
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.inside import SHARE, inner_side
 from infill.filling.solids.opening import between, cut_open
 from infill.filling.solids.request import (
@@ -238,7 +239,7 @@ def _result(
         "problems": list(problems(request, hollow, facts)),
         "request": request.facts(),
         "grid": {
-            "shape": list(space.depth.shape),
+            "shape": list(space.shape),
             "spacing": [space.size] * 3,
             "origin": (space.origin - space.size / 2).tolist(),
             "space": "",

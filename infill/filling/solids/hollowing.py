@@ -4,36 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
-from infill.filling.solids.crossing import median_width
-from infill.filling.solids.fillets import times_for
+from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.grading import Grading
-from infill.filling.solids.inside import INTERFACE, SHARE, inner_side
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.inside import SHARE
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.request import Request, Size, coarsest_for, sizes_for, voxel_for
+from infill.filling.solids.request import Request, Size, coarsest_for, goes_by_slabs, sizes_for, voxel_for
 from infill.filling.solids.roots import root
+from infill.filling.solids.slabwise import cells_filled, unmade
 from infill.filling.solids.space import Space, space_inside
+from infill.filling.solids.surfacing import smoothing_for, surfaces_of, useful
 from infill.filling.solids.voids import Repeating, Voids
 from infill.machine import require_memory
-from infill.phasefield.allen_cahn import Smoothing
-from infill.phasefield.refining import on_profile
-from infill.phasefield.sparse import smooth_bricks
 from infill.result import Clock
 from infill.surface import Surface
-from infill.surfaces.components import shell_names
-from infill.surfaces.measuring import volume_and_area
 from infill.surfaces.parting import joined
-from infill.surfaces.shells import first_of_shells, in_batches, shell_volumes, with_faces
+from infill.surfaces.shells import in_batches
 from infill.surfaces.simplification import simplified
-from infill.surfaces.solids import shortened, volume_within
-from infill.surfaces.sparse_marching import extract_bricks
-from infill.surfaces.winding import winding
+from infill.surfaces.solids import shortened
 from patterns.unit_cells import Network
 
 CLOSE = 0.002  # of the density: nearer than this, no other cell or width is tried
@@ -46,101 +40,13 @@ FEWER = 1.04  # on top of what the triangles of a grid, as the inverse square of
 TRIANGLES_A_CELL, FAR_TOO_MANY = 2.5, 4.0  # of the room for them: then they are not even made
 FARTHER_OFF = 0.005  # of the density: not for walls of the right width
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
+FIRST = 0.75  # of a tolerance, for the pieces of a surface that is made slab by slab; the rest is for all of it
 AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: so much less memory
+FEW_AT_ONCE = 100_000  # of voids that were made slab by slab, with few triangles from the beginning
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
-SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
 FLAT = 0.01  # cells: the triangles of a void smaller than a cube of this side lie on one another
-SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Hollow:
-    """The voids of a part.
-
-    Parameters
-    ----------
-    space : Space
-        The inside of the part.
-    cell, width : float
-        Of the pattern as it was drawn, mm: smoothing makes walls between narrow voids wider, and bars thinner.
-    surfaces : list of Surface, mm
-        The voids, facing outwards from them, one surface for each field.
-    tolerance : float
-        mm by which simplifying has moved them, at most; not finite if that was not watched.
-    islands, specks : int
-        Pieces of solid that would have hung free in a void, and voids that were too small.
-    walls : Surface or None, mm
-        The inner side of the walls, if voids reach through them.
-    loose : float
-        mm³ of infill that hung free where the part was cut open, and was left out.
-    """
-
-    space: Space
-    cell: float
-    width: float
-    surfaces: list[Surface]
-    tolerance: float
-    islands: int
-    specks: int
-    walls: Surface | None = None
-    loose: float = 0.0
-
-    @property
-    def surface(self) -> Surface:
-        """All voids, mm."""
-        return joined(self.surfaces)
-
-    @cached_property
-    def count(self) -> int:
-        """How many voids there are."""
-        return sum(shell_names(surface)[1] for surface in self.surfaces)
-
-    @property
-    def open(self) -> int:
-        """How many voids reach out of an open side of the part."""
-        opening = self.space.opening
-        return 0 if opening is None else sum(int(opening.opened(surface).sum()) for surface in self.surfaces)
-
-    @cached_property
-    def shut(self) -> Surface:
-        """The voids that reach out of no open side of the part, mm."""
-        opening = self.space.opening
-        if opening is None:
-            return self.surface
-        return joined(
-            [
-                with_faces(surface, ~opening.opened(surface)[shell_names(surface)[0][surface.faces[:, 0]]])
-                for surface in self.surfaces
-            ]
-        )
-
-    @property
-    def triangles(self) -> int:
-        """Of all voids."""
-        return sum(len(surface.faces) for surface in self.surfaces)
-
-    @cached_property
-    def volume(self) -> float:
-        """Of all voids inside the walls, mm³."""
-        opening = self.space.opening
-        if opening is not None:
-            return self.loose + sum(opening.volume(surface) for surface in self.surfaces)
-        if self.walls is None:
-            return sum(volume_and_area(surface)[0] for surface in self.surfaces)
-        return sum(volume_within(surface, self.walls) for surface in self.surfaces)
-
-    @cached_property
-    def median(self) -> tuple[float | None, int]:
-        """How wide walls are, or bars thick, mm: the median where the part's walls are not near; of how many points."""
-        wall, part = self.space.wall, self.space.part
-        return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else (None, 0)
-
-    @property
-    def density(self) -> float:
-        """Solid share of what lies inside the walls."""
-        return 1 - self.volume / (self.space.volume if self.walls is None else self.walls.volume)
 
 
 def hollowed(
@@ -178,6 +84,7 @@ def hollowed(
                 open_=request.open_,
                 beyond=request.beyond,
                 held=request.held,
+                slabs=goes_by_slabs(request, voids),
                 threads=threads,
                 max_memory=max_memory,
             )
@@ -219,7 +126,7 @@ def _as_wide(
 ) -> Hollow:
     """Return voids between which walls are as wide as asked for, mm, or bars as thick, if not the density says that."""
     space = found.space
-    smoothed = _smoothing(space, voids, request, width).steps > 0
+    smoothed = smoothing_for(space, voids, request, width).steps > 0
     if "width" in varied[:1] or voids.grading is not None or not even(voids) or not smoothed:
         return found
     for _ in range(REDRAWN):
@@ -257,12 +164,13 @@ def _coarser(
 
 def _shortened(found: Hollow, tolerance: float) -> Hollow:
     """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
+    left, at_once = tolerance, AT_ONCE
+    if found.unmade is not None:
+        found, left, at_once = found.unmade.made(FIRST * tolerance), (1 - FIRST) * tolerance, FEW_AT_ONCE
     if tolerance == 0:
         return found
-    few = (
-        joined([shortened(batch, SHARE * tolerance) for batch in in_batches(each, AT_ONCE)]) for each in found.surfaces
-    )
-    kept = (_useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
+    few = (joined([shortened(batch, SHARE * left) for batch in in_batches(each, at_once)]) for each in found.surfaces)
+    kept = (useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
     return replace(found, surfaces=[each for each in kept if each is not None], tolerance=tolerance)
 
 
@@ -279,6 +187,8 @@ def _about(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:
 
 def share_of_cells(space: Space, voids: Voids, cell: float, width: float) -> float:
     """Return the solid share of what lies inside the walls, as the pattern has it before it is smoothed."""
+    if space.layers.in_slabs and isinstance(voids, Drawn):
+        return max(1 - cells_filled(space, voids, cell=cell, width=width) / space.cells, LEAST)
     out = np.empty_like(space.depth)
     count = voids.count(space, cell=cell, width=width)
     filled = 0.0
@@ -339,6 +249,13 @@ def _corrected(
     return found
 
 
+def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None) -> Hollow:
+    """Return the surfaces of the voids, or if they are made slab by slab, for now only what they enclose."""
+    if space.layers.in_slabs and isinstance(voids, Drawn):
+        return unmade(space, voids, request, sizes, threads=threads)
+    return surfaces_of(space, voids, request, sizes, threads=threads)
+
+
 def _nearest(found: Hollow, made: Callable[[float], Hollow], density: float) -> Hollow:
     """Return what comes nearest to a density, of what was found and what is made; two at most are kept meanwhile."""
 
@@ -382,94 +299,6 @@ def _scaled(sizes: tuple[float, float], times: float, vary: Size) -> tuple[float
     """Return cell and width with walls that many times as dense."""
     cell, width = sizes
     return (cell, width * times) if vary == "width" else (cell / times, width)
-
-
-def _smoothing(space: Space, voids: Voids, request: Request, width: float) -> Smoothing:
-    """Return the steps that round the corners between walls of a width, mm, or bars, to the radius asked for."""
-    smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
-    bar = width * request.thinnest if isinstance(voids, Repeating) and voids.pattern.bars else None
-    radius = request.radius(space.thickness)
-    times = times_for(radius, voids.sharpest, bar, cell=space.size) / space.size**2  # cells²
-    if times < SHORTEST:
-        return replace(smoothing, steps=0)
-    steps = math.ceil(times / smoothing.alpha)
-    return replace(smoothing, steps=steps, alpha=times / steps)
-
-
-def _surfaces(space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None) -> Hollow:
-    """Return the surfaces of the voids, smoothed, without what is no void of any use."""
-    cell, width = sizes
-    out = np.empty_like(space.depth)
-    smoothing = _smoothing(space, voids, request, width)
-    inside, walls = space, None
-    if request.form == "project":
-        inside, walls = space.unwalled, inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
-    surfaces, islands, specks = [], 0, 0
-    lost: list[Surface] = []
-    for which in range(voids.count(inside, cell=cell, width=width)):
-        voids.into(out, inside, which, cell=cell, width=width)
-        if not (out > 0).any():
-            continue
-        field = smooth_bricks(
-            on_profile(out, INTERFACE, threads=threads), smoothing, spacing=(space.size,) * 3, threads=threads
-        )
-        if smoothing.steps:
-            # Where the skin bends inwards, curvature would draw voids into the wall.
-            walled = on_profile(field.gathered(inside.depth, threads=threads), INTERFACE, threads=threads)
-            field = replace(field, values=np.minimum(field.values, walled))
-        if not (field.values > 0).any():
-            continue
-        surface = extract_bricks(
-            field, spacing=(space.size,) * 3, origin=tuple((space.origin - space.size / 2).tolist()), threads=threads
-        )
-        if space.opening is not None:
-            reaching = space.opening.reaching(surface, space.size)
-            if reaching is None:
-                continue
-            surface = reaching
-        kept, few, small, loose = _useful(surface, (SPECK * space.size) ** 3)
-        islands, specks = islands + few, specks + small
-        lost.extend(loose)
-        if kept is not None:
-            surfaces.append(kept)
-    surfaces = [each for each in (_outside(surface, lost, threads) for surface in surfaces) if each is not None]
-    return Hollow(
-        space=space,
-        cell=cell,
-        width=width,
-        surfaces=surfaces,
-        tolerance=0.0,
-        islands=islands,
-        specks=specks,
-        walls=walls,
-    )
-
-
-def _useful(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
-    """Return the voids larger than a volume, mm³, filled where solid hangs free, and how many were neither."""
-    names, count = shell_names(surface)
-    volume = shell_volumes(surface, names, count)
-    islands, specks = volume < 0, (volume >= 0) & (volume < least)
-    if not (islands.any() or specks.any()):
-        return surface, 0, 0, []
-    shell, kept = names[surface.faces[:, 0]], volume >= least
-    pieces = [with_faces(surface, shell == each) for each in np.flatnonzero(islands)]
-    loose = [replace(piece, faces=piece.faces[:, ::-1]) for piece in pieces]
-    useful = with_faces(surface, kept[shell]) if kept.any() else None
-    return useful, int(islands.sum()), int(specks.sum()), loose
-
-
-def _outside(surface: Surface, lost: list[Surface], threads: int | None) -> Surface | None:
-    """Return the shells that do not lie in pieces that were lost."""
-    for piece in lost:
-        names, first = shell_names(surface)[0], first_of_shells(surface)
-        within = winding(np.asarray(surface.vertices, dtype=np.float64)[first], piece, threads=threads) > 0
-        if within.any():
-            kept = ~within[names[surface.faces[:, 0]]]
-            if not kept.any():
-                return None
-            surface = with_faces(surface, kept)
-    return surface
 
 
 def _cut_down(found: Hollow, room: int, *, threads: int | None, max_memory: int | None) -> Hollow:

@@ -51,7 +51,7 @@ SEED = "seed"
 HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or no use
 LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
 FIFTH = 0.2
-FEWEST, MOST = 1e6, 25e6
+FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8
 COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
 ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
@@ -344,6 +344,12 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
 
 
+def goes_by_slabs(request: Request, voids: Voids) -> bool:
+    """Return whether voids may be made slab by slab: upright ones of one width, closed, in a part taken as one."""
+    upright = isinstance(voids, Drawn) and voids.grading is None and voids.bodies is None
+    return upright and request.form == "solid" and request.open_ is None
+
+
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Return the pattern's own parameters by name, from ``name=value`` and a table, or raise ParameterError."""
     if not (assigned or table):
@@ -417,7 +423,12 @@ def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> 
     """
     cell, width = _sizes(request, voids)
     if request.cell is None and request.line_width is None:
-        larger = max(1.0, SLACK * _finest(extents) / coarsest_for(replace(request, wall=math.inf), voids, cell, width))
+        larger = max(
+            1.0,
+            SLACK
+            * _finest(extents, slabs=goes_by_slabs(request, voids))
+            / coarsest_for(replace(request, wall=math.inf), voids, cell, width),
+        )
         return cell * larger, width * larger
     return cell, width
 
@@ -455,7 +466,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
-    size = min(max(size, _finest(extents)), math.cbrt(_box(extents) / FEWEST))
+    size = min(max(size, _finest(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box(extents) / FEWEST))
     if size > request.wall / LEAST_ACROSS:
         raise GeometryError(
             f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
@@ -474,9 +485,13 @@ def _box(extents: NDArray[np.floating]) -> float:
     return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
 
 
-def _finest(extents: NDArray[np.floating]) -> float:
-    """Return the side of the cells of the finest grid around a part, mm."""
-    return float(math.cbrt(_box(extents) / MOST))
+def _finest(extents: NDArray[np.floating], *, slabs: bool) -> float:
+    """Return the side of the cells of the finest grid around a part, mm: in slabs, what is tall costs only time."""
+    size = math.cbrt(_box(extents) / MOST)
+    if not slabs:
+        return size
+    low = np.array([*extents[:2], min(extents[2], max(extents[:2]))])
+    return max(math.cbrt(_box(low) / MOST), math.cbrt(_box(extents) / MOST_IN_SLABS))
 
 
 def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:

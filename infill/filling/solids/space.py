@@ -10,12 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.filling.solids.layers import WHOLE, Layers, in_slabs
 from infill.filling.solids.opening import ENDS, Open, Opening, flat_sides, lengthened
 from infill.grid import Grid
 from infill.machine import require_memory
 from infill.surface import Surface
 from infill.surfaces.parting import joined, parted
 from infill.surfaces.solids import FINE, status, united
+from infill.volume import Volume
 from infill.voxels.from_mesh import Repairs, Voxelised, grid_around, voxelise_reported
 from infill.voxels.partial import distances_in_cells
 
@@ -26,6 +28,7 @@ OUT = 3.0  # cells by which voids reach out of an open side, at least
 BEYOND = 1.0  # cells: how far voids that no wall is to be left around reach out of the part
 UP = np.array([0.0, 0.0, 1.0])
 TINY = 10.0  # mm: parts smaller than this may be meant in another unit
+BYTES_PACKED = 3  # for each cell of a space in slabs: whether it is inside, and how deep, packed
 BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks that are smoothed
 
 
@@ -35,7 +38,7 @@ class Space:
 
     Parameters
     ----------
-    depth : (nx, ny, nz) float32
+    layers : Layers
         How deep the centre of each cell lies below the inner side of the wall, in cells; cut off deep inside.
     size : float
         Of a cell, mm.
@@ -55,12 +58,12 @@ class Space:
     walled : Space or None
         What lies inside the walls, if voids reach through them here.
     opening : Opening or None
-        Where the part has no wall: there, `depth` goes on as if the part did.
+        Where the part has no wall: there, the depth goes on as if the part did.
     box_of : (Space, (3,) int) or None
         The space of which it is a box, and the first cell of that.
     """
 
-    depth: NDArray[np.float32]
+    layers: Layers
     size: float
     origin: NDArray[np.float64]
     part: Surface
@@ -73,6 +76,16 @@ class Space:
     box_of: tuple[Space, NDArray[np.int64]] | None = None
 
     @property
+    def depth(self) -> NDArray[np.float32]:
+        """That of all cells, (nx, ny, nz) in cells: of a space in slabs, a new array each time."""
+        return self.layers.between(0, self.shape[2])
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Cells of the grid along each axis."""
+        return self.layers.shape
+
+    @property
     def shell(self) -> Surface:
         """The skin of the part that has a wall, mm."""
         return self.part if self.opening is None else self.opening.shell
@@ -80,7 +93,7 @@ class Space:
     @cached_property
     def shares(self) -> NDArray[np.float64]:
         """Which share of each layer of the grid lies between the open sides of the part, (nz,)."""
-        middle = self.origin[2] + self.size * np.arange(self.depth.shape[2])
+        middle = self.origin[2] + self.size * np.arange(self.shape[2])
         if self.opening is None:
             return np.ones(len(middle))
         ends = np.array([[self.opening.low], [self.opening.high]])
@@ -98,32 +111,49 @@ class Space:
         layers = np.flatnonzero(self.shares > 0)
         return bool((self.depth[:, :, layers[-1 if end == "top" else 0]] > 0).any())
 
-    def cells_in(self, field: NDArray[np.float32]) -> float:
-        """Return how many cells lie in a void, by how deep they do, parts of cells counted as such."""
-        return float(sum(np.clip(layer + 0.5, 0, 1).sum(axis=0, dtype=np.float64) @ self.shares for layer in field))
+    def cells_in(self, field: NDArray[np.float32], *, first: int = 0) -> float:
+        """Return how many cells lie in a void, by how deep they do, parts of cells counted as such.
+
+        Parameters
+        ----------
+        field : (nx, ny, n) float32
+        first : int
+            The first of its layers.
+        """
+        shares = self.shares[first : first + field.shape[2]]
+        return float(sum(np.clip(layer + 0.5, 0, 1).sum(axis=0, dtype=np.float64) @ shares for layer in field))
 
     @cached_property
     def unwalled(self) -> Space:
         """The same, where voids reach through the wall and a little out of the part."""
-        return replace(self, depth=self.depth + np.float32(self.wall / self.size + BEYOND), wall=0.0, walled=self)
+        depth = self.depth + np.float32(self.wall / self.size + BEYOND)
+        return replace(self, layers=Layers.of(depth), wall=0.0, walled=self)
 
     @cached_property
     def cells(self) -> float:
         """How many cells lie inside the walls, parts of cells counted as such."""
-        return self.cells_in(self.depth)
+        return sum(self.cells_in(slab, first=first) for first, slab in self.layers.each())
 
     @cached_property
     def across(self) -> float:
         """The second longest side of what lies inside the walls, mm: larger cells of a pattern are of no use."""
-        inside = self.within
-        sides = [np.flatnonzero(inside.any(axis=tuple({0, 1, 2} - {axis}))) for axis in range(3)]
+        used = [np.zeros(count, dtype=bool) for count in self.shape]
+        for first, slab in self.layers.each():
+            inside = (slab > 0) & (self.shares[first : first + slab.shape[2]] >= 0.5)
+            used[0] |= inside.any(axis=(1, 2))
+            used[1] |= inside.any(axis=(0, 2))
+            used[2][first : first + slab.shape[2]] = inside.any(axis=(0, 1))
+        sides = [np.flatnonzero(each) for each in used]
         return float(sorted(each[-1] + 1 - each[0] for each in sides)[1]) * self.size
 
     @cached_property
     def thickness(self) -> float:
         """How thick what lies inside the walls is, mm: as a plate with this volume and surface would be."""
-        some = self.shares > 0
-        area = sum(int((np.abs(layer[:, some]) < 0.5).sum()) for layer in self.depth) * self.size**2
+        cells = 0
+        for first, slab in self.layers.each():
+            some = self.shares[first : first + slab.shape[2]] > 0
+            cells += sum(int((np.abs(layer[:, some]) < 0.5).sum()) for layer in slab)
+        area = cells * self.size**2
         return 2 * self.volume / max(area, self.size**2)
 
     @property
@@ -140,12 +170,14 @@ def space_inside(
     open_: Open | None = None,
     beyond: float = 0.0,
     held: int = 0,
+    slabs: bool = False,
     threads: int | None = None,
     max_memory: int | None = None,
 ) -> Space:
     """Return the inside of a part, without a wall, mm, along all of its skin but for its open sides.
 
     Beyond these, the inside goes on for some way, `beyond`, mm. `held` bytes are needed for each cell besides.
+    With `slabs`, a large space is kept in slabs.
 
     Raises
     ------
@@ -166,7 +198,7 @@ def space_inside(
         raise GeometryError(nowhere)
     grid = grid_of(part, voxel=voxel, further=further)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory((BYTES_PER_CELL + held) * math.prod(grid.shape), max_memory, advice)
+    require_memory(_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
     found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
     whole, skin, overlap = _skin(found)
     longer, cells, opening = whole, found.volume, None
@@ -176,12 +208,20 @@ def space_inside(
         cells = voxelise_reported(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
     # Thin gaps between components count too, but not faces inside the solid.
     reach, several = wall / voxel + BAND, overlap > LEAST_OVERLAP
-    depth = distances_in_cells(longer, cells, reach, several=several, threads=threads)
-    depth -= np.float32(wall / voxel)
-    if not (depth > 0).any():
+
+    def deep(some: Volume) -> NDArray[np.float32]:
+        found = distances_in_cells(longer, some, reach, several=several, threads=threads)
+        found -= np.float32(wall / voxel)
+        return found
+
+    if slabs and not several and cells.values.size > WHOLE:
+        layers = Layers.packed(deep(each) for each in in_slabs(cells))
+    else:
+        layers = Layers.of(deep(cells))
+    if not any((slab > 0).any() for _, slab in layers.each()):
         raise GeometryError(nowhere)
     space = Space(
-        depth=depth,
+        layers=layers,
         size=voxel,
         origin=np.array(cells.origin) + voxel / 2,
         part=whole,
@@ -198,6 +238,14 @@ def space_inside(
                 "give a thinner wall, or turn the part"
             )
     return space
+
+
+def _bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
+    """Return what is needed for a grid, or for a slab of it and what is kept of all of it."""
+    cells = math.prod(shape)
+    if slabs and cells > WHOLE:
+        return BYTES_PACKED * cells + BYTES_PER_CELL * WHOLE
+    return (BYTES_PER_CELL + held) * cells
 
 
 def further_for(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.solids.drains import trapped
-from infill.filling.solids.hollowing import Hollow, even, share_of_cells, wanted
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.opening import Opening
 from infill.filling.solids.request import Request
@@ -18,7 +19,7 @@ from infill.filling.solids.voids import Voids
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
 from infill.surfaces.distance import Tree
-from infill.surfaces.shells import first_of_shells
+from infill.surfaces.shells import first_of_shells, in_batches
 from infill.surfaces.solids import FINE, in_one_place, status
 from infill.surfaces.winding import winding
 
@@ -30,6 +31,7 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
+AT_ONCE = 200_000  # triangles that manifold3d is shown at a time
 LEAST_WALL = 0.9  # of the wall asked for
 
 
@@ -139,7 +141,7 @@ def measured(
         astray=astray,
         closed=trapped(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
-        verdict=status(solid),
+        verdict=_verdict(solid),
         width=(hollow.median[0] if even(voids) else None) or hollow.width,
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
@@ -157,6 +159,11 @@ def _ranges(hollow: Hollow, voids: Voids) -> dict[str, list[float]]:
         "cells": [hollow.cell * each for each in local.cells],
         "widths": [hollow.width * each for each in local.widths],
     }
+
+
+def _verdict(solid: Surface) -> str:
+    """Return what manifold3d says of a solid: that it is one, if all of its components are, some of which at a time."""
+    return next((said for said in map(status, in_batches(solid, AT_ONCE)) if said != FINE), FINE)
 
 
 def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:

@@ -1,0 +1,130 @@
+"""From the fields of voids to their surfaces: smoothed, and none that is of no use."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.solids.fillets import times_for
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.inside import INTERFACE, inner_side
+from infill.filling.solids.request import Request
+from infill.filling.solids.space import Space
+from infill.filling.solids.voids import Repeating, Voids
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.refining import on_profile
+from infill.phasefield.sparse import SparseField, smooth_bricks
+from infill.surface import Surface
+from infill.surfaces.components import shell_names
+from infill.surfaces.shells import first_of_shells, shell_volumes, with_faces
+from infill.surfaces.sparse_marching import extract_bricks
+from infill.surfaces.winding import winding
+
+SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
+SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
+
+
+def smoothing_for(space: Space, voids: Voids, request: Request, width: float) -> Smoothing:
+    """Return the steps that round the corners between walls of a width, mm, or bars, to the radius asked for."""
+    smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
+    bar = width * request.thinnest if isinstance(voids, Repeating) and voids.pattern.bars else None
+    radius = request.radius(space.thickness)
+    times = times_for(radius, voids.sharpest, bar, cell=space.size) / space.size**2  # cells²
+    if times < SHORTEST:
+        return replace(smoothing, steps=0)
+    steps = math.ceil(times / smoothing.alpha)
+    return replace(smoothing, steps=steps, alpha=times / steps)
+
+
+def surfaces_of(
+    space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None
+) -> Hollow:
+    """Return the surfaces of the voids, smoothed, without what is no void of any use."""
+    cell, width = sizes
+    out = np.empty_like(space.depth)
+    smoothing = smoothing_for(space, voids, request, width)
+    inside, walls = space, None
+    if request.form == "project":
+        inside, walls = space.unwalled, inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
+    surfaces, islands, specks = [], 0, 0
+    lost: list[Surface] = []
+    for which in range(voids.count(inside, cell=cell, width=width)):
+        voids.into(out, inside, which, cell=cell, width=width)
+        field = smoothed_void(out, inside.depth, smoothing, threads=threads)
+        if field is None:
+            continue
+        surface = extract_bricks(
+            field, spacing=(space.size,) * 3, origin=tuple((space.origin - space.size / 2).tolist()), threads=threads
+        )
+        if space.opening is not None:
+            reaching = space.opening.reaching(surface, space.size)
+            if reaching is None:
+                continue
+            surface = reaching
+        kept, few, small, loose = useful(surface, (SPECK * space.size) ** 3)
+        islands, specks = islands + few, specks + small
+        lost.extend(loose)
+        if kept is not None:
+            surfaces.append(kept)
+    surfaces = [each for each in (outside_of(surface, lost, threads) for surface in surfaces) if each is not None]
+    return Hollow(
+        space=space,
+        cell=cell,
+        width=width,
+        surfaces=surfaces,
+        tolerance=0.0,
+        islands=islands,
+        specks=specks,
+        walls=walls,
+    )
+
+
+def smoothed_void(
+    distance: NDArray[np.float32], depth: NDArray[np.float32], smoothing: Smoothing, *, threads: int | None
+) -> SparseField | None:
+    """Return the smoothed field of a void, or None if nothing of it is left.
+
+    Parameters
+    ----------
+    distance, depth : (nx, ny, nz) float32
+        Into the void, and below the inner side of the wall, in cells.
+    smoothing : Smoothing
+    """
+    if not (distance > 0).any():
+        return None
+    field = smooth_bricks(on_profile(distance, INTERFACE, threads=threads), smoothing, threads=threads)
+    if smoothing.steps:
+        # Where the skin bends inwards, curvature would draw voids into the wall.
+        walled = on_profile(field.gathered(depth, threads=threads), INTERFACE, threads=threads)
+        field = replace(field, values=np.minimum(field.values, walled))
+    return field if (field.values > 0).any() else None
+
+
+def useful(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
+    """Return the voids larger than a volume, mm³, filled where solid hangs free, and how many were neither."""
+    names, count = shell_names(surface)
+    volume = shell_volumes(surface, names, count)
+    islands, specks = volume < 0, (volume >= 0) & (volume < least)
+    if not (islands.any() or specks.any()):
+        return surface, 0, 0, []
+    shell, kept = names[surface.faces[:, 0]], volume >= least
+    pieces = [with_faces(surface, shell == each) for each in np.flatnonzero(islands)]
+    loose = [replace(piece, faces=piece.faces[:, ::-1]) for piece in pieces]
+    useful = with_faces(surface, kept[shell]) if kept.any() else None
+    return useful, int(islands.sum()), int(specks.sum()), loose
+
+
+def outside_of(surface: Surface, lost: list[Surface], threads: int | None) -> Surface | None:
+    """Return the shells that do not lie in pieces that were lost."""
+    for piece in lost:
+        names, first = shell_names(surface)[0], first_of_shells(surface)
+        within = winding(np.asarray(surface.vertices, dtype=np.float64)[first], piece, threads=threads) > 0
+        if within.any():
+            kept = ~within[names[surface.faces[:, 0]]]
+            if not kept.any():
+                return None
+            surface = with_faces(surface, kept)
+    return surface

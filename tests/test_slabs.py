@@ -1,0 +1,302 @@
+"""Voids that are made slab by slab are those of the whole: the same numbers, the same surfaces, less memory."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from made_shapes import box, less, rod, turned, union
+from scipy.spatial import KDTree
+
+from infill import GeometryError, Surface, fill
+from infill.filling.solids import hollowing, layers
+from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.hollowing import share_of_cells
+from infill.filling.solids.layers import Layers
+from infill.filling.solids.request import Request, checked, voids_of
+from infill.filling.solids.slabwise import surfaces_by_slabs, unmade
+from infill.filling.solids.space import Space, space_inside
+from infill.filling.solids.surfacing import smoothing_for, surfaces_of
+from infill.surfaces.capping import open_edges
+from infill.surfaces.distance import Tree
+from infill.surfaces.shells import with_faces
+from infill.surfaces.slabs import Piece, few_of, piece_between, shells_of, stitched, volumes_of
+from infill.surfaces.solids import FINE, shortened_between, status
+
+pytestmark = pytest.mark.usefixtures("compiled")
+
+THICK = 11  # layers: some slabs in a small part
+SIZES = (5.0, 0.6)  # cell and line width, mm
+
+
+def surface(mesh: Any) -> Surface:
+    return Surface(vertices=np.asarray(mesh.vertices), faces=np.asarray(mesh.faces))
+
+
+def asked(pattern: str, **more: Any) -> Request:
+    given: dict[str, Any] = {
+        "density": None,
+        "by": None,
+        "cell": SIZES[0],
+        "line_width": SIZES[1],
+        "wall": 1.2,
+        "overlap": None,
+        "angle": 0.0,
+        "phase": (0.3, 0.1),
+        "align": "part",
+        "form": "solid",
+        "drain": None,
+        "smooth_radius": None,
+        "tolerance": 0.03,
+        "resolution": None,
+        "voxel": 0.4,
+        "max_triangles": None,
+    }
+    return checked(pattern=pattern, own={}, **(given | more))
+
+
+def in_slabs(space: Space, thick: int = THICK) -> Space:
+    nz = space.shape[2]
+    return replace(
+        space, layers=Layers.packed(space.layers.between(low, min(low + thick, nz)) for low in range(0, nz, thick))
+    )
+
+
+@pytest.fixture(scope="module")
+def space() -> Space:
+    """Of a block with a hole and a ball on it, turned, so that no two layers are alike."""
+    mesh = union(less(box(26, 20, 14), rod(4, 30)), box(8, 8, 8, (9, 6, 8)))
+    return space_inside(surface(turned(mesh, np.random.default_rng(4))), wall=1.2, voxel=0.4)
+
+
+def made(
+    space: Space, pattern: str, **more: Any
+) -> tuple[Request, Drawn, tuple[Surface, ...], tuple[Surface, ...], float]:
+    """Return the surfaces of the whole and of slabs, every triangle of them, and what slabs say the volume is."""
+    request = asked(pattern, **more)
+    voids = voids_of(request, space.part.bounds, None)
+    assert isinstance(voids, Drawn)
+    whole = surfaces_of(space, voids, request, SIZES, threads=None)
+    slabs = surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
+    known = unmade(in_slabs(space), voids, request, SIZES, threads=None).volume
+    assert (whole.islands, whole.specks) == (slabs.islands, slabs.specks)
+    return request, voids, tuple(whole.surfaces), tuple(slabs.surfaces), known
+
+
+def corners(each: Surface, digits: int) -> np.ndarray:
+    """Return the triangles, sorted whatever their order and that of their corners: (F, 9)."""
+    points = np.round(np.asarray(each.vertices)[each.faces], digits) + 0.0
+    first = np.lexsort(points.transpose(2, 0, 1)[::-1], axis=-1)[:, 0]
+    rolled = np.take_along_axis(points, (first[:, None] + np.arange(3))[:, :, None] % 3, axis=1).reshape(-1, 9)
+    return rolled[np.lexsort(rolled.T)]
+
+
+# --- packed layers ----------------------------------------------------------------------------------------------------
+
+
+def test_packed_layers_are_what_was_packed(rng: np.random.Generator) -> None:
+    whole = rng.normal(size=(5, 4, 23)).astype(np.float32)
+    whole[:, :, 6:12] = whole[:, :, 12:18]
+    packed = Layers.packed(whole[:, :, low : low + 6] for low in range(0, 23, 6))
+    assert packed.in_slabs
+    assert not Layers.of(whole).in_slabs
+    assert packed.shape == whole.shape
+    assert packed.bounds() == [(0, 6), (6, 12), (12, 18), (18, 23)]
+    for low, high in ((0, 23), (0, 6), (3, 4), (5, 13), (17, 23)):
+        assert np.array_equal(packed.between(low, high), whole[:, :, low:high])
+        assert np.array_equal(Layers.of(whole).between(low, high), whole[:, :, low:high])
+    assert packed.alike(6, 12) == packed.alike(12, 18) != packed.alike(0, 6)
+
+
+def test_a_space_in_slabs_measures_as_the_whole(space: Space) -> None:
+    slabs = in_slabs(space)
+    assert slabs.shape == space.shape
+    assert slabs.cells == pytest.approx(space.cells, rel=1e-12)
+    assert slabs.thickness == pytest.approx(space.thickness, rel=1e-12)
+    assert slabs.across == space.across
+    voids = voids_of(asked("honeycomb"), space.part.bounds, None)
+    shares = [share_of_cells(each, voids, *SIZES) for each in (space, slabs)]
+    assert shares[0] == pytest.approx(shares[1], rel=1e-9)
+
+
+def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) -> None:
+    from infill.filling.solids import space as module
+
+    part = surface(box(10, 12, 30))
+    whole = space_inside(part, wall=1.2, voxel=0.4)
+    monkeypatch.setattr(module, "WHOLE", 1000)
+    monkeypatch.setattr(layers, "SLAB", 10_000)
+    slabs = space_inside(part, wall=1.2, voxel=0.4, slabs=True)
+    assert slabs.layers.in_slabs
+    assert not whole.layers.in_slabs
+    # Heights are counted from the slab: single precision may round the other way.
+    assert np.allclose(slabs.depth, whole.depth, rtol=0, atol=1e-5)
+    assert len({id(each) for each in slabs.layers.slabs}) < len(slabs.layers.slabs)
+
+
+# --- surfaces ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
+@pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
+def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Space) -> None:
+    """Triangle by triangle; with a radius of 1.5 mm, more layers are needed beside a slab than it has."""
+    request, voids, whole, slabs, known = made(space, pattern, smooth_radius=radius)
+    steps = smoothing_for(space, voids, request, SIZES[1]).steps
+    assert (steps > THICK) == (radius > 1)
+    assert len(whole) == len(slabs) > 0
+    for one, other in zip(whole, slabs, strict=True):
+        assert other.closed
+        assert len(one.faces) == len(other.faces)
+        # Heights are counted from the slab, and so rounded otherwise in the last bits; the few vertices inside cubes
+        # are in single precision.
+        away, _ = KDTree(one.vertices).query(other.vertices)
+        assert away.max() < 1e-5
+        assert (away > 1e-12).mean() < 1e-3
+        assert other.volume == pytest.approx(one.volume, rel=1e-9)
+        # Rounding may part equal ones.
+        assert (corners(one, 5) == corners(other, 5)).all(axis=1).mean() > 0.99
+    assert known == pytest.approx(sum(each.volume for each in slabs), rel=1e-9)
+
+
+def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
+    from infill.filling.solids import slabwise
+
+    request = asked("honeycomb", smooth_radius=1.5)
+    voids = voids_of(request, space.part.bounds, None)
+    assert isinstance(voids, Drawn)
+    smoothing = smoothing_for(space, voids, request, SIZES[1])
+
+    def few(*_: Any) -> Any:
+        return replace(smoothing, steps=0)
+
+    real = slabwise.smoothed_void
+    monkeypatch.setattr(slabwise, "smoothing_for", few)  # by which layers are counted
+    monkeypatch.setattr(
+        slabwise, "smoothed_void", lambda out, depth, _, threads: real(out, depth, smoothing, threads=threads)
+    )
+    with pytest.raises(GeometryError, match="do not meet"):
+        surfaces_by_slabs(in_slabs(space), voids, request, SIZES, tolerance=0.0, threads=None)
+
+
+def test_pieces_that_do_not_meet_are_refused() -> None:
+    whole = surface(trimesh.creation.box((4, 4, 4)).subdivide().subdivide())
+    pieces = [piece_between(whole, low, high) for low, high in ((-3, 0), (0, 3))]
+    assert all(piece is not None for piece in pieces)
+    lower, upper = (each for each in pieces if each is not None)
+    again = stitched([(-3, lower), (0, upper)])
+    assert again.closed
+    assert np.array_equal(corners(again, 9), corners(whole, 9))
+    assert volumes_of([shells_of(lower), shells_of(upper)]) == pytest.approx([64])
+    moved = np.array(upper.surface.vertices)
+    moved[upper.rim(0)[0], 0] += 1e-9
+    for wrong in (replace(upper, surface=replace(upper.surface, vertices=moved)), None):
+        with pytest.raises(GeometryError, match="do not meet"):
+            stitched([(-3, lower), (0, wrong)])
+    with pytest.raises(GeometryError, match="do not meet"):
+        volumes_of([shells_of(lower), None])
+
+
+# --- simplified -------------------------------------------------------------------------------------------------------
+
+
+def test_open_edges_stay_to_the_last_bit() -> None:
+    ball = surface(trimesh.creation.icosphere(5, radius=10))
+    half = with_faces(ball, (ball.vertices[:, 2] > 0.2)[ball.faces].all(axis=1))
+    few = shortened_between(half, 0.1)
+    assert len(few.faces) < len(half.faces) / 3
+
+    def rim(each: Surface) -> np.ndarray:
+        ends = np.asarray(each.vertices)[open_edges(each.faces)].reshape(-1, 6)
+        return ends[np.lexsort(ends.T)]
+
+    assert np.array_equal(rim(few), rim(half))
+    assert Tree.of(half).nearest(few.vertices)[0].max() < 1e-9  # vertices are some of those that were
+    assert Tree.of(few).nearest(half.vertices)[0].max() <= 0.1
+
+
+@pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
+def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Space) -> None:
+    request = asked(pattern)
+    voids = voids_of(request, space.part.bounds, None)
+    assert isinstance(voids, Drawn)
+    slabs = in_slabs(space)
+    every = surfaces_by_slabs(slabs, voids, request, SIZES, tolerance=0.0, threads=None)
+    few = hollowing._shortened(unmade(slabs, voids, request, SIZES, threads=None), request.tolerance)
+    alone = hollowing._shortened(replace(every, unmade=None), request.tolerance)
+    assert few.triangles < 1.4 * alone.triangles  # with a plane at every eleventh layer, at which all are kept at first
+    assert few.triangles < every.triangles / 2
+    assert few.count == every.count
+    assert few.density == pytest.approx(every.density, abs=0.005)
+    for one, other in zip(every.surfaces, few.surfaces, strict=True):
+        assert status(other) == FINE
+        for near, far in ((one, other), (other, one)):
+            points = np.asarray(near.vertices)
+            assert Tree.of(far).nearest(points)[0].max() <= request.tolerance
+
+
+@pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart"])
+def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    from infill.filling.solids import space as module
+
+    mesh = union(less(box(26, 20, 40), rod(4, 60)), box(8, 8, 30, (9, 6, 20)))
+    monkeypatch.setattr(module, "WHOLE", 1000)
+    monkeypatch.setattr(layers, "SLAB", 100_000)
+    seen = []
+    monkeypatch.setattr(hollowing, "unmade", lambda *given, **more: seen.append(1) or unmade(*given, **more))
+    result = fill(mesh, pattern, density=0.25)
+    report, solid = result.report, result.surface
+    assert seen
+    assert report["problems"] == []
+    assert (solid.vertices[: len(mesh.vertices)] == mesh.vertices).all()
+    assert (solid.faces[: len(mesh.faces)] == mesh.faces).all()
+    assert solid.closed
+    assert status(solid) == FINE
+    assert report["density"] == pytest.approx(0.25, abs=0.005)
+    assert report["walls"]["least"] >= 0.9 * 1.2
+    assert report["voids"]["count"] == len(report["voids"]["closed"])
+
+
+def test_slabs_are_planned_for_upright_voids_alone() -> None:
+    from infill.filling.solids.request import goes_by_slabs
+
+    bounds = np.array([[0.0, 0, 0], [20, 20, 20]])
+    for pattern, more, expected in (
+        ("honeycomb", {}, True),
+        ("gyroid", {}, False),
+        ("honeycomb", {"open_": "top"}, False),
+        ("honeycomb", {"form": "infill"}, False),
+        ("honeycomb", {"align": "body"}, False),
+        ("honeycomb", {"density": (0.1, 0.3), "cell": None, "line_width": None}, False),
+    ):
+        request = asked(pattern, **more)
+        assert goes_by_slabs(request, voids_of(request, bounds, None)) is expected, (pattern, more)
+
+
+def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
+    from infill.filling.solids.request import sizes_for, voxel_for
+
+    request = asked("honeycomb", cell=None, line_width=None, density=0.2, voxel=None)
+    found = []
+    for height in (100, 400):
+        extents = np.array([60.0, 60.0, height])
+        voids = voids_of(request, np.array([[0, 0, 0], extents]), None)
+        found.append(voxel_for(request, voids, extents, *sizes_for(request, voids, extents)))
+    assert [low >= high for low, high in pairwise(found)] == [True]
+
+
+def test_few_of_a_piece_keeps_its_planes() -> None:
+    mesh = trimesh.creation.box((4, 4, 4))
+    for _ in range(4):
+        mesh = mesh.subdivide()
+    piece = piece_between(surface(mesh), -3, 0)
+    assert isinstance(piece, Piece)
+    few = few_of(piece, 0.1)
+    assert len(few.surface.faces) < len(piece.surface.faces)
+    rims = [each.surface.vertices[each.rim(each.high)] for each in (piece, few)]
+    assert np.array_equal(*rims)
