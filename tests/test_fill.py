@@ -19,11 +19,12 @@ from test_command_line import run as command
 from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
+from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.drains import falls
 from infill.filling.solids.grading import NONE
 from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.opening import Opening
-from infill.filling.solids.request import checked, voids_of
+from infill.filling.solids.request import checked
 from infill.filling.solids.roots import root
 from infill.filling.solids.telling import least_wall, outside
 from infill.report_keys import FillReport

@@ -15,18 +15,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from infill.errors import GeometryError
+from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.drains import drained
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.inside import SHARE, inner_side
 from infill.filling.solids.opening import between, cut_open
-from infill.filling.solids.request import (
-    TOLERANCE,
-    Request,
-    checked,
-    on_grid_of,
-    voids_of,
-)
+from infill.filling.solids.request import TOLERANCE, Request, checked
+from infill.filling.solids.sizing import on_grid_of
 from infill.filling.solids.space import Space
 from infill.filling.solids.stages import FillStages
 from infill.filling.solids.telling import measured, problems

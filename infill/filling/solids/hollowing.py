@@ -15,8 +15,9 @@ from infill.filling.solids.grading import Grading
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.inside import SHARE
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.request import Request, Size, coarsest_for, goes_by_slabs, sizes_for, voxel_for
+from infill.filling.solids.request import Request, Size
 from infill.filling.solids.roots import root
+from infill.filling.solids.sizing import coarsest_for, goes_by_slabs, sizes_for, voxel_for
 from infill.filling.solids.slabwise import cells_filled, unmade
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.surfacing import smoothing_for, surfaces_of, useful

@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from infill.filling.solids.request import Request, on_grid_of, sizes_for, voids_of, voxel_for
+from infill.filling.solids.choosing import voids_of
+from infill.filling.solids.request import Request
+from infill.filling.solids.sizing import on_grid_of, sizes_for, voxel_for
 from infill.filling.solids.space import BYTES_PER_CELL, further_for, grid_of
 from infill.surface import Surface
 

@@ -4,29 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
-import numpy as np
-from numpy.typing import NDArray
-
 from infill.checks import length, positive, whole, within
-from infill.errors import GeometryError, ParameterError, UsageError
-from infill.filling.solids.bodies import Bodies
-from infill.filling.solids.drawn_voids import Drawn
+from infill.errors import GeometryError, UsageError
 from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading, Varies
 from infill.filling.solids.naming import Kind, kind_of
 from infill.filling.solids.opening import Open
-from infill.filling.solids.subdivided import Subdivided
-from infill.filling.solids.voids import Repeating, Voids
-from infill.formats.assignments import Source, assignments, merged, values
-from patterns.cellular import CELLULAR, InSpace
-from patterns.declared import parameters
-from patterns.given import nearest
-from patterns.octree import Octree
-from patterns.protocol import Pattern
-from patterns.unit_cells import Bars, Network, Planes, Surfaces
+from patterns.unit_cells import Bars, Network, Surfaces
 
 Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed", "body"]
@@ -34,25 +21,11 @@ Size = Literal["cell", "width"]
 
 DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
 SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
-BAR_CELL = 8.0  # mm: bars are as thick as the density asks for
-SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
 LOWEST, HIGHEST = 0.01, 0.9  # densities
-# Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
-# of bars; across a wall of the part and a bar; in all.
-FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
-ACROSS, ACROSS_BAR = 2.5, 4.0
-LEAST_FINE, LEAST_FINE_LINES, LEAST_FINE_BARS = 0.58, 2.5, 9.0
-LEAST_ACROSS, LEAST_ACROSS_BAR = 1.5, 3.0
 MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
 FURTHEST = 1e4  # mm
-SLACK = 1.01
 FEWEST_TRIANGLES = 1000  # of voids
-SEED = "seed"
-HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or no use
 LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
-FIFTH = 0.2
-FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8
-COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
 ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
 
@@ -320,192 +293,3 @@ def graded(densities: Sequence[float], by: object, grade: str = "width") -> Grad
     first, last = (within("density", each, LOWEST, HIGHEST) for each in densities)
     field, name = field_of("z" if by is None else by)
     return Grading(first=first, last=last, by=field, name=name, varies=grade)  # type: ignore[arg-type]
-
-
-def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None) -> Voids:
-    """Return the voids of the pattern that is asked for, in a part with these bounds (2, 3), mm."""
-    middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
-    if request.align == "bed":
-        middle = np.array([0.0, 0.0, float(bounds[0][2])])
-    bodies, grading = Bodies() if request.align == "body" else None, request.grading
-    anchor = request.phase + (middle if bodies is None else np.zeros(3))
-    turned = np.radians(request.angle)
-    turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
-    if isinstance(request.kind, InSpace):
-        pattern = cellular_of(request.kind, request)
-        if isinstance(pattern, (Planes, Octree)):
-            turn = np.array(pattern.upright) @ turn
-        if isinstance(pattern, Octree):
-            return Subdivided(
-                pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies
-            )
-        return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
-    lines = pattern_of(request.kind, request)
-    return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
-
-
-def goes_by_slabs(request: Request, voids: Voids) -> bool:
-    """Return whether voids may be made slab by slab: upright ones of one width, closed, in a part taken as one."""
-    upright = isinstance(voids, Drawn) and voids.grading is None and voids.bodies is None
-    return upright and request.form == "solid" and request.open_ is None
-
-
-def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """Return the pattern's own parameters by name, from ``name=value`` and a table, or raise ParameterError."""
-    if not (assigned or table):
-        return {}
-    kind, name = kind_of(pattern)
-    if not parameters(kind):
-        if assigned:
-            raise ParameterError(f"--set {assigned[0]}: {name} has no parameters; give --cell or --line-width")
-        return dict(table or {})  # which is refused
-    given = merged(
-        kind,
-        command=assignments(kind, assigned, options=HELD),
-        file=values(kind, table or {}, Source.TABLE),
-    )
-    for name in given:
-        if name in HELD:
-            raise ParameterError(f"--set {name}: that is --{name.replace('_', '-')} here; give it instead")
-    return given
-
-
-def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]:
-    """Return the pattern's own parameters with a seed, or raise ParameterError if chance has no part in it."""
-    kind, name = kind_of(pattern)
-    if SEED not in parameters(kind):
-        raise ParameterError(f"seed is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam")
-    if own.get(SEED, seed) != seed:
-        raise ParameterError(f"seed is {seed}, and --set says {own[SEED]}; give one of them")
-    return {**own, SEED: seed}
-
-
-def cellular_of(kind: InSpace, request: Request) -> InSpace:
-    """Return the pattern in space that is asked for, or raise ParameterError."""
-    known = list(parameters(kind))
-    for name in request.parameters:
-        if not known:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
-        if name not in known:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, known)}")
-    if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
-        raise ParameterError(
-            f"density is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
-            f"higher one, or choose {kind.surfaces.name}"
-        )
-    return replace(kind, **request.parameters) if request.parameters else kind
-
-
-def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
-    """Return the pattern of lines that is asked for, or raise ParameterError."""
-    known = parameters(kind)
-    own = [name for name in known if name not in HELD]
-    for name in request.parameters:
-        if name not in own:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, own)}")
-    if request.angle and "angle" not in known:
-        raise ParameterError(
-            f"angle is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
-        )
-    before = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
-    turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
-    changed = {**request.parameters, **turned}
-    made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
-    if not made.prismatic:
-        raise ParameterError(f"the lines of {made.name} change with height; choose from {', '.join(CELLULAR)}")
-    return made
-
-
-def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
-    """Return cell and width, mm: as asked, or as the density would have them far from any skin.
-
-    In a part too large for a grid as fine as that needs, both are larger, unless one was asked for.
-    """
-    cell, width = _sizes(request, voids)
-    if request.cell is None and request.line_width is None:
-        larger = max(
-            1.0,
-            SLACK
-            * _finest(extents, slabs=goes_by_slabs(request, voids))
-            / coarsest_for(replace(request, wall=math.inf), voids, cell, width),
-        )
-        return cell * larger, width * larger
-    return cell, width
-
-
-def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
-    if request.cell is not None and request.line_width is not None:
-        return request.cell, request.line_width
-    assert request.density is not None
-    share = voids.widths(request.density)
-    if request.line_width is None and (request.cell is not None or "cell" not in request.varied):
-        if request.cell is None and request.form == "project":
-            return SLICED_BAR / request.thinnest / share, SLICED_BAR / request.thinnest
-        cell = BAR_CELL if request.cell is None else request.cell
-        return cell, share * cell
-    width = request.default_width if request.line_width is None else request.line_width
-    return width / share, width
-
-
-def on_grid_of(request: Request, bounds: NDArray[np.floating]) -> Request:
-    """Return the request with the side of the cells that its resolution means for a part within bounds (2, 3), mm."""
-    if request.resolution is None:
-        return request
-    return replace(request, voxel=float(np.ptp(bounds, axis=0).max()) / request.resolution)
-
-
-def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:
-    """Return the side of the cells of the grid, mm."""
-    if request.voxel is not None:
-        return request.voxel
-    width *= request.thinnest
-    size = request.wall / ACROSS
-    if isinstance(voids, Drawn):
-        size = min(size, voids.apart * cell / FINE_LINES, COARSEST_LINES)
-    elif _has_bars(voids):
-        size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
-    else:
-        size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
-    size = min(max(size, _finest(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box(extents) / FEWEST))
-    if size > request.wall / LEAST_ACROSS:
-        raise GeometryError(
-            f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
-            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit"
-        )
-    if size > (most := coarsest_for(request, voids, cell, width / request.thinnest)):
-        raise GeometryError(
-            f"cell is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
-            f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density"
-        )
-    return size
-
-
-def _box(extents: NDArray[np.floating]) -> float:
-    """Return the volume of the box around a part, mm³; a flat one is as thick as a thousandth of its length."""
-    return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
-
-
-def _finest(extents: NDArray[np.floating], *, slabs: bool) -> float:
-    """Return the side of the cells of the finest grid around a part, mm: in slabs, what is tall costs only time."""
-    size = math.cbrt(_box(extents) / MOST)
-    if not slabs:
-        return size
-    low = np.array([*extents[:2], min(extents[2], max(extents[:2]))])
-    return max(math.cbrt(_box(low) / MOST), math.cbrt(_box(extents) / MOST_IN_SLABS))
-
-
-def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:
-    """Return the largest side of the cells of a grid that still has the pattern in it, mm."""
-    if request.voxel is not None:
-        return request.voxel
-    width *= request.thinnest
-    size = request.wall / LEAST_ACROSS
-    if isinstance(voids, Drawn):
-        return min(size, voids.apart * cell / LEAST_FINE_LINES)
-    if _has_bars(voids):
-        return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
-    return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
-
-
-def _has_bars(voids: Voids) -> bool:
-    return isinstance(voids, Repeating) and voids.pattern.bars

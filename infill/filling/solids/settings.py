@@ -19,7 +19,8 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import UsageError
-from infill.filling.solids.request import TOLERANCE, Request, checked, own_parameters, seeded
+from infill.filling.solids.choosing import own_parameters, seeded
+from infill.filling.solids.request import TOLERANCE, Request, checked
 from infill.formats.assignments import table_of
 from infill.formats.options import Reader, parse_number, parse_numbers, parse_share, parse_whole, parse_word, parsed
 from infill.formats.toml import options_text, read_toml
