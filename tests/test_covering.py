@@ -76,7 +76,7 @@ def test_parts_are_filled_as_asked(name: str, part: str, density: float) -> None
     if name != "concentric" or part != "ring":  # which takes a whole line around or leaves it
         assert abs(solved.error) <= limit or across < 1.5
     # Closed lines need a way from each to the next; others are joined, and ways are shorter than a fifth of them.
-    closed = dict.fromkeys(("schwarz-p", "concentric", "voronoi", "neovius", "i-wp"), 1.0)
+    closed = dict.fromkeys(("schwarz-p", "concentric", "voronoi"), 1.0)
     if across > 2:
         assert travel(paths) < closed.get(name, 0.35) * length_of(paths)
 

@@ -24,7 +24,7 @@ MATHEMATICS = re.compile(
 )
 TYPES = {"FLOAT", "INTEGER", "INT", "TEXT", "STR", "PATH", "BOOL", "BOOLEAN", "LIST"}
 DEFAULT = re.compile(r"\(default: [^()]+\)$")
-WIDE = {"COLUMNS": "400"}
+WIDE = {"COLUMNS": "600"}
 
 
 @cache

@@ -14,10 +14,11 @@ from scipy.spatial import KDTree
 
 from infill import GeometryError, Surface, fill
 from infill.filling.solids import hollowing, layers
+from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.hollowing import share_of_cells
 from infill.filling.solids.layers import Layers
-from infill.filling.solids.request import Request, checked, voids_of
+from infill.filling.solids.request import Request, checked
 from infill.filling.solids.slabwise import surfaces_by_slabs, unmade
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.surfacing import smoothing_for, surfaces_of
@@ -227,8 +228,8 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Space) 
     assert isinstance(voids, Drawn)
     slabs = in_slabs(space)
     every = surfaces_by_slabs(slabs, voids, request, SIZES, tolerance=0.0, threads=None)
-    few = hollowing._shortened(unmade(slabs, voids, request, SIZES, threads=None), request.tolerance)
-    alone = hollowing._shortened(replace(every, unmade=None), request.tolerance)
+    few = hollowing.few_triangles(unmade(slabs, voids, request, SIZES, threads=None), request.tolerance)
+    alone = hollowing.few_triangles(replace(every, unmade=None), request.tolerance)
     assert few.triangles < 1.4 * alone.triangles  # with a plane at every eleventh layer, at which all are kept at first
     assert few.triangles < every.triangles / 2
     assert few.count == every.count
@@ -263,7 +264,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
 
 
 def test_slabs_are_planned_for_upright_voids_alone() -> None:
-    from infill.filling.solids.request import goes_by_slabs
+    from infill.filling.solids.sizing import goes_by_slabs
 
     bounds = np.array([[0.0, 0, 0], [20, 20, 20]])
     for pattern, more, expected in (
@@ -279,7 +280,7 @@ def test_slabs_are_planned_for_upright_voids_alone() -> None:
 
 
 def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
-    from infill.filling.solids.request import sizes_for, voxel_for
+    from infill.filling.solids.sizing import sizes_for, voxel_for
 
     request = asked("honeycomb", cell=None, line_width=None, density=0.2, voxel=None)
     found = []

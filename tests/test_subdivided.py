@@ -12,8 +12,9 @@ from made_shapes import box
 from scipy.ndimage import distance_transform_edt
 
 from infill import ParameterError, fill
+from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.grading import NONE
-from infill.filling.solids.request import checked, voids_of
+from infill.filling.solids.request import checked
 from infill.filling.solids.settings import DEFAULTS
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.subdivided import Subdivided, Tree

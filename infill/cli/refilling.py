@@ -50,11 +50,10 @@ def refill(
         str | None,
         typer.Option(
             metavar="keep|NAME|FILE",
-            help="keep: the slicer's own paths, with round corners. Or one of ours: honeycomb, zigzag, "
-            "concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, gyroid, schwarz-p, "
-            "schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-hatch, quarter-cubic, "
-            "lateral-honeycomb, archimedean-chords, octagram-spiral, fischer-koch-s, lidinoid, neovius, i-wp. "
-            "Or a drawing: tile.svg, .dxf, .png, .wkt. "
+            help="keep: the slicer's own paths, with round corners. Or a drawing: tile.svg, .dxf, .png, .wkt. Or one "
+            "of ours: honeycomb, zigzag, concentric-heart, grid, triangles, tri-hexagon, cubic, rectilinear, hilbert, "
+            "gyroid, schwarz-p, schwarz-d, concentric, honeycomb-3d, octagons, voronoi, cross, cross-hatch, "
+            "quarter-cubic, lateral-honeycomb, archimedean-chords, octagram-spiral. "
             "(default: keep)",
             rich_help_panel=PATHS,
         ),

@@ -98,7 +98,7 @@ def shortened_between(surface: Surface, tolerance: float) -> Surface:
     >>> import trimesh
     >>> ball = trimesh.creation.icosphere(5)
     >>> half = Surface(vertices=ball.vertices, faces=ball.faces[ball.triangles_center[:, 2] > 0])
-    >>> few = shortened_between(half, 0.05)
+    >>> few = shortened_between(half, 0.02)
     >>> len(few.faces) < len(half.faces) / 3, len(open_edges(few.faces)) == len(open_edges(half.faces))
     (True, True)
     """

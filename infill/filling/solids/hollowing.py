@@ -97,7 +97,7 @@ def hollowed(
             with clock.stage("voids", done + 0.1):
                 found = _corrected(space, voids, request, sizes, varied, threads)
             with clock.stage("simplify", done + 0.18):
-                found = _shortened(found, request.tolerance)
+                found = few_triangles(found, request.tolerance)
             triangles = found.triangles
             if last or triangles <= room:
                 with clock.stage("voids", done + 0.19):
@@ -135,7 +135,7 @@ def _as_wide(
         if median is None or seen < SURE or abs(median / width - 1) <= WIDTH_CLOSE:
             break
         sizes = (found.cell, found.width * width / median)
-        again = _shortened(_corrected(space, voids, request, sizes, varied, threads), request.tolerance)
+        again = few_triangles(_corrected(space, voids, request, sizes, varied, threads), request.tolerance)
         if not again.surfaces or abs(again.density - (request.density or again.density)) > FARTHER_OFF:
             break
         found = again
@@ -163,7 +163,7 @@ def _coarser(
     return sizes, min(wanted, coarsest)
 
 
-def _shortened(found: Hollow, tolerance: float) -> Hollow:
+def few_triangles(found: Hollow, tolerance: float) -> Hollow:
     """Return the voids without the triangles that flat places need not, and without voids that this flattens."""
     left, at_once = tolerance, AT_ONCE
     if found.unmade is not None:
@@ -307,7 +307,7 @@ def _cut_down(found: Hollow, room: int, *, threads: int | None, max_memory: int 
     tolerance = max(found.tolerance, FINEST * found.space.size)
     for _ in range(DOUBLINGS):
         tolerance *= 2
-        few = _shortened(found, tolerance)
+        few = few_triangles(found, tolerance)
         if few.triangles <= room:
             return few
     needed = COLLAPSE_BYTES * max(len(each.faces) for each in few.surfaces)
