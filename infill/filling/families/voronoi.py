@@ -19,6 +19,7 @@ EVEN = 2  # how often cells are evened out, as `patterns.voronoi` does unless to
 # every mm that touching lines are apart, in mm.
 OUTLINE, LOST = 3.875, 3.58
 SHARE = 0.15  # of a cell that a radius may have: shortest walls go, and cells stay as wide
+FINEST = 6.0  # line widths: the smallest cells, with room inside for more than the bead along the wall
 CORNERS_APART = 1e-3  # mm
 MITRE = 20.0  # half distances of touching lines, that the corner of a cell may lie away from those of its walls
 
@@ -27,7 +28,7 @@ MITRE = 20.0  # half distances of touching lines, that the corner of a cell may 
 class Voronoi:
     """The cells of `patterns.voronoi`; `cell` is the side of a square as large as one of them on average.
 
-    A cell into which no bead fits is left out.
+    A cell into which no bead fits is left out, and where most would be, cells are as large as they may be for that.
     """
 
     name: str = "voronoi"
@@ -49,6 +50,7 @@ class Voronoi:
         """Return one closed line a cell; see `Family`."""
         import shapely
 
+        cell = max(cell, FINEST * line_width)
         corners = np.array(bounds, dtype=np.float64).reshape(2, 2) / cell
         low, high = np.floor(corners[0]).tolist(), np.ceil(corners[1]).tolist()
         gap = TOUCH * line_width / cell
