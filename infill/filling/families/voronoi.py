@@ -19,7 +19,7 @@ EVEN = 2  # how often cells are evened out, as `patterns.voronoi` does unless to
 # every mm that touching lines are apart, in mm.
 OUTLINE, LOST = 3.875, 3.58
 SHARE = 0.15  # of a cell that a radius may have: shortest walls go, and cells stay as wide
-FINEST = 6.0  # line widths: the smallest cells, with room inside for more than the bead along the wall
+FINEST = 7.5  # line widths: the smallest cells, with room inside for more than the bead along the wall
 CORNERS_APART = 1e-3  # mm
 MITRE = 20.0  # half distances of touching lines, that the corner of a cell may lie away from those of its walls
 
