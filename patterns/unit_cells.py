@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 STEPS, AGAIN = 3, 2  # of Newton's method, from near the surface to it, and from nearer
 SHEET, SHIFT = 40, 0.0093  # nodes along a cell, between which the surface is looked for; where they begin
-JUMPS = (16, 8, 4, 2, 1, 1)  # nodes
+JUMPS = (16, 8, 4, 2, 1, 1)  # nodes away, where others are asked: half a cell at first, the next ones twice
 ROUNDS = 3  # in which the point of the surface that is nearest is looked for
 NEAR = 1e-3  # values that count as 0
 DIFFERENCE = 1e-6  # of a cell, for slopes

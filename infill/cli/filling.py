@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
 import typer
 
 from infill.cli.completing import fill_assignments, fill_names, unit_names
-from infill.cli.console import as_bytes, is_typed, log_said, print_json, progress_bar, say, table
+from infill.cli.console import is_typed, log_said, print_json, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.filling.solids.settings import FillSettings
@@ -18,13 +18,6 @@ if TYPE_CHECKING:
     from infill.result import Result
 
 FILES, PATTERN, SOLID, RUN = "Files", "Pattern", "Solid", "Run"
-DONE = {
-    "turned": "faces turned outwards",
-    "closed": "holes closed",
-    "parted": "components that touch taken apart",
-    "united": "components that overlap united",
-}
-ENDS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
 def fill(
@@ -288,6 +281,7 @@ def fill(
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="Say more.", rich_help_panel=RUN)] = False,
 ) -> None:
     """Fill a part: a shell and infill as one solid, the skin as it was; or part and infill as a slicer's project."""
+    from infill.cli.filled_words import show_plan, summary
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.filling.solids.settings import resolve
@@ -350,7 +344,7 @@ def fill(
         with log_said(shown=not quiet):
             given: Any = read_source(part, kind="mesh", units=settings.units)
             if dry_run:
-                _show_plan(planned_fill(given, settings.request, threads=threads), str(part), as_json=as_json)
+                show_plan(planned_fill(given, settings.request, threads=threads), str(part), as_json=as_json)
                 return
             result = filled(given, settings.request, threads=threads, max_memory=limit, progress=progress)
         if progress is not None:
@@ -362,21 +356,9 @@ def fill(
             parts[preview] = result.write_picture
         files = deliver_all({**parts, **saved})
     if not quiet:
-        say(_summary(result.report, files, str(part), verbose=verbose))
+        say(summary(result.report, files, str(part), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": files})
-
-
-def _drained(report: FillReport) -> str:
-    closed, drains, side = len(report["voids"]["closed"]), report["drains"]["count"], report["request"]["open"]
-    if not (drains or side):
-        return "closed: nothing drains from them"
-    said = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
-    if drains:
-        said.append(f"{drains:,} drain(s) of {report['request']['drain']:g} mm")
-    if closed:
-        said.append(f"{closed:,} still closed" if drains else f"{closed:,} closed")
-    return "; ".join(said)
 
 
 def _writer(
@@ -394,64 +376,3 @@ def _writer(
     check_suffix(path)
     write_project = project_writer(slicer)
     return lambda result, title, file: write_project(project_of(result, slicer=slicer, title=title, units=units), file)
-
-
-def _show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
-    if as_json:
-        print_json(plan)
-        return
-    grid, infill = plan["grid"], plan["infill"]
-    rows = {
-        "infill": f"cell about {infill['cell']:.4g} mm, line width about {infill['line_width']:.4g} mm",
-        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm",
-        "memory": f"about {as_bytes(plan['memory'])}",
-    }
-    typer.echo(table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
-
-
-def _summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -> str:
-    """Return the short table for stderr."""
-    request, mesh, voids, walls, infill = (
-        report["request"],
-        report["mesh"],
-        report["voids"],
-        report["walls"],
-        report["infill"],
-    )
-    skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
-    if report["drains"]["count"]:
-        skin += ", but for the drains"
-    if request["open"]:
-        skin += f", but for the open {ENDS[request['open']]}"
-    graded = report["graded"]
-    rows = {
-        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
-        "solid": f"{report['volume']:.6g} mm³, {report['volume'] / report['part']['volume']:.1%} of the part",
-        "density": f"{report['density']:.1%} inside the walls: cells of {infill['cell']:.4g} mm, lines of "
-        f"{infill['line_width']:.3g} mm",
-        "walls": f"{walls['least'] or 0.0:.3g} mm at least, {walls['requested']:g} asked for",
-        "voids": f"{voids['count']:,}, {_drained(report)}",
-    }
-    if request["form"] != "solid":
-        rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
-        rows["solid"] = f"{report['volume']:.6g} mm³ of infill"
-        del rows["walls"], rows["voids"]
-    if graded:
-        ends = f"{graded[0]['density']:.0%} to {graded[-1]['density']:.0%}"
-        wanted = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
-        rows["graded"] = f"{ends} by {request['by']}, where {wanted} was asked for"
-        if request["grade"] == "cell":
-            (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
-            rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
-    if voids["islands"]:
-        rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
-    if report["problems"]:
-        rows["PROBLEMS"] = "; ".join(report["problems"])
-    if verbose:
-        grid = report["grid"]
-        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm"
-        rows["fillets"] = f"{infill['radius']:.3g} mm"
-        rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
-    for path in files:
-        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
-    return table(rows, title=f"{name}, {request['pattern']}")

@@ -134,22 +134,3 @@ def from_stretched_period(
                 out[i, j, k] = away
                 filled += min(1.0, max(0.0, 0.5 + away))
     return filled
-
-
-@njit(nogil=True, cache=True, error_model="numpy")
-def places(spline, at, out):
-    """Write where points (N, 3), in nodes, lie by a spline as that of `from_stretched_period`, in nodes."""
-    value, slope = np.empty((3, 4)), np.empty((3, 4))
-    for m in range(len(at)):
-        first = np.empty(3, dtype=np.int64)
-        for axis in range(3):
-            first[axis] = min(max(int(at[m, axis]), 0), spline.shape[axis] - 4)
-            weights(at[m, axis] - first[axis], value[axis], slope[axis])
-        for d in range(3):
-            total = 0.0
-            for a in range(4):
-                for b in range(4):
-                    for c in range(4):
-                        node = spline[first[0] + a, first[1] + b, first[2] + c, d]
-                        total += value[0, a] * value[1, b] * value[2, c] * node
-            out[m, d] = total

@@ -43,10 +43,8 @@ class LateralHoneycomb:
         normals, _ = LATERAL_HONEYCOMB.faces()
         period, _ = LATERAL_HONEYCOMB.lattice()
         _, across, up = normals[1]
-        rise, height = (
-            across / up / 2,
-            period[2] / 2,
-        )  # of a leaning wall, and of a tube with one upright wall, in cells
+        # Of a leaning wall, and of a tube with one upright wall, in cells.
+        rise, height = across / up / 2, period[2] / 2
         # The tubes of a height have their middles at y = 0, and those of the next one half a cell beside; in between,
         # two lines lean from where the upright walls of the first stand, by half a cell each.
         part = z / cell / height % 2

@@ -60,10 +60,10 @@ class Octagons:
         radius: float,  # noqa: ARG002 - double walls are as long as they are
     ) -> list[Path]:
         """Return three waves a row; see `Family`."""
-        period, pitch = math.sqrt(2) * self._width(cell, line_width), self._width(cell, line_width) * math.sqrt(2)
+        diagonal = math.sqrt(2) * self._width(cell, line_width)  # from octagon to octagon, both ways
         paths: list[Path] = []
         for wave in self._waves(cell, line_width):
-            paths += repeated(wave[:-1], period, pitch, angle=ANGLE, bounds=bounds)
+            paths += repeated(wave[:-1], diagonal, diagonal, angle=ANGLE, bounds=bounds)
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -90,7 +90,8 @@ class Octagons:
         waves = [_corners(walls, gap / width) + SQUARE for walls in (THROUGH, BETWEEN)]
         waves.append((0.0, 2 * SQUARE[1]) - waves[0][::-1])  # about the middle between two squares
         level = [turn(wave * width, -ANGLE) for wave in waves]
-        return [wave - (wave[0, 0] // (math.sqrt(2) * width) * math.sqrt(2) * width + 0.0, 0.0) for wave in level]
+        diagonal = math.sqrt(2) * width
+        return [wave - (wave[0, 0] // diagonal * diagonal, 0.0) for wave in level]
 
 
 def _corners(walls: tuple[tuple[int, tuple[float, float], tuple[int, int]], ...], gap: float) -> Path:

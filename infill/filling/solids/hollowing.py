@@ -15,7 +15,7 @@ from infill.filling.solids.grading import Grading
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.inside import SHARE
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.request import Request, Size
+from infill.filling.solids.request import Request, Size, barred
 from infill.filling.solids.roots import root
 from infill.filling.solids.sizing import coarsest_for, goes_by_slabs, sizes_for, voxel_for
 from infill.filling.solids.slabwise import cells_filled, unmade
@@ -276,7 +276,7 @@ def _nearest(found: Hollow, made: Callable[[float], Hollow], density: float) -> 
 def _graded(found: Hollow, voids: Voids, grading: Grading, request: Request, threads: int | None) -> Hollow:
     """Return voids whose meshes leave everywhere the density asked for there."""
     space, sizes = found.space, (found.cell, found.width)
-    power = 2 if isinstance(voids, Repeating) and voids.pattern.bars else 1
+    power = 2 if barred(request.kind) else 1
     for _ in range(GRADING_ROUNDS):
         local = grading.over(space, voids.widths)
         asked, there = densities_by_share(space, found.surface, local, GRADING_STEPS, mean=found.density)

@@ -133,8 +133,8 @@ class Request:
         if self.density is None:
             return ()
         if self.grading is not None:
-            narrower = self.cell is not None or (self.line_width is None and self.grading.varies == "width")
-            return ("width",) if narrower else ("cell",)
+            thick = self.cell is not None or (self.line_width is None and barred(self.kind))
+            return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
         return ("width",) if barred(self.kind) else ("cell", "width")

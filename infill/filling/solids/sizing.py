@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.filling.solids.drawn_voids import Drawn
-from infill.filling.solids.request import Request
-from infill.filling.solids.voids import Repeating, Voids
+from infill.filling.solids.request import Request, barred
+from infill.filling.solids.voids import Voids
 
 BAR_CELL = 8.0  # mm: bars are as thick as the density asks for
 SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
@@ -73,7 +73,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
     size = request.wall / ACROSS
     if isinstance(voids, Drawn):
         size = min(size, voids.apart * cell / FINE_LINES, COARSEST_LINES)
-    elif _has_bars(voids):
+    elif barred(request.kind):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
@@ -113,7 +113,7 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
     size = request.wall / LEAST_ACROSS
     if isinstance(voids, Drawn):
         return min(size, voids.apart * cell / LEAST_FINE_LINES)
-    if _has_bars(voids):
+    if barred(request.kind):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
 
@@ -122,7 +122,3 @@ def goes_by_slabs(request: Request, voids: Voids) -> bool:
     """Return whether voids may be made slab by slab: upright ones of one width, closed, in a part taken as one."""
     upright = isinstance(voids, Drawn) and voids.grading is None and voids.bodies is None
     return upright and request.form == "solid" and request.open_ is None
-
-
-def _has_bars(voids: Voids) -> bool:
-    return isinstance(voids, Repeating) and voids.pattern.bars

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 ROUNDS = 6  # in which scales are corrected for cells that are no cubes
 MOST = 2.5  # times what was asked for, or that part of it: how far scales are corrected
-FOLDED = 0.02  # of the cells in a volume where they are to be largest: with fewer, cells are as good as folded
+FOLDED = 0.02  # of the number of cells in a volume where they are to be largest: with fewer, cells all but fold over
 EASED = 0.8  # power of scales that would fold cells
 DIRECTIONS = 32  # over half a sphere, in which walls are taken to lie
 
@@ -45,31 +45,32 @@ def stretched(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
     """
     wanted = np.asarray(scales, dtype=np.float64)
     while True:
-        coordinates, slopes = _nearest(wanted)
+        coordinates, slopes, more = _nearest(wanted)
         if np.linalg.det(slopes).min() > FOLDED * wanted.min() ** 3:
             break
         wanted = wanted**EASED
     middle = (np.array(wanted.shape) - 1) / 2
-    return coordinates + (middle - place(coordinates, middle[None])[0]), walls_in(slopes)
+    return coordinates + (middle - place(coordinates, middle[None])[0]), more
 
 
-def _nearest(wanted: Floats) -> tuple[Floats, Floats]:
-    """Return coordinates with about as much wall in a volume as wanted at nodes (n, m, k), and their slopes."""
-    asked = wanted
-    for _ in range(ROUNDS):
+def _nearest(wanted: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return coordinates with about as much wall in a volume as wanted at nodes (n, m, k), slopes, and how much."""
+    asked, more = wanted, np.ones_like(wanted)
+    for number in range(ROUNDS):
+        if number:
+            asked = np.clip(asked * wanted / more, wanted / MOST, wanted * MOST)
         coordinates = _around(_integrated(asked))
         slopes = slopes_of(coordinates)
-        asked = np.clip(asked * wanted / walls_in(slopes), wanted / MOST, wanted * MOST)
-    return coordinates, slopes
+        more = walls_in(slopes)
+    return coordinates, slopes, more
 
 
 def place(coordinates: Floats, points: Floats) -> Floats:
     """Return where points (N, 3) lie in coordinates of `stretched`, (N, 3); both in nodes."""
-    from infill.kernels.stretched import places
+    from scipy.ndimage import map_coordinates
 
-    found = np.empty((len(points), 3))
-    places(coordinates, points, found)
-    return found
+    along = [map_coordinates(each, points.T + 1, order=3, prefilter=False) for each in np.moveaxis(coordinates, -1, 0)]
+    return np.stack(along, axis=-1)
 
 
 def _integrated(scales: Floats) -> Floats:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from infill.filling.solids.fillets import times_for
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.inside import INTERFACE, inner_side
-from infill.filling.solids.request import Request
+from infill.filling.solids.request import Request, barred
 from infill.filling.solids.space import Space
-from infill.filling.solids.voids import Repeating, Voids
+from infill.filling.solids.voids import Voids
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.refining import on_profile
 from infill.phasefield.sparse import SparseField, smooth_bricks
@@ -30,7 +30,7 @@ SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are lef
 def smoothing_for(space: Space, voids: Voids, request: Request, width: float) -> Smoothing:
     """Return the steps that round the corners between walls of a width, mm, or bars, to the radius asked for."""
     smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
-    bar = width * request.thinnest if isinstance(voids, Repeating) and voids.pattern.bars else None
+    bar = width * request.thinnest if barred(request.kind) else None
     radius = request.radius(space.thickness)
     times = times_for(radius, voids.sharpest, bar, cell=space.size) / space.size**2  # cells²
     if times < SHORTEST:

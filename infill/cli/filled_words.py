@@ -1,0 +1,95 @@
+"""What ``infill fill`` says: of its plan, and of what it made."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from infill.cli.console import as_bytes, print_json, table
+
+if TYPE_CHECKING:
+    from infill.report_keys import FillReport
+
+DONE = {
+    "turned": "faces turned outwards",
+    "closed": "holes closed",
+    "parted": "components that touch taken apart",
+    "united": "components that overlap united",
+}
+ENDS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
+
+
+def show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
+    """Print what a part would be filled with, on which grid."""
+    if as_json:
+        print_json(plan)
+        return
+    grid, infill = plan["grid"], plan["infill"]
+    rows = {
+        "infill": f"cell about {infill['cell']:.4g} mm, line width about {infill['line_width']:.4g} mm",
+        "grid": f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm",
+        "memory": f"about {as_bytes(plan['memory'])}",
+    }
+    typer.echo(table(rows, title=f"{name}, {plan['request']['pattern']}: nothing is written (--dry-run)"))
+
+
+def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -> str:
+    """Return the short table for stderr."""
+    request, mesh, voids, walls, infill = (
+        report["request"],
+        report["mesh"],
+        report["voids"],
+        report["walls"],
+        report["infill"],
+    )
+    skin = "as it was" if mesh["skin"] == "as given" else DONE[mesh["skin"]]
+    if report["drains"]["count"]:
+        skin += ", but for the drains"
+    if request["open"]:
+        skin += f", but for the open {ENDS[request['open']]}"
+    graded = report["graded"]
+    rows = {
+        "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}; skin {skin}",
+        "solid": f"{report['volume']:.6g} mm³, {report['volume'] / report['part']['volume']:.1%} of the part",
+        "density": f"{report['density']:.1%} inside the walls: cells of {infill['cell']:.4g} mm, lines of "
+        f"{infill['line_width']:.3g} mm",
+        "walls": f"{walls['least'] or 0.0:.3g} mm at least, {walls['requested']:g} asked for",
+        "voids": f"{voids['count']:,}, {_drained(report)}",
+    }
+    if request["form"] != "solid":
+        rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
+        rows["solid"] = f"{report['volume']:.6g} mm³ of infill"
+        del rows["walls"], rows["voids"]
+    if graded:
+        ends = f"{graded[0]['density']:.0%} to {graded[-1]['density']:.0%}"
+        wanted = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
+        rows["graded"] = f"{ends} by {request['by']}, where {wanted} was asked for"
+        if request["grade"] == "cell":
+            (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
+            rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
+    if voids["islands"]:
+        rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
+    if report["problems"]:
+        rows["PROBLEMS"] = "; ".join(report["problems"])
+    if verbose:
+        grid = report["grid"]
+        rows["grid"] = f"{' x '.join(map(str, grid['shape']))} cells of {grid['spacing'][0]:.4g} mm"
+        rows["fillets"] = f"{infill['radius']:.3g} mm"
+        rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
+    for path in files:
+        rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""
+    return table(rows, title=f"{name}, {request['pattern']}")
+
+
+def _drained(report: FillReport) -> str:
+    closed, drains, side = len(report["voids"]["closed"]), report["drains"]["count"], report["request"]["open"]
+    if not (drains or side):
+        return "closed: nothing drains from them"
+    said = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
+    if drains:
+        said.append(f"{drains:,} drain(s) of {report['request']['drain']:g} mm")
+    if closed:
+        said.append(f"{closed:,} still closed" if drains else f"{closed:,} closed")
+    return "; ".join(said)
