@@ -6,10 +6,11 @@ import difflib
 from collections.abc import Iterable, Iterator, Mapping
 
 from patterns.errors import PatternError
+from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.unit_cells import Cellular
 
-InSpace = Cellular | Octree
+InSpace = Cellular | Octree | Lightning
 
 
 class _Catalogue(Mapping[str, InSpace]):
@@ -18,12 +19,14 @@ class _Catalogue(Mapping[str, InSpace]):
     def _all(self) -> dict[str, InSpace]:
         from patterns.hatch import CROSS_HATCH
         from patterns.honeycombs import HONEYCOMBS
+        from patterns.lightning import LIGHTNING
         from patterns.octree import OCTREES
         from patterns.planes import PLANES
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        return {each.name: each for each in (*TPMS, CROSS_HATCH, *PLANES, *OCTREES, *HONEYCOMBS, *NETWORKS, *STRUTS)}
+        flat = (CROSS_HATCH, *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
+        return {each.name: each for each in (*TPMS, *flat, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> InSpace:
         return self._all()[name]

@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from infill.errors import ParameterError
 from infill.filling.solids.bodies import Bodies
+from infill.filling.solids.branching import Branches
 from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.layered import Layered
 from infill.filling.solids.naming import kind_of
 from infill.filling.solids.request import Request
 from infill.filling.solids.subdivided import Subdivided
@@ -21,6 +23,7 @@ from infill.formats.assignments import Source, assignments, merged, values
 from patterns.cellular import CELLULAR, InSpace
 from patterns.declared import parameters
 from patterns.given import nearest
+from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.protocol import Pattern
 from patterns.unit_cells import Network, Planes
@@ -40,6 +43,9 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
     if isinstance(request.kind, InSpace):
         pattern = cellular_of(request.kind, request)
+        if isinstance(pattern, Lightning):
+            branches = Branches(pattern=pattern, turn=turn, anchor=anchor)
+            return Layered(layers=branches, threads=threads, grading=grading, bodies=bodies)
         if isinstance(pattern, (Planes, Octree)):
             turn = np.array(pattern.upright) @ turn
         if isinstance(pattern, Octree):

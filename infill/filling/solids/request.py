@@ -13,6 +13,7 @@ from infill.filling.solids.fields import field_of
 from infill.filling.solids.grading import Grading, Varies
 from infill.filling.solids.naming import Kind, kind_of
 from infill.filling.solids.opening import Open
+from patterns.lightning import Lightning
 from patterns.unit_cells import Bars, Network, Surfaces
 
 Form = Literal["solid", "infill", "project"]
@@ -43,7 +44,8 @@ class Request:
     parameters : mapping
         The pattern's own, by name.
     density : float or None
-        Solid share inside the walls; None if cell and line width say it. With a grading, its middle.
+        Solid share inside the walls; None if cell and line width say it, or the roofs of a part. With a grading, its
+        middle.
     grading : Grading or None
         How the density changes from place to place.
     cell, line_width : float or None
@@ -133,11 +135,11 @@ class Request:
         if self.density is None:
             return ()
         if self.grading is not None:
-            thick = self.cell is not None or (self.line_width is None and barred(self.kind))
+            thick = self.cell is not None or (self.line_width is None and thickened(self.kind))
             return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
-        return ("width",) if barred(self.kind) else ("cell", "width")
+        return ("width",) if thickened(self.kind) else ("cell", "width")
 
     def room(self, taken: int) -> int:
         """Return how many triangles voids may have, if the part has taken so many.
@@ -186,6 +188,11 @@ class Request:
 def barred(kind: Kind) -> bool:
     """Return whether a pattern is made of bars, which are as thick as the density asks for."""
     return isinstance(kind, (Network, Bars))
+
+
+def thickened(kind: Kind) -> bool:
+    """Return whether a pattern gets a density by the width of its walls: bars do, and branches below roofs."""
+    return barred(kind) or isinstance(kind, Lightning)
 
 
 def checked(
@@ -244,7 +251,7 @@ def checked(
         raise UsageError(f"{given} is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
         density = within("density", density, LOWEST, HIGHEST)
-    elif cell is None or line_width is None:
+    elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
         density = DENSITY if cell is None or barred(kind) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.layered import Layered
 from infill.filling.solids.request import Request, barred
 from infill.filling.solids.voids import Voids
 
-BAR_CELL = 8.0  # mm: bars are as thick as the density asks for
+BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars are as thick as the density asks for; twigs are so far apart
 SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
 # Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
 # of bars; across a wall of the part and a bar; in all.
@@ -45,14 +46,13 @@ def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> 
 
 
 def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
-    if request.cell is not None and request.line_width is not None:
-        return request.cell, request.line_width
-    assert request.density is not None
+    if request.density is None:
+        return request.cell or BRANCHES_CELL, request.line_width or request.default_width
     share = voids.widths(request.density)
     if request.line_width is None and (request.cell is not None or "cell" not in request.varied):
-        if request.cell is None and request.form == "project":
+        if request.cell is None and request.form == "project" and barred(request.kind):
             return SLICED_BAR / request.thinnest / share, SLICED_BAR / request.thinnest
-        cell = BAR_CELL if request.cell is None else request.cell
+        cell = request.cell or (BAR_CELL if barred(request.kind) else BRANCHES_CELL)
         return cell, share * cell
     width = request.default_width if request.line_width is None else request.line_width
     return width / share, width
@@ -75,6 +75,8 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
         size = min(size, voids.apart * cell / FINE_LINES, COARSEST_LINES)
     elif barred(request.kind):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
+    elif isinstance(voids, Layered):
+        size = min(size, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
     size = min(max(size, _finest(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box(extents) / FEWEST))
@@ -115,6 +117,8 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
         return min(size, voids.apart * cell / LEAST_FINE_LINES)
     if barred(request.kind):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
+    if isinstance(voids, Layered):
+        return min(size, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
 
 

@@ -1,0 +1,47 @@
+"""Lightning: walls only where a roof needs them, which lean to the nearest wall as trees lean to their trunk."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from patterns.declared import check_parameters, parameter
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lightning:
+    """Upright walls under roofs: branches that end at the walls of the part, and whose lower edges rise to their tips.
+
+    Below every roof there are twigs about a cell apart. Each goes to the nearest branch or wall; further down, tips
+    draw back along their branch, as far as walls may lean out when they are printed.
+
+    Parameters
+    ----------
+    name, summary : str
+    overhang : float
+        Degrees from upright that lower edges lean; what is steeper is no roof.
+    cells : int
+        A period, in cells: a power of 2. Twigs at whole multiples of it come first, then those between them at halves,
+        and so on, so that few branches are long.
+
+    Notes
+    -----
+    Source: Tricard, Claux and Lefebvre, "Ribbed support vaults for 3D printing of hollowed objects", Computer
+    Graphics Forum 39 (2020) 147-159, whose ribs, too, lean from what they carry to what is there already.
+    """
+
+    cells: ClassVar[int] = 8
+
+    name: str
+    summary: str
+    overhang: float = parameter(45.0, "how far walls lean out, from upright", unit="deg", low=10.0, high=60.0)
+
+    def __post_init__(self) -> None:
+        """Check the parameters."""
+        check_parameters(self)
+
+
+LIGHTNING = Lightning(
+    name="lightning",
+    summary="branches below roofs alone, which lean to the walls: carries tops with the least material",
+)
