@@ -20,6 +20,8 @@ class Lightning:
     name, summary : str
     overhang : float
         Degrees from upright that lower edges lean; what is steeper is no roof.
+    first : (x, y)
+        Where the first twig is, in cells: not in the middle of a part, where opposite walls would be as near.
     cells : int
         A period, in cells: a power of 2. Twigs at whole multiples of it come first, then those between them at halves,
         and so on, so that few branches are long.
@@ -34,6 +36,7 @@ class Lightning:
 
     name: str
     summary: str
+    first: tuple[float, float] = (0.3, 0.2)
     overhang: float = parameter(45.0, "how far walls lean out, from upright", unit="deg", low=10.0, high=60.0)
 
     def __post_init__(self) -> None:

@@ -19,6 +19,7 @@ from infill.surfaces.winding import winding
 from patterns import PATTERNS, Pattern
 from patterns.cellular import CELLULAR, InSpace
 from patterns.declared import parameter
+from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Network, Planes, Surfaces
@@ -37,6 +38,8 @@ FLIP = np.diag([-1.0, 1.0, 1.0])
 def far(name: str) -> dict[str, float]:
     """A cell and a line width that leave 0.3 far from any skin, and voids many cells of the grid wide."""
     kind = CELLULAR.get(name)
+    if isinstance(kind, Lightning):
+        return {"cell": 3.0, "line_width": 1.6}  # which leave less: only roofs need them
     given = {"cell": 7.0} if isinstance(kind, Bars) else {"cell": 11.0} if isinstance(kind, Network) else {}
     sizes = fill(box(20, 20, 20), name, density=0.3, **(given or {"line_width": 0.8}), **EXACT).report["infill"]
     return {"cell": sizes["cell"], "line_width": sizes["line_width"]}
@@ -79,7 +82,8 @@ def across(voids: Surface, reach: float, inside: float) -> float:
 def test_walls_in_the_mesh_are_as_wide_as_asked_for(name: str) -> None:
     """And bars as thick, though smoothing makes these thinner, and walls between narrow voids wider."""
     width = 1.6 if isinstance(CELLULAR.get(name), Bars) else 0.8
-    result = fill(box(24, 24, 24), name, density=0.3, line_width=width, wall=1.0, voxel=0.4)
+    more = {"cell": 5.0} if isinstance(CELLULAR.get(name), Lightning) else {"density": 0.3}
+    result = fill(box(24, 24, 24), name, line_width=width, wall=1.0, voxel=0.4 if "density" in more else 0.25, **more)
     assert not [each for each in result.report["problems"] if "wide" in each]
     assert result.report["infill"]["line_width"] == pytest.approx(width, rel=0.06)
     assert across(result.stages.voids, 2.5 * width, 12 - 1 - 1.5 * width) == pytest.approx(width, rel=0.08)
@@ -227,6 +231,8 @@ def in_space(kind: InSpace) -> InSpace:
         )
     if isinstance(kind, Octree):
         return replace(kind, upright=tuple(map(tuple, (np.array(kind.upright) @ FLIP).tolist())))
+    if isinstance(kind, Lightning):
+        return replace(kind, first=(-kind.first[0], kind.first[1]))
     assert isinstance(kind, Planes)
     normals = kind.families()[0] @ np.array(kind.upright) @ FLIP
     return replace(kind, normals=tuple(map(tuple, normals.tolist())), upright=tuple(map(tuple, np.eye(3).tolist())))

@@ -17,6 +17,8 @@ from patterns.lightning import Lightning
 DEEPER = 1.5  # cells by which feet stand in the wall, so that walls join
 NEAR = 2.0  # cells by which a wall may give way from layer to layer, for a foot to go with it
 SLACK = 0.5  # cells: how well distances are known
+ROUNDING = 1e-6  # cells: between two cells it is the same one, wherever the pattern begins
+DIGITS, SURE = 2, 0.01  # of distances, in cells, that are as good as equal: then it is the order that counts
 TRIES = 40  # of the distance to a wall that gives way below
 
 SHARE = 1.0  # of the density at which walls of a cell's width would be as dense: a guess
@@ -32,7 +34,7 @@ class Branches:
     turn : (3, 3) float64
         From the part to the pattern, about z.
     anchor : (3,) float64
-        The point of the part between four twigs, mm; its height does not matter.
+        The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
     """
 
     pattern: Lightning
@@ -61,7 +63,8 @@ class Branches:
         """See `LineLayers`."""
         step = math.tan(math.radians(self.pattern.overhang))
         walls = _Walls(depth=walled_depth(space), step=step)
-        twigs = _twigs(space, cell, self.turn, self.anchor)
+        first = self.anchor[:2] + cell * np.array(self.pattern.first) @ self.turn[:2, :2]
+        twigs = _twigs(space, cell, self.turn[:2, :2], first)
         forest, found = Forest(), []
         tips = _tips(twigs, walls, reach=cell / 2 / space.size)
         for layer in range(space.shape[2] - 1, -1, -1):
@@ -71,7 +74,7 @@ class Branches:
                 forest.move(foot, walls.foot(forest.at[foot], layer)[1], near=NEAR)
             for tip, foot_at in _in_order(tips.get(layer, ()), walls, layer):
                 near = forest.nearest(tip)
-                if near is None or near[0] > cell / 2 / space.size:
+                if near is None or near[0] > cell / 2 / space.size - SURE:
                     forest.plant(tip, foot_at)
             found.append(forest.branches)
         return found[::-1]
@@ -80,20 +83,19 @@ class Branches:
 def _in_order(tips: Iterable[tuple[int, Floats]], walls: _Walls, layer: int) -> list[tuple[Floats, Floats]]:
     """Return the tips that begin in a layer, each with a place for its foot: those on the coarsest lattice first."""
     some = [(power, *walls.foot(tip, layer), tip) for power, tip in tips]
-    some.sort(key=lambda each: (-each[0], -each[1]))
+    some.sort(key=lambda each: (-each[0], -round(each[1], DIGITS)))
     return [(tip, foot) for _, _, foot, tip in some]
 
 
-def _twigs(space: Space, cell: float, turn: Floats, anchor: Floats) -> list[tuple[int, Floats]]:
+def _twigs(space: Space, cell: float, turn: Floats, first: Floats) -> list[tuple[int, Floats]]:
     """Return where twigs may be, seen from above, (2,) in cells of the grid, each after the power of 2 that it is at."""
     nx, ny, _ = space.shape
     corners = np.array([(x, y) for x in (0, nx - 1) for y in (0, ny - 1)])
-    plane = turn[:2, :2]
-    there = (space.origin[:2] - anchor[:2] + space.size * corners) @ plane.T / cell
+    there = (space.origin[:2] - first + space.size * corners) @ turn.T / cell
     low, high = np.ceil(there.min(axis=0)).astype(np.int64), np.floor(there.max(axis=0)).astype(np.int64)
-    x, y = (np.arange(first, last + 1) for first, last in zip(low, high, strict=True))
+    x, y = (np.arange(least, most + 1) for least, most in zip(low, high, strict=True))
     number = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
-    cells = (number * cell @ plane + anchor[:2] - space.origin[:2]) / space.size
+    cells = (number * cell @ turn + first - space.origin[:2]) / space.size
     kept = np.all((cells >= 0) & (cells <= (nx - 1, ny - 1)), axis=1)
     number = number[kept] | Lightning.cells
     return list(zip((number & -number).min(axis=1).tolist(), cells[kept], strict=True))
@@ -162,13 +164,13 @@ class _Walls:
 
     def _way(self, place: Floats, layer: int) -> tuple[float, Floats]:
         """Return how far the nearest wall of a layer is, in cells, and the direction (2,)."""
-        x, y = self._cells(place)
-        wall = self._nearest(layer)[:, x, y].astype(np.float64)
-        long = max(float(np.linalg.norm(wall - place)), 1e-9)
-        way = (wall - place) / long
+        cell = np.array(self._cells(place))
+        wall = self._nearest(layer)[:, *cell].astype(np.float64)
+        long = max(float(np.linalg.norm(wall - cell)), 1e-9)
+        way = (wall - cell) / long
         before, behind = (float(self.depth[(*self._cells(each), layer)]) for each in (wall - way, wall))
         beyond = before / (before - behind) if before > 0 >= behind else 1.0
-        return max(0.0, long - 1 + beyond), way
+        return max(0.0, long - 1 + beyond - float((place - cell) @ way)), way
 
     def _nearest(self, layer: int) -> NDArray[np.int16]:
         """Return the cell of a wall that is nearest to each cell of a layer, (2, nx, ny)."""
@@ -181,5 +183,5 @@ class _Walls:
 
     def _cells(self, places: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         most = np.array(self.depth.shape[:2]) - 1
-        cells = np.clip(np.round(places), 0, most).astype(np.intp)
+        cells = np.clip(np.floor(places + 0.5 + ROUNDING), 0, most).astype(np.intp)
         return cells[..., 0], cells[..., 1]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 NONE = -1  # what is above a foot
 SAME = 0.5  # cells: what is nearer to a node is the node
+SURE = 0.01  # cells: distances that differ by less are equal
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -48,7 +49,7 @@ class Forest:
         tips = np.flatnonzero(self._tips() & (self.to != NONE))
         way = self.at[self.to[tips]] - self.at[tips]
         long = np.linalg.norm(way, axis=1)
-        longer = long > step
+        longer = long > step + SURE
         self.at[tips[longer]] += way[longer] * (step / long[longer])[:, None]
         self._keep(~self._set(tips[~longer]))
         self._drop_bare_feet()
@@ -70,7 +71,7 @@ class Forest:
         """Let a branch grow from a tip to the nearest one there is, or to a place in a wall if that is nearer."""
         away = float(np.linalg.norm(place - tip))
         near = self.nearest(tip)
-        if near is None or away <= near[0]:
+        if near is None or away <= near[0] + SURE:
             self._add(tip, self._add(place, NONE, inside=False), inside=True)
             return
         _, node, share = near
@@ -94,9 +95,9 @@ class Forest:
         way = self.at[self.to[begin]] - one
         long = np.maximum((way**2).sum(axis=1), 1e-300)
         share = np.clip(((place - one) * way).sum(axis=1) / long, 0, 1)
-        away = ((one + share[:, None] * way - place) ** 2).sum(axis=1)
-        least = int(np.argmin(away))
-        return float(np.sqrt(away[least])), int(begin[least]), float(share[least])
+        away = np.linalg.norm(one + share[:, None] * way - place, axis=1)
+        first = int(np.argmax(away <= away.min() + SURE))
+        return float(away[first]), int(begin[first]), float(share[first])
 
     def _add(self, place: Floats, to: int, *, inside: bool) -> int:
         self.at = np.concatenate([self.at, place[None]])

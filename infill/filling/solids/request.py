@@ -255,6 +255,11 @@ def checked(
         density = DENSITY if cell is None or barred(kind) else None
         if density is None:
             line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
+    if density is not None and line_width is not None and isinstance(kind, Lightning):
+        raise UsageError(
+            f"density and line_width are both given, and {name} has as many branches as the roofs need; leave one of "
+            "them out, or give cell and line_width"
+        )
     wall = (SLICED_WALL if form == "project" else WALL) if wall is None else length("wall", wall)
     return Request(
         pattern=name,
