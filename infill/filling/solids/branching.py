@@ -88,7 +88,7 @@ def _in_order(tips: Iterable[tuple[int, Floats]], walls: _Walls, layer: int) -> 
 
 
 def _twigs(space: Space, cell: float, turn: Floats, first: Floats) -> list[tuple[int, Floats]]:
-    """Return where twigs may be, seen from above, (2,) in cells of the grid, each after the power of 2 that it is at."""
+    """Return where twigs may be, (2,) in cells of the grid, each after the power of 2 of its place in the lattice."""
     nx, ny, _ = space.shape
     corners = np.array([(x, y) for x in (0, nx - 1) for y in (0, ny - 1)])
     there = (space.origin[:2] - first + space.size * corners) @ turn.T / cell

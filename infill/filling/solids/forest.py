@@ -55,9 +55,14 @@ class Forest:
         self._drop_bare_feet()
 
     def stand(self, inside: Flags) -> None:
-        """Take note of which nodes (N,) are inside the walls: what was and is not any more stands in a wall now."""
-        self.to[self.inside & ~inside] = NONE
-        self.inside |= inside
+        """Take note of which nodes (N,) are inside the walls: what was and is not any more stands in a wall now.
+
+        The branch from there to the next node has a tip of its own.
+        """
+        for node in np.flatnonzero(self.inside & ~inside & (self.to != NONE)).tolist():
+            self._add(self.at[node], int(self.to[node]), inside=False)
+            self.to[node] = NONE
+        self.inside[: len(inside)] |= inside
         self._drop_bare_feet()
 
     def move(self, foot: int, place: Floats, *, near: float) -> None:
