@@ -5,12 +5,14 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Iterator, Mapping
 
+from patterns.cross import Cross3D
 from patterns.errors import PatternError
 from patterns.lightning import Lightning
 from patterns.octree import Octree
 from patterns.unit_cells import Cellular
 
-InSpace = Cellular | Octree | Lightning
+Unlined = Cellular | Octree | Lightning  # no lines at any height say what they are
+InSpace = Unlined | Cross3D
 
 
 class _Catalogue(Mapping[str, InSpace]):
@@ -25,7 +27,7 @@ class _Catalogue(Mapping[str, InSpace]):
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        flat = (CROSS_HATCH, *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
+        flat = (CROSS_HATCH, Cross3D(), *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
         return {each.name: each for each in (*TPMS, *flat, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> InSpace:

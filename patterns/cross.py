@@ -1,11 +1,12 @@
-"""Cross: Sierpinski's curve, one line around a tree of crosses, the same wherever it is looked at."""
+"""Cross: Sierpinski's curve, one line around a tree of crosses, the same everywhere; with walls upright or winding."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from patterns.declared import parameter
 from patterns.errors import PatternError
 from patterns.protocol import Pattern
 from patterns.shared import angle_parameter, cell_parameter, frame_parameter, phase_parameter
@@ -60,6 +61,50 @@ class Cross(Pattern):
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
         """Return the least distance between neighbouring lines, mm."""
         return self.cell
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cross3D(Cross):
+    """The same curve, whose walls wind upwards like the thread of a screw, half a cell about where they would stand.
+
+    A wall leans this way and that way by turns, never by more than `lean`, whichever way it runs: a part gives way when
+    it is pressed from above as it does from the side.
+    """
+
+    name: ClassVar[str] = "cross-3d"
+    summary: ClassVar[str] = "the walls of cross, winding upwards: soft in every direction, from above too"
+    prismatic: ClassVar[bool] = False
+
+    lean: float = parameter(45.0, "how far walls lean from upright, at most", unit="deg", low=5.0, high=60.0)
+
+    @property
+    def height(self) -> float:
+        """In which walls wind once around, mm."""
+        return math.pi * self.cell / math.tan(math.radians(self.lean))
+
+    def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
+        """Return the parts of the curve in the region at a height, and the frame."""
+        x, y = self._shift(z)
+        own = {each.name: getattr(self, each.name) for each in fields(Cross)}
+        return Cross(**{**own, "phase": (float(x), float(y))}).lines(region)
+
+    def level_set(self, x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return 1 on one side of the walls, in the octagons that hang together, and -1 on the other."""
+        import numpy as np
+
+        from patterns.linework import turn
+
+        places = turn(np.stack([x, y], axis=-1) - np.stack(self._shift(z), axis=-1), -self.angle) / (self.cell / SIDE)
+        node = np.round(places)
+        beside = np.abs(places - node).sum(axis=-1)
+        power = (node.astype(np.int64) + ORIGIN) & -(node.astype(np.int64) + ORIGIN)
+        return np.where((beside < 0.5 + SIDE / 2) & (power[..., 0] != power[..., 1]), 1.0, -1.0)
+
+    def _shift(self, z: float | NDArray[np.float64]) -> tuple[Any, Any]:
+        import numpy as np
+
+        turned = 2 * math.pi * np.asarray(z) / self.height + math.radians(self.angle)
+        return self.phase[0] + self.cell / 2 * np.cos(turned), self.phase[1] + self.cell / 2 * np.sin(turned)
 
 
 def steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:

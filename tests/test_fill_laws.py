@@ -18,6 +18,7 @@ from infill.surfaces.distance import Tree
 from infill.surfaces.winding import winding
 from patterns import PATTERNS, Pattern
 from patterns.cellular import CELLULAR, InSpace
+from patterns.cross import Cross3D
 from patterns.declared import parameter
 from patterns.lightning import Lightning
 from patterns.octree import Octree
@@ -233,9 +234,23 @@ def in_space(kind: InSpace) -> InSpace:
         return replace(kind, upright=tuple(map(tuple, (np.array(kind.upright) @ FLIP).tolist())))
     if isinstance(kind, Lightning):
         return replace(kind, first=(-kind.first[0], kind.first[1]))
+    if isinstance(kind, Cross3D):
+        return MirroredCross()
     assert isinstance(kind, Planes)
     normals = kind.families()[0] @ np.array(kind.upright) @ FLIP
     return replace(kind, normals=tuple(map(tuple, normals.tolist())), upright=tuple(map(tuple, np.eye(3).tolist())))
+
+
+@dataclass(frozen=True, kw_only=True)
+class MirroredCross(Cross3D):
+    """The mirror image of cross-3d, at x = 0."""
+
+    def lines(self, region: Any, z: float = 0.0) -> Any:
+        there = super().lines(shapely.affinity.scale(region, -1, 1, origin=(0, 0)), z)
+        return shapely.affinity.scale(there, -1, 1, origin=(0, 0))
+
+    def level_set(self, x: Any, y: Any, z: Any) -> Any:
+        return super().level_set(-x, y, z)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -227,14 +227,17 @@ def test_the_kernel_is_its_definition() -> None:
         if len(lines):
             exact = np.minimum(shapely.distance(cells, shapely.multilinestrings(list(lines))), reach)
         assert away[:, :, layer].ravel() == pytest.approx(exact, abs=1e-4)
+    away *= rng.choice(np.float32([-1, 1]), shape)
     padded = np.pad(away, ((0, 0), (0, 0), (1, 1)), mode="edge")
     changes = np.stack([np.abs(padded[:, :, 2:] - away), np.abs(padded[:, :, :-2] - away)])
-    slope = np.where(away < reach, np.where(changes <= steepest, changes, 0).max(axis=0), 0)
-    wanted = np.where(depth <= -1, depth, np.minimum(away / np.sqrt(1 + slope**2) - half, depth))
+    slope = np.where(np.abs(away) < reach, np.where(changes <= steepest, changes, 0).max(axis=0), 0)
     out = np.empty_like(depth)
-    count = sum(from_layers(depth, -1.0, away, reach, steepest, half, *EVEN, out, thread, 2) for thread in range(2))
-    assert out == pytest.approx(wanted, abs=1e-5)
-    assert count == pytest.approx(np.clip(wanted[depth > -1] + 0.5, 0, 1).sum(), rel=1e-4)
+    for sign in (1.0, -1.0):
+        wanted = np.where(depth <= -1, depth, np.minimum(sign * away / np.sqrt(1 + slope**2) - half, depth))
+        given = (depth, -1.0, away, reach, steepest, sign, half, *EVEN, out)
+        count = sum(from_layers(*given, thread, 2) for thread in range(2))
+        assert out == pytest.approx(wanted, abs=1e-5)
+        assert count == pytest.approx(np.clip(wanted[depth > -1] + 0.5, 0, 1).sum(), rel=1e-4)
 
 
 @pytest.mark.parametrize("lean", [0.0, 0.4, 1.0])
@@ -245,7 +248,7 @@ def test_a_wall_that_leans_is_as_wide_as_one_that_does_not(lean: float) -> None:
     away = np.empty(shape, dtype=np.float32)
     beside_lines(segments, np.arange(shape[2] + 1), 12.0, away, 0, 1)
     deep, out = np.full(shape, np.float32(9)), np.empty(shape, dtype=np.float32)
-    from_layers(deep, -1.0, away, 12.0, 1.5, half, *EVEN, out, 0, 1)
+    from_layers(deep, -1.0, away, 12.0, 1.5, 1.0, half, *EVEN, out, 0, 1)
     x, z = np.meshgrid(np.arange(shape[0]), np.arange(shape[2]), indexing="ij")
     exact = np.abs(x - 10 - lean * z) / math.hypot(1, lean) - half
     near = np.abs(exact) < 1.5

@@ -59,6 +59,7 @@ def list_patterns(
 
 def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -> None:
     """Print what a pattern that repeats in space is for, and its parameters."""
+    from patterns.lightning import Lightning
     from patterns.octree import Octree
 
     if pictured:
@@ -66,9 +67,9 @@ def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -
     if as_json:
         print_json({"patterns": {}, "in_space": {name: kind.summary}})
     else:
-        what = "follows the part" if isinstance(kind, Octree) else "repeats in space"
+        what = "follows the part" if isinstance(kind, (Octree, Lightning)) else "repeats in space"
         title = f"{name}: {kind.summary}\n  {what}, for 'infill fill': see its --cell and --line-width\n"
-        typer.echo(_parameters(type(kind), title).rstrip("\n"))
+        typer.echo(_parameters(type(kind), title, own=True).rstrip("\n"))
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
@@ -105,14 +106,14 @@ def _shown(kind: type[Pattern]) -> str:
     return f"{_parameters(kind, title)}\n{drawing}"
 
 
-def _parameters(kind: type[Any], title: str) -> str:
-    """Return a table of a pattern's parameters, with what each may be, or the title alone."""
+def _parameters(kind: type[Any], title: str, *, own: bool = False) -> str:
+    """Return a table of a pattern's parameters, or its own, with what each may be, or the title alone."""
     from patterns import parameters
     from patterns.declared import wanted
     from patterns.given import default_text
     from patterns.shared import SHARED
 
-    found = parameters(kind)
+    found = {name: each for name, each in parameters(kind).items() if not (own and name in SHARED)}
     if not found:
         return title
     flags = {name: name.replace("_", "-") for name in found}

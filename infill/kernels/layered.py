@@ -40,8 +40,8 @@ def beside_lines(segments, first, reach, away, thread, threads) -> None:
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_layers(depth, least, away, reach, steepest, half, ratio, step, out, thread, threads):
-    """Fill `out` with the lesser of the depth and the distance from walls that lean, in cells.
+def from_layers(depth, least, away, reach, steepest, sign, half, ratio, step, out, thread, threads):
+    """Fill `out` with the lesser of the depth and the distance into the void beside walls that lean, in cells.
 
     Along a layer, a wall that leans is further away than it is: by the slope of that distance from layer to layer.
 
@@ -50,9 +50,11 @@ def from_layers(depth, least, away, reach, steepest, half, ratio, step, out, thr
     depth, least, half, ratio, step, out, thread, threads
         As in `from_period`.
     away : (nx, ny, nz) float32
-        Along the layer, in cells: see `beside_lines`.
+        Along the layer, in cells: see `beside_lines`. If walls have two sides, it is below 0 on one of them.
     reach : float
         Where it is cut off.
+    sign : float
+        1 for the side where it is above 0, -1 for the other.
     steepest : float
         Cells a layer. What changes by more is no slope: there, lines begin or end.
     """
@@ -66,13 +68,13 @@ def from_layers(depth, least, away, reach, steepest, half, ratio, step, out, thr
                     out[i, j, k] = deep
                     continue
                 here, slope = away[i, j, k], 0.0
-                if here < reach:
+                if abs(here) < reach:
                     for other in (k - 1, k + 1):
                         if 0 <= other < nz:
                             change = abs(away[i, j, other] - here)
                             if change <= steepest:
                                 slope = max(slope, change)
-                value = min(here / math.sqrt(1 + slope * slope) - half * local(ratio, step, i, j, k), deep)
+                value = min(sign * here / math.sqrt(1 + slope * slope) - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled

@@ -42,6 +42,14 @@ class Branches:
     anchor: Floats
 
     @property
+    def two_sided(self) -> bool:
+        """Branches have ends."""
+        return False
+
+    def sides(self, space: Space, cell: float) -> None:
+        """See `LineLayers`."""
+
+    @property
     def steepest(self) -> float:
         """How far tips draw back in a layer, in cells."""
         return math.tan(math.radians(self.pattern.overhang)) + SLACK

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from infill.errors import ParameterError
 from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.branching import Branches
+from infill.filling.solids.changing import Changing
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.layered import Layered
 from infill.filling.solids.naming import kind_of
@@ -20,7 +21,7 @@ from infill.filling.solids.request import Request
 from infill.filling.solids.subdivided import Subdivided
 from infill.filling.solids.voids import Repeating, Voids
 from infill.formats.assignments import Source, assignments, merged, values
-from patterns.cellular import CELLULAR, InSpace
+from patterns.cellular import Unlined
 from patterns.declared import parameters
 from patterns.given import nearest
 from patterns.lightning import Lightning
@@ -41,7 +42,7 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     anchor = request.phase + (middle if bodies is None else np.zeros(3))
     turned = np.radians(request.angle)
     turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
-    if isinstance(request.kind, InSpace):
+    if isinstance(request.kind, Unlined):
         pattern = cellular_of(request.kind, request)
         if isinstance(pattern, Lightning):
             branches = Branches(pattern=pattern, turn=turn, anchor=anchor)
@@ -54,6 +55,9 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
             )
         return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
     lines = pattern_of(request.kind, request)
+    if not lines.prismatic:
+        changing = Changing(pattern=lines, anchor=anchor)
+        return Layered(layers=changing, threads=threads, grading=grading, bodies=bodies)
     return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
 
 
@@ -87,7 +91,7 @@ def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]
     return {**own, SEED: seed}
 
 
-def cellular_of(kind: InSpace, request: Request) -> InSpace:
+def cellular_of(kind: Unlined, request: Request) -> Unlined:
     """Return the pattern in space that is asked for, or raise ParameterError."""
     known = list(parameters(kind))
     for name in request.parameters:
@@ -118,6 +122,4 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
     changed = {**request.parameters, **turned}
     made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
-    if not made.prismatic:
-        raise ParameterError(f"the lines of {made.name} change with height; choose from {', '.join(CELLULAR)}")
     return made

@@ -138,10 +138,7 @@ class Drawn:
         return self.apart * density / 2 * root(off, NEAR, TRIES)
 
     def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
-        changed: dict[str, Any] = {"cell": cell} if hasattr(self.pattern, "cell") else {}
-        if hasattr(self.pattern, "frame"):
-            changed["frame"] = False
-        return lines_of(dataclasses.replace(self.pattern, **changed), region)  # type: ignore[type-var]
+        return lines_of(sized(self.pattern, cell), region)
 
     def _faces(self, space: Space, cell: float, width: float) -> _Faces:
         """Return what lies between the lines, whatever their width."""
@@ -203,6 +200,14 @@ class _Faces:
     def fits(self, reach: float, width: float) -> bool:
         """Return whether they are as they would be for lines of this width."""
         return reach <= self.reach and width >= THINNER * self.width
+
+
+def sized(pattern: Pattern, cell: float) -> Pattern:
+    """Return a pattern with a cell, mm, and without a frame."""
+    changed: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
+    if hasattr(pattern, "frame"):
+        changed["frame"] = False
+    return dataclasses.replace(pattern, **changed)  # type: ignore[type-var]
 
 
 def _faces_between(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.object_]:

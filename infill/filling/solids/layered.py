@@ -1,7 +1,11 @@
-"""The void around walls that change from layer to layer: one field, in which cells of the grid resolve the walls."""
+"""The voids beside walls that change from layer to layer: one on either side, or one around all of them.
+
+Walls between two voids need no cell of the grid in them; around all of them, the grid resolves the walls.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Protocol, Self
 
@@ -26,8 +30,17 @@ class LineLayers(Protocol):
         """Return the lines in each layer, for cells of a size, mm: (S, 2, 2), in cells from the first centre."""
         ...
 
+    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]] | None:
+        """Yield for each layer which cells (nx, ny) are on one of two sides of the lines; None if there are none."""
+        ...
+
     def widths(self, density: float) -> float:
         """See `Voids`."""
+        ...
+
+    @property
+    def two_sided(self) -> bool:
+        """Whether lines have two sides, and no ends."""
         ...
 
     @property
@@ -47,7 +60,7 @@ class LineLayers(Protocol):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Away:
-    """How far cells lie from lines, along their layer, up to a distance, in cells."""
+    """How far cells lie from lines, along their layer, up to a distance, in cells: below 0 on one of two sides."""
 
     space: Space
     away: FIELD
@@ -56,7 +69,7 @@ class _Away:
 
 @dataclass(frozen=True, kw_only=True)
 class Layered:
-    """The void around walls along lines that change from layer to layer.
+    """The voids beside walls along lines that change from layer to layer.
 
     Parameters
     ----------
@@ -85,8 +98,10 @@ class Layered:
         return replace(self, layers=self.layers.about(middle), bodies=None, known={})
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
-        """One."""
-        return 1 if self.bodies is None else self.bodies.count(self, space, cell=cell, width=width)
+        """One for each side, or one around all walls."""
+        if self.bodies is not None:
+            return self.bodies.count(self, space, cell=cell, width=width)
+        return 2 if self.layers.two_sided else 1
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
@@ -104,6 +119,7 @@ class Layered:
             found.away,
             found.reach,
             self.layers.steepest,
+            1.0 if which == 0 else -1.0,
             half,
             ratio,
             step,
@@ -131,5 +147,7 @@ class Layered:
             reach *= WIDER_LINES
             segments = np.concatenate([np.empty((0, 2, 2)), *lines])
             in_threads(beside_lines, segments, first, reach, away, threads=thread_count(self.threads))
+            for layer, one in enumerate(self.layers.sides(space, cell) or ()):
+                away[:, :, layer] *= np.where(one, np.float32(1), np.float32(-1))
             self.known[key] = _Away(space=space, away=away, reach=reach)
         return self.known[key]

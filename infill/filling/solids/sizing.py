@@ -75,7 +75,7 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
         size = min(size, voids.apart * cell / FINE_LINES, COARSEST_LINES)
     elif barred(request.kind):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
-    elif isinstance(voids, Layered):
+    elif isinstance(voids, Layered) and not voids.layers.two_sided:
         size = min(size, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
@@ -117,7 +117,7 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
         return min(size, voids.apart * cell / LEAST_FINE_LINES)
     if barred(request.kind):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
-    if isinstance(voids, Layered):
+    if isinstance(voids, Layered) and not voids.layers.two_sided:
         return min(size, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
 
