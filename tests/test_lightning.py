@@ -203,6 +203,8 @@ def test_without_a_density_it_is_as_roofs_need_it_and_lighter_than_all_others() 
     assert thick["infill"]["cell"] == 5.0
     with pytest.raises(UsageError, match="density and line_width are both given, and lightning has as many branches"):
         fill(part, "lightning", density=0.15, line_width=0.45)
+    with pytest.raises(UsageError, match="branches of lightning follow roofs; give one"):
+        fill(part, "lightning", density=(0.1, 0.3))
     with pytest.raises(PatternError, match=r"overhang of lightning is 70.*10 to 60"):
         fill(part, "lightning", overhang=70)
     with pytest.raises(ParameterError, match="no parameter 'lean'"):
@@ -254,3 +256,17 @@ def test_a_wall_that_leans_is_as_wide_as_one_that_does_not(lean: float) -> None:
     near = np.abs(exact) < 1.5
     near[:, [0, -1]] = False
     assert out[:, 4][near] == pytest.approx(exact[near], abs=1e-4)
+
+
+def test_in_a_project_branches_go_through_the_walls_to_the_skin() -> None:
+    part = box(40, 40, 30)
+    result = fill(part, "lightning", as_="project")
+    body = result.surfaces["infill"].to_trimesh()
+    assert result.report["problems"] == []
+    assert result.report["voids"]["islands"] == 0
+    pieces = body.split(only_watertight=False)
+    assert len(pieces) > 3
+    # Each is at the top, and at a side or the floor: they are where the branches of the solid are.
+    for piece in pieces:
+        assert piece.bounds[1][2] > 15 - 0.3
+        assert np.abs(piece.vertices[:, :2]).max() > 20 - 0.3

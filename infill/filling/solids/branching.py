@@ -70,22 +70,27 @@ class Branches:
     def lines(self, space: Space, cell: float) -> list[Floats]:
         """See `LineLayers`."""
         step = math.tan(math.radians(self.pattern.overhang))
-        walls = _Walls(depth=walled_depth(space), step=step)
+        depth = walled_depth(space)
+        through = max(0.0, float((space.depth - depth).max()))  # as voids do, in a project
+        walls = _Walls(depth=depth, step=step, deeper=DEEPER + through)
         first = self.anchor[:2] + cell * np.array(self.pattern.first) @ self.turn[:2, :2]
         twigs = _twigs(space, cell, self.turn[:2, :2], first)
-        forest, found = Forest(), []
+        forest, found, begun = Forest(), list[Floats](), list[Floats]()
         tips = _tips(twigs, walls, reach=cell / 2 / space.size)
         for layer in range(space.shape[2] - 1, -1, -1):
             forest.draw_back(step)
             forest.stand(walls.inside(forest.at, layer))
             for foot in forest.feet[walls.inside(forest.at[forest.feet], layer)].tolist():
                 forest.move(foot, walls.foot(forest.at[foot], layer)[1], near=NEAR)
-            for tip, foot_at in _in_order(tips.get(layer, ()), walls, layer):
+            planted = _in_order(tips.get(layer, ()), walls, layer)
+            for tip, foot_at in planted:
                 near = forest.nearest(tip)
                 if near is None or near[0] > cell / 2 / space.size - SURE:
                     forest.plant(tip, foot_at)
             found.append(forest.branches)
-        return found[::-1]
+            begun.append(forest.branches if planted else np.empty((0, 2, 2)))
+        up = math.ceil(through)
+        return [np.concatenate([one, *begun[k + 1 : k + 1 + up]]) for k, one in enumerate(found)][::-1]
 
 
 def _in_order(tips: Iterable[tuple[int, Floats]], walls: _Walls, layer: int) -> list[tuple[Floats, Floats]]:
@@ -132,10 +137,13 @@ class _Walls:
         Below the inner side of the walls, in cells.
     step : float
         How far branches may lean out in a layer, in cells.
+    deeper : float
+        How far feet stand in the wall, in cells.
     """
 
     depth: NDArray[np.float32]
     step: float
+    deeper: float
     nearest: dict[int, NDArray[np.int16]] = field(default_factory=dict)
 
     def inside(self, places: Floats, layer: int) -> NDArray[np.bool_]:
@@ -168,7 +176,7 @@ class _Walls:
             if further <= away + SLACK:
                 break
             away, way = further, there
-        return away, place + (away + DEEPER) * way
+        return away, place + (away + self.deeper) * way
 
     def _way(self, place: Floats, layer: int) -> tuple[float, Floats]:
         """Return how far the nearest wall of a layer is, in cells, and the direction (2,)."""

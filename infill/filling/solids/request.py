@@ -242,6 +242,8 @@ def checked(
     kind, name = kind_of(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
+        if isinstance(kind, Lightning):
+            raise UsageError(f"density is to change from place to place, and branches of {name} follow roofs; give one")
         grading = graded(density, by, grade or "width")
         density = grading.middle
         if grading.varies == "cell":
