@@ -48,7 +48,9 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
             )
         return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
     lines = pattern_of(request.kind, request)
-    return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
+    return Drawn(
+        pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies
+    )
 
 
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -112,6 +114,9 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
     changed = {**request.parameters, **turned}
     made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
+    if getattr(made, "follows", False) and any(request.phase):
+        shift = ", ".join(f"{each:g}" for each in request.phase)
+        raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
     if not made.prismatic:
         raise ParameterError(f"the lines of {made.name} change with height; choose from {', '.join(CELLULAR)}")
     return made
