@@ -43,7 +43,7 @@ class Concentric:
         import shapely
 
         paths: list[Path] = []
-        for inner in insets(region, cell):
+        for inner in insets(region, cell / 2, cell):
             kept = shapely.simplify(_without_necks(inner, TOUCH * line_width / 2), SIMPLER)
             paths.extend(shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(kept)))
         return paths

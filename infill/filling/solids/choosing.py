@@ -48,9 +48,7 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
             )
         return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
     lines = pattern_of(request.kind, request)
-    return Drawn(
-        pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies
-    )
+    return Drawn(pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies)
 
 
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:

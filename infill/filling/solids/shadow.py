@@ -7,9 +7,9 @@ import shapely
 
 from infill.filling.solids.space import BAND, Space
 
-LOW = 0.5  # cells: a column in which a void would nowhere be twice as high is none, whatever rounding says
+LOW = 0.1  # cells: where no cell of a column lies deeper, rounding may say whether one lies inside
 SIMPLER = 0.05  # cells
-MITRE = 5.0  # how far a sharp corner may be moved, in distances by which its sides are
+MITRE = 5.0  # times as far as its sides, at most, a sharp corner is moved
 
 
 def shadow_of(space: Space) -> shapely.Geometry:
@@ -21,7 +21,7 @@ def shadow_of(space: Space) -> shapely.Geometry:
 
     deepest = np.pad(space.deepest - np.float32(space.through), 1, constant_values=-BAND)
     rings = find_contours(deepest, LOW)  # type: ignore[no-untyped-call]
-    area = shapely.build_area(shapely.multilinestrings([shapely.linestrings(ring - 1) for ring in rings]))
+    area = shapely.build_area(shapely.MultiLineString([ring - 1 for ring in rings]))
     # Depths rise by a cell in every cell from an upright wall.
     area = shapely.simplify(shapely.buffer(area, LOW, join_style="mitre", mitre_limit=MITRE), SIMPLER)
     return shapely.transform(area, lambda cells: space.origin[:2] + space.size * cells)
