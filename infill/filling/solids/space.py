@@ -136,7 +136,8 @@ class Space:
     @cached_property
     def deepest(self) -> NDArray[np.float32]:
         """How deep the deepest cell of each column lies, (nx, ny) in cells."""
-        return np.maximum.reduce([slab.max(axis=2) for _, slab in self.layers.each()])
+        deepest: NDArray[np.float32] = np.maximum.reduce([slab.max(axis=2) for _, slab in self.layers.each()])
+        return deepest
 
     @cached_property
     def cells(self) -> float:
