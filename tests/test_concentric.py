@@ -209,6 +209,10 @@ def test_a_density_that_rises_makes_walls_wider() -> None:
     [
         ({"angle": 20}, "^angle is 20 degrees, and concentric cannot be turned; leave it out$"),
         ({"phase": (1, 2)}, "^phase is 1, 2, 0 mm, and concentric follows the part; leave it out$"),
+        (
+            {"density": (0.2, 0.4), "by": "skin"},
+            "^by is 'skin', and every wall of concentric lies at one depth; choose",
+        ),
         ({"phase": (0, 0, 3)}, "^phase is 0, 0, 3 mm, and concentric follows the part; leave it out$"),
     ],
 )

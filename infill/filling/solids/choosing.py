@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from infill.errors import ParameterError
 from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.fields import SKIN
 from infill.filling.solids.naming import kind_of
 from infill.filling.solids.request import Request
 from infill.filling.solids.subdivided import Subdivided
@@ -112,9 +113,19 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
     changed = {**request.parameters, **turned}
     made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
-    if getattr(made, "follows", False) and any(request.phase):
-        shift = ", ".join(f"{each:g}" for each in request.phase)
-        raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
+    if getattr(made, "follows", False):
+        _check_followed(request)
     if not made.prismatic:
         raise ParameterError(f"the lines of {made.name} change with height; choose from {', '.join(CELLULAR)}")
     return made
+
+
+def _check_followed(request: Request) -> None:
+    """Raise ParameterError if what follows the part is to be shifted, or to be denser at a depth."""
+    if any(request.phase):
+        shift = ", ".join(f"{each:g}" for each in request.phase)
+        raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
+    if request.grading is not None and request.grading.name == SKIN:
+        raise ParameterError(
+            f"by is 'skin', and every wall of {request.pattern} lies at one depth; choose another pattern, or by x, y or z"
+        )
