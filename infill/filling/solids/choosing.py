@@ -127,5 +127,5 @@ def _check_followed(request: Request) -> None:
         raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
     if request.grading is not None and request.grading.name == SKIN:
         raise ParameterError(
-            f"by is 'skin', and every wall of {request.pattern} lies at one depth; choose another pattern, or by x, y or z"
+            f"by is 'skin', and every wall of {request.pattern} lies at one depth; choose x, y, z or another pattern"
         )
