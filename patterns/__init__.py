@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from patterns.catalogue import PATTERNS
+    from patterns.concentric import Concentric
     from patterns.cross import Cross
     from patterns.declared import Parameter, check_parameters, parameter, parameter_values, parameters
     from patterns.errors import PatternError, PatternUsageError
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "catalogue": ("PATTERNS",),
+    "concentric": ("Concentric",),
     "cross": ("Cross",),
     "declared": ("Parameter", "check_parameters", "parameter", "parameter_values", "parameters"),
     "errors": ("PatternError", "PatternUsageError"),
@@ -52,6 +54,7 @@ _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 __all__ = [
     "PATTERNS",
     "ArchimedeanChords",
+    "Concentric",
     "ConcentricHeart",
     "Cross",
     "Grid",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from patterns.concentric import Concentric
 from patterns.cross import Cross
 from patterns.heart import ConcentricHeart
 from patterns.hilbert import Hilbert
@@ -25,6 +26,7 @@ PATTERNS = Registry(
         Octagons,
         Hilbert,
         Cross,
+        Concentric,
         ArchimedeanChords,
         OctagramSpiral,
         Voronoi,

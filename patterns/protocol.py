@@ -31,6 +31,9 @@ class Pattern(Protocol):
         What the pattern is for, in one phrase.
     prismatic : bool
         True if the lines do not depend on z.
+    follows : bool
+        True if the lines follow the outline of the region: in a part, that of its inside as seen from above. Such a
+        pattern is neither turned nor shifted.
 
     Notes
     -----
@@ -42,6 +45,7 @@ class Pattern(Protocol):
     name: ClassVar[str]
     summary: ClassVar[str]
     prismatic: ClassVar[bool] = True
+    follows: ClassVar[bool] = False
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
         """Return the centre lines of the walls at height `z`, clipped to `region`.

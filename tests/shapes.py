@@ -13,6 +13,7 @@ from shapely import Point, Polygon, box
 from patterns import (
     PATTERNS,
     ArchimedeanChords,
+    Concentric,
     ConcentricHeart,
     Cross,
     Grid,
@@ -55,6 +56,8 @@ DESIGNS: list[Pattern] = [
     Hilbert(cell=7, angle=31, phase=(1.0, -0.5), frame=False),
     Cross(),
     Cross(cell=3, angle=40, phase=(1.0, -0.5), frame=False),
+    Concentric(),
+    Concentric(cell=2.3, frame=False),
     ArchimedeanChords(),
     ArchimedeanChords(cell=4, angle=50, phase=(3.0, -2.0), frame=False),
     OctagramSpiral(),

@@ -281,7 +281,7 @@ def test_the_report_tells_what_the_exact_stamp_would_give(name: str) -> None:
     report = make(name, size=40).report
     exact = make(name, size=40, stamp="exact").report
     wrong = abs(report["wall_width"]["mean"] / 0.45 - 1)
-    if name in ("rectilinear", "grid", "hilbert"):  # lines along cells, all of them, are stamped too well to tell
+    if name in ("rectilinear", "grid", "hilbert", "concentric"):  # lines along cells are stamped too well to tell
         assert wrong < 0.05
         assert report["walls"]["exact"] is None
     else:

@@ -16,7 +16,7 @@ from shapes import BUILT_IN, OF_THE_PAPER, SIZES, assert_printable
 from infill import GeometryError, Grid, MemoryLimitError, ParameterError, Smoothing, extrude, make
 from infill.inspection.layers import topology
 from infill.making.request import plan
-from patterns import ConcentricHeart, Honeycomb, Pattern, PatternError
+from patterns import PATTERNS, Honeycomb, Pattern, PatternError
 
 STAGES = {"points", "stamp", "smooth", "check", "surface", "total"}
 
@@ -49,8 +49,8 @@ def test_the_designs_are_printable_at_many_sizes(name: str, size: Any, cell: flo
     mesh, report = result.mesh, result.report
     assert_printable(mesh)
     assert mesh.body_count == report["components"] == report["topology"]["data"]["components"]
-    hearts = len(ConcentricHeart(cell=cell).lines(plan_of(name, size, cell).region).geoms)
-    assert mesh.body_count == (hearts if name == "concentric-heart" else 1)
+    lines = PATTERNS[name](cell=cell).lines(plan_of(name, size, cell).region)
+    assert mesh.body_count == (len(lines.geoms) if name in ("concentric", "concentric-heart") else 1)
     assert mesh.euler_number == report["mesh"]["euler_number"] == report["topology"]["result"]["euler_number"]
     # A neck of a void may be cut or not: then the rooms on its sides are two holes, or one.
     components, fewest, most = predicted_components_and_holes(result.stages.stamp)

@@ -18,6 +18,7 @@ from shapes import DESIGNS, LEVEL_SETS, REGIONS, Ripples
 from patterns import (
     PATTERNS,
     ArchimedeanChords,
+    Concentric,
     ConcentricHeart,
     Cross,
     Hilbert,
@@ -502,3 +503,36 @@ def test_cross_has_no_ends_and_keeps_its_distance() -> None:
 def test_cross_ends_where_numbers_do() -> None:
     with pytest.raises(PatternError, match="give a larger one"):
         Cross(cell=0.001, phase=(1e4, 0.0)).lines(box(-5e3, 0, -5e3 + 1e-3, 1e-3))
+
+
+RING = shapely.Point(0, 0).buffer(20, quad_segs=256).difference(shapely.Point(0, 0).buffer(6, quad_segs=256))
+
+
+@pytest.mark.parametrize(("region", "chords"), [(box(0, 0, 41, 27), 0.0), (RING, 2e-3)], ids=["box", "ring"])
+@pytest.mark.parametrize("frame", [False, True])
+def test_concentric_lines_are_parallel_to_the_outline(region: shapely.Polygon, chords: float, frame: bool) -> None:
+    """At half cells from it, or in a frame at whole ones; about a hole, chords are nearer by their share of a cell."""
+    cell = 2.5
+    lines = Concentric(cell=cell, frame=frame).lines(region)
+    away = shapely.distance(shapely.points(sample(lines, 0.2)), region.boundary)
+    place = away / cell - (0 if frame else 0.5)
+    assert np.abs(place - np.round(place)).max() < chords * away.max() / cell + ROUNDING
+    # Every inset has its lines: as many as fit into the widest place.
+    widest = shapely.maximum_inscribed_circle(region, tolerance=0.01).length
+    assert len(np.unique(np.round(place))) == math.floor(widest / cell - (0 if frame else 0.5)) + 1
+    assert all(line.is_ring for line in lines.geoms)
+
+
+@given(st.floats(0.8, 6), st.floats(20, 60), st.floats(20, 60))
+def test_there_is_a_line_to_every_cell(cell: float, width: float, depth: float) -> None:
+    """Within what one line more or less in the middle is."""
+    lines = Concentric(cell=cell, frame=False).lines(box(0, 0, width, depth))
+    middle = 2 * abs(width - depth) + 4 * cell
+    assert lines.length * cell == pytest.approx(width * depth, abs=middle * cell)
+
+
+def test_concentric_lines_turn_with_their_region() -> None:
+    region, pattern = REGIONS[3], Concentric(cell=1.7)
+    turned = pattern.lines(shapely.affinity.rotate(region, 31, origin=(0, 0)))
+    expected = shapely.affinity.rotate(pattern.lines(region), 31, origin=(0, 0))
+    assert shapely.hausdorff_distance(turned, expected, densify=0.05) < 0.02  # arcs begin elsewhere

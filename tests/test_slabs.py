@@ -143,10 +143,11 @@ def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.parametrize("radius", [0.0, 0.25, 1.5])
-@pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart"])
+@pytest.mark.parametrize("pattern", ["honeycomb", "rectilinear", "concentric-heart", "concentric"])
 def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space: Space) -> None:
     """Triangle by triangle; with a radius of 1.5 mm, more layers are needed beside a slab than it has."""
-    request, voids, whole, slabs, known = made(space, pattern, smooth_radius=radius)
+    phase = (0.0, 0.0) if pattern == "concentric" else (0.3, 0.1)
+    request, voids, whole, slabs, known = made(space, pattern, smooth_radius=radius, phase=phase)
     steps = smoothing_for(space, voids, request, SIZES[1]).steps
     assert (steps > THICK) == (radius > 1)
     assert len(whole) == len(slabs) > 0
@@ -241,7 +242,7 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Space) 
             assert Tree.of(far).nearest(points)[0].max() <= request.tolerance
 
 
-@pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart"])
+@pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart", "concentric"])
 def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: pytest.MonkeyPatch) -> None:
     from infill.filling.solids import space as module
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from infill.filling.families.protocol import TOUCH, Bounds, Path
+from patterns.concentric import ARC, insets
 
 if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
-ARC = 16  # chords in a quarter of the circle about a corner
 SIMPLER = 0.002  # mm
 
 
@@ -43,11 +43,9 @@ class Concentric:
         import shapely
 
         paths: list[Path] = []
-        inner = region.buffer(-cell / 2, quad_segs=ARC)
-        while not inner.is_empty:
+        for inner in insets(region, cell / 2, cell):
             kept = shapely.simplify(_without_necks(inner, TOUCH * line_width / 2), SIMPLER)
             paths.extend(shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(kept)))
-            inner = inner.buffer(-cell, quad_segs=ARC)
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:

@@ -92,4 +92,4 @@ class Changing:
 
     @property
     def _drawn(self) -> Drawn:
-        return Drawn(pattern=self.pattern, anchor=self.anchor)
+        return Drawn(pattern=self.pattern, anchor=self.anchor, share=0.0)

@@ -15,6 +15,7 @@ from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.branching import Branches
 from infill.filling.solids.changing import Changing
 from infill.filling.solids.drawn_voids import Drawn
+from infill.filling.solids.fields import SKIN
 from infill.filling.solids.layered import Layered
 from infill.filling.solids.naming import kind_of
 from infill.filling.solids.request import Request
@@ -58,7 +59,7 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
     if not lines.prismatic:
         changing = Changing(pattern=lines, anchor=anchor)
         return Layered(layers=changing, threads=threads, grading=grading, bodies=bodies)
-    return Drawn(pattern=lines, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
+    return Drawn(pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies)
 
 
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -122,4 +123,17 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
     changed = {**request.parameters, **turned}
     made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
+    if getattr(made, "follows", False):
+        _check_followed(request)
     return made
+
+
+def _check_followed(request: Request) -> None:
+    """Raise ParameterError if what follows the part is to be shifted, or to be denser at a depth."""
+    if any(request.phase):
+        shift = ", ".join(f"{each:g}" for each in request.phase)
+        raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
+    if request.grading is not None and request.grading.name == SKIN:
+        raise ParameterError(
+            f"by is 'skin', and every wall of {request.pattern} lies at one depth; choose x, y, z or another pattern"
+        )

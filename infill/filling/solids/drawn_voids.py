@@ -16,6 +16,7 @@ from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.fillets import between_lines, sharpest
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.roots import root
+from infill.filling.solids.shadow import shadow_of
 from infill.filling.solids.space import BAND, Space
 from infill.filling.solids.voids import FIELD, local_widths
 from infill.kernels.threads import in_threads, thread_count
@@ -42,6 +43,8 @@ class Drawn:
         Its cell does not matter.
     anchor : (3,) float64
         The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
+    share : float
+        Width of the lines, over the cell: about, for the place of those that follow the part.
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
@@ -52,6 +55,7 @@ class Drawn:
 
     pattern: Pattern
     anchor: NDArray[np.float64]
+    share: float
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
@@ -115,7 +119,8 @@ class Drawn:
         """Return some cells of a pattern whose cell is 1, and the lines in them."""
         side = SAMPLE / 2
         region = _square(side)
-        lines = shapely.intersection(self._lines(_square(WIDER * side * 2**0.5), 1.0), region)
+        wider = region if self._follows else _square(WIDER * side * 2**0.5)
+        lines = shapely.intersection(self._lines(wider, 1.0), region)
         if not lines.length:
             raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
         return region, lines
@@ -137,6 +142,10 @@ class Drawn:
         # Lines a cell apart in one direction would be as wide as the density; most run in two.
         return self.apart * density / 2 * root(off, NEAR, TRIES)
 
+    @property
+    def _follows(self) -> bool:
+        return getattr(self.pattern, "follows", False)
+
     def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
         return lines_of(sized(self.pattern, cell), region)
 
@@ -155,15 +164,22 @@ class Drawn:
         ratio, _ = local_widths(self, space)
         return float(ratio.max()), float(ratio.min())
 
+    def _room(self, space: Space, cell: float) -> shapely.Geometry:
+        """Return in which region lines are drawn that follow it: those half a cell inside are a void from the wall."""
+        room = shapely.transform(shadow_of(space), lambda points: points - self.anchor[:2])
+        return shapely.buffer(room, (self.share - 1) / 2 * cell, quad_segs=ROUND)
+
     def _found(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
-        used = np.logical_or.reduce([(slab > -BAND).any(axis=2) for _, slab in space.layers.each()])
-        first, last = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(used))
+        first, last = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.deepest > -BAND))
         low = space.origin[:2] + np.array([first[0], last[0]]) * space.size - self.anchor[:2]
         high = space.origin[:2] + np.array([first[1], last[1]]) * space.size - self.anchor[:2]
         box = shapely.box(*low, *high)
         region = box.buffer(cell, join_style="mitre")
-        lines = self._lines(_square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0)))), cell)
-        lines = shapely.intersection(lines, region)
+        if self._follows:
+            room = self._room(space, cell)
+        else:
+            room = _square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
+        lines = shapely.intersection(self._lines(room, cell), region)
         polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
         polygons = polygons[shapely.intersects(polygons, box)]
         nx, ny, _ = space.shape

@@ -108,6 +108,14 @@ class Request:
         return (SLICED_WIDTH if self.form == "project" else LINE_WIDTH) / self.thinnest
 
     @property
+    def share(self) -> float:
+        """Width of walls, over the cell, of lines that do not cross."""
+        if self.cell is not None and self.line_width is not None:
+            return min(1.0, self.line_width / self.cell)
+        assert self.density is not None
+        return self.density
+
+    @property
     def thinnest(self) -> float:
         """How many times as wide as the line width walls are at least."""
         if self.grading is None:

@@ -57,6 +57,8 @@ class Space:
         mm
     walled : Space or None
         What lies inside the walls, if voids reach through them here.
+    through : float
+        By how many cells they do.
     opening : Opening or None
         Where the part has no wall: there, the depth goes on as if the part did.
     box_of : (Space, (3,) int) or None
@@ -72,6 +74,7 @@ class Space:
     overlap: float
     wall: float
     walled: Space | None = None
+    through: float = 0.0
     opening: Opening | None = None
     box_of: tuple[Space, NDArray[np.int64]] | None = None
 
@@ -126,8 +129,15 @@ class Space:
     @cached_property
     def unwalled(self) -> Space:
         """The same, where voids reach through the wall and a little out of the part."""
-        depth = self.depth + np.float32(self.wall / self.size + BEYOND)
-        return replace(self, layers=Layers.of(depth), wall=0.0, walled=self)
+        through = self.wall / self.size + BEYOND
+        depth = self.depth + np.float32(through)
+        return replace(self, layers=Layers.of(depth), wall=0.0, walled=self, through=through)
+
+    @cached_property
+    def deepest(self) -> NDArray[np.float32]:
+        """How deep the deepest cell of each column lies, (nx, ny) in cells."""
+        deepest: NDArray[np.float32] = np.maximum.reduce([slab.max(axis=2) for _, slab in self.layers.each()])
+        return deepest
 
     @cached_property
     def cells(self) -> float:
