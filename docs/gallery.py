@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import trimesh
 from PIL import Image
 
-from infill import Surface, fill
+from infill import Result, Surface, fill
+from infill.filling.solids.stages import FillStages
 from infill.inspection.stiffness import Stiffness, stiffness
 from infill.pictures.render import render
+from infill.report_keys import FillReport
 from patterns import PATTERNS, Pattern, parameters
 from patterns.cellular import CELLULAR, InSpace
-from patterns.lightning import Lightning
+from patterns.lightning import LIGHTNING
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Cellular, Planes, Surfaces
 
@@ -98,10 +101,16 @@ def shown(name: str, solid: Surface) -> None:
     picture.quantize(32).save(FOLDER / f"{name}.png", optimize=True)
 
 
+@cache
+def filled(name: str) -> Result[FillStages, FillReport]:
+    """Return the cube with a pattern in it."""
+    density = None if name == LIGHTNING.name else DENSITY
+    return fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=density, wall=WALL)
+
+
 def entry(name: str, kind: InSpace | type[Pattern]) -> tuple[str, str]:
     """Return the row and the section of a pattern, and write its picture."""
-    density = None if isinstance(kind, Lightning) else DENSITY
-    result = fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=density, wall=WALL)
+    result = filled(name)
     shown(name, result.surface)
     sizes, voids = result.report["infill"], result.report["voids"]["count"]
     found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
@@ -127,7 +136,7 @@ def main() -> None:
         rows.append(row)
         sections.append(section)
         print(row, flush=True)
-    light = fill(trimesh.creation.box((SIDE, SIDE, SIDE)), "lightning", wall=WALL).report["density"]
+    light = filled(LIGHTNING.name).report["density"]
     head = INTRODUCTION.format(side=SIDE, density=DENSITY, fine=FINE, light=light)
     PAGE.write_text(head + "\n".join(rows) + "\n\n" + "\n".join(sections), encoding="utf-8")
 

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from patterns.cross import Cross3D
 from patterns.errors import PatternError
-from patterns.lightning import Lightning
-from patterns.octree import Octree
+from patterns.lightning import LIGHTNING, Lightning
+from patterns.octree import OCTREES, Octree
 from patterns.unit_cells import Cellular
 
 Unlined = Cellular | Octree | Lightning  # no lines at any height say what they are
@@ -21,14 +21,12 @@ class _Catalogue(Mapping[str, InSpace]):
     def _all(self) -> dict[str, InSpace]:
         from patterns.hatch import CROSS_HATCH
         from patterns.honeycombs import HONEYCOMBS
-        from patterns.lightning import LIGHTNING
-        from patterns.octree import OCTREES
         from patterns.planes import PLANES
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        flat = (CROSS_HATCH, Cross3D(), *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
-        return {each.name: each for each in (*TPMS, *flat, *NETWORKS, *STRUTS)}
+        walls = (CROSS_HATCH, Cross3D(), *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
+        return {each.name: each for each in (*TPMS, *walls, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> InSpace:
         return self._all()[name]

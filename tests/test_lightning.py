@@ -150,28 +150,28 @@ def test_every_branch_lies_on_a_branch_or_a_wall_not_much_further_out(name: str,
             carried = shapely.distance(shapely.points(points), shapely.multilinestrings(list(layers[layer - 1])))
         assert np.minimum(wall, carried).max(initial=0) <= reach
         seen += len(points)
-    assert seen > 1000 or name == "lying tube"
+    assert seen > 1000
 
 
 @pytest.mark.parametrize("name", PARTS)
 def test_roofs_are_carried_about_every_cell(name: str) -> None:
-    """What is flat from below, and further than a cell from all walls, has a branch within a cell of it, seen from above.
+    """From what is flatter than 34 degrees, a branch is within a cell, seen from above.
 
-    Where the roof slopes, that may begin a little further down.
+    Walls are further than one and a half cells there a cell further down. Where the roof slopes, branches may begin a
+    little lower.
     """
     space, layers = branches_in(PARTS[name]())
-    inside = space.depth > 0
+    inside, cell = space.depth > 0, int(CELL / space.size)
     looked = 0
-    for layer in range(2, space.shape[2] - 1):
+    for layer in range(cell, space.shape[2] - 1):
         roof = inside[:, :, layer] & ~inside[:, :, layer + 1]
-        # As far from the walls two layers further down, it is flatter than that.
-        flat = roof & (distance_transform_edt(inside[:, :, layer - 2]) > 1.5 * CELL / space.size)
+        flat = roof & (distance_transform_edt(inside[:, :, layer - cell]) > 1.5 * cell)
         if flat.any():
-            lines = shapely.multilinestrings(np.concatenate(layers[layer - int(CELL / space.size) : layer + 1]))
+            lines = shapely.multilinestrings(np.concatenate(layers[layer - cell : layer + 1]))
             away = shapely.distance(shapely.points(np.argwhere(flat)), lines)
-            assert away.max() <= CELL / space.size
+            assert away.max() <= cell
             looked += len(away)
-    assert looked > 500 or name in ("ball", "flat cone", "lying tube")
+    assert looked > 100
 
 
 def test_steep_roofs_need_none() -> None:

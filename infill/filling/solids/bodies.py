@@ -100,17 +100,6 @@ class Bodies:
         return self.known[id(space)][1]
 
 
-def walled_depth(space: Space) -> NDArray[np.float32]:
-    """Return the depths below the walls of a space, also where voids reach through them."""
-    if space.box_of is None:
-        return (space.walled or space).depth
-    whole, first = space.box_of
-    if whole.walled is None:
-        return space.depth
-    box = tuple(slice(low, low + n) for low, n in zip(first.tolist(), space.depth.shape, strict=True))
-    return np.where(space.depth > DEEP, whole.walled.depth[box], DEEP)
-
-
 def bodies_in(space: Space) -> list[Body]:
     """Return the components of a part inside whose walls there is room, by falling volume.
 

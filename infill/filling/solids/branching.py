@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.solids.bodies import walled_depth
 from infill.filling.solids.forest import Floats, Forest
 from infill.filling.solids.space import Space
 from patterns.lightning import Lightning
@@ -18,9 +17,8 @@ DEEPER = 1.5  # cells by which feet stand in the wall, so that walls join
 NEAR = 2.0  # cells by which a wall may give way from layer to layer, for a foot to go with it
 SLACK = 0.5  # cells: how well distances are known
 ROUNDING = 1e-6  # cells: between two cells it is the same one, wherever the pattern begins
-DIGITS, SURE = 2, 0.01  # of distances, in cells, that are as good as equal: then it is the order that counts
+DIGITS = 2  # of distances, in cells: those that are equal so far are equal, and their order counts
 TRIES = 40  # of the distance to a wall that gives way below
-
 SHARE = 1.0  # of the density at which walls of a cell's width would be as dense: a guess
 
 
@@ -46,12 +44,13 @@ class Branches:
         """Branches have ends."""
         return False
 
-    def sides(self, space: Space, cell: float) -> None:
-        """See `LineLayers`."""
+    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:  # noqa: ARG002 - of the protocol
+        """See `LineLayers`: none."""
+        return iter(())
 
     @property
     def steepest(self) -> float:
-        """How far tips draw back in a layer, in cells."""
+        """How far tips draw back in a layer, in cells, and how well that is known."""
         return math.tan(math.radians(self.pattern.overhang)) + SLACK
 
     @property
@@ -70,13 +69,12 @@ class Branches:
     def lines(self, space: Space, cell: float) -> list[Floats]:
         """See `LineLayers`."""
         step = math.tan(math.radians(self.pattern.overhang))
-        depth = walled_depth(space)
-        through = max(0.0, float((space.depth - depth).max()))  # as voids do, in a project
-        walls = _Walls(depth=depth, step=step, deeper=DEEPER + through)
+        walls = _Walls(depth=space.below_walls, step=step, deeper=DEEPER + space.through)
+        reach = cell / 2 / space.size
         first = self.anchor[:2] + cell * np.array(self.pattern.first) @ self.turn[:2, :2]
         twigs = _twigs(space, cell, self.turn[:2, :2], first)
         forest, found, begun = Forest(), list[Floats](), list[Floats]()
-        tips = _tips(twigs, walls, reach=cell / 2 / space.size)
+        tips = _tips(twigs, walls, reach=reach)
         for layer in range(space.shape[2] - 1, -1, -1):
             forest.draw_back(step)
             forest.stand(walls.inside(forest.at, layer))
@@ -84,12 +82,10 @@ class Branches:
                 forest.move(foot, walls.foot(forest.at[foot], layer)[1], near=NEAR)
             planted = _in_order(tips.get(layer, ()), walls, layer)
             for tip, foot_at in planted:
-                near = forest.nearest(tip)
-                if near is None or near[0] > cell / 2 / space.size - SURE:
-                    forest.plant(tip, foot_at)
+                forest.plant(tip, foot_at, apart=reach)
             found.append(forest.branches)
             begun.append(forest.branches if planted else np.empty((0, 2, 2)))
-        up = math.ceil(through)
+        up = math.ceil(space.through)  # in a project, branches go through the roofs too
         return [np.concatenate([one, *begun[k + 1 : k + 1 + up]]) for k, one in enumerate(found)][::-1]
 
 

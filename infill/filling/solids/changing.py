@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.filling.solids.drawn_voids import Drawn, sized
+from infill.filling.solids.line_sample import LineSample, segments_of, sized
 from infill.filling.solids.space import BAND, Space
 from patterns.protocol import LEVEL_SET, LevelSet, Pattern, gives, lines_of
 
@@ -33,6 +34,11 @@ class Changing:
     pattern: Pattern
     anchor: Floats
 
+    @cached_property
+    def sample(self) -> LineSample:
+        """What the lines are like at one height, far from any skin."""
+        return LineSample(pattern=self.pattern)
+
     @property
     def two_sided(self) -> bool:
         """Whether a level set says on which side of the lines a point lies."""
@@ -46,11 +52,11 @@ class Changing:
     @property
     def sharpest(self) -> float:
         """See `Voids`: that of one height."""
-        return self._drawn.sharpest
+        return self.sample.sharpest
 
     def widths(self, density: float) -> float:
         """See `Voids`: those of one height."""
-        return self._drawn.widths(density)
+        return self.sample.widths(density)
 
     def about(self, middle: Floats) -> Changing:
         """See `Anchored`."""
@@ -59,26 +65,22 @@ class Changing:
     def lines(self, space: Space, cell: float) -> list[Floats]:
         """See `LineLayers`."""
         pattern, start = sized(self.pattern, cell), space.origin[:2] - self.anchor[:2]
-        found = []
+        depth, found = space.depth, []
         for layer, z in enumerate(self._heights(space)):
-            used = np.argwhere(space.depth[:, :, layer] > -BAND)
+            used = np.argwhere(depth[:, :, layer] > -BAND)
             if not len(used):
                 found.append(np.empty((0, 2, 2)))
                 continue
             low, high = (start + space.size * end for end in (used.min(axis=0), used.max(axis=0)))
             lines = lines_of(pattern, shapely.box(*(low - cell), *(high + cell)), float(z))
-            points, line = shapely.get_coordinates(shapely.get_parts(lines), return_index=True)
-            points = (points - start) / space.size
-            joined = np.flatnonzero(line[1:] == line[:-1])
-            found.append(np.stack([points[joined], points[joined + 1]], axis=1))
+            found.append(segments_of(shapely.get_parts(lines), start, space.size))
         return found
 
-    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]] | None:
+    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
         """See `LineLayers`."""
         pattern = sized(self.pattern, cell)
-        return self._sides(pattern, space) if isinstance(pattern, LevelSet) else None
-
-    def _sides(self, pattern: LevelSet, space: Space) -> Iterator[NDArray[np.bool_]]:
+        if not isinstance(pattern, LevelSet):
+            return
         nx, ny, _ = space.shape
         x, y = (space.origin[i] - self.anchor[i] + space.size * np.arange(n) for i, n in enumerate((nx, ny)))
         across, along = np.meshgrid(x, y, indexing="ij")
@@ -89,7 +91,3 @@ class Changing:
         """Return how high the middles of layers lie in the pattern, mm."""
         found: Floats = space.origin[2] - self.anchor[2] + space.size * np.arange(space.shape[2])
         return found
-
-    @property
-    def _drawn(self) -> Drawn:
-        return Drawn(pattern=self.pattern, anchor=self.anchor, share=0.0)

@@ -17,6 +17,7 @@ from infill.filling.solids.changing import Changing
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.fields import SKIN
 from infill.filling.solids.layered import Layered
+from infill.filling.solids.line_sample import follows
 from infill.filling.solids.naming import kind_of
 from infill.filling.solids.request import Request
 from infill.filling.solids.subdivided import Subdivided
@@ -123,7 +124,7 @@ def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
     turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
     changed = {**request.parameters, **turned}
     made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
-    if getattr(made, "follows", False):
+    if follows(made):
         _check_followed(request)
     return made
 

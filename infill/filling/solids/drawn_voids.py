@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -13,24 +12,17 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.filling.solids.bodies import Bodies
-from infill.filling.solids.fillets import between_lines, sharpest
 from infill.filling.solids.grading import NONE, Grading
-from infill.filling.solids.roots import root
+from infill.filling.solids.line_sample import WIDER, LineSample, follows, segments_of, sized, square
 from infill.filling.solids.shadow import shadow_of
 from infill.filling.solids.space import BAND, Space
 from infill.filling.solids.voids import FIELD, local_widths
 from infill.kernels.threads import in_threads, thread_count
-from patterns.errors import PatternError
 from patterns.protocol import Pattern, lines_of
 
 APART = 3.0  # cells of the grid: voids that are nearer get fields of their own
 THINNER, WIDER_LINES = 0.8, 1.5  # lines for which the same fields will do, over those they were made for
-SAMPLE = 12.0  # cells of the pattern along a side of what is measured to tell how width and density go together
-NEAR, TRIES = 0.01, 12  # of the density of that: when it is near enough
 ROUND = 16  # segments in a quarter of a circle
-# Half a diagonal of what is filled, in which lines are drawn: hearts that are the largest to fit into that reach
-# beyond the part.
-WIDER = 1.7
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,42 +101,18 @@ class Drawn:
         return float(sum(in_threads(from_plane, depth, plane, width / 2, *ratio, out, threads=threads)))
 
     @cached_property
-    def apart(self) -> float:
-        """How far lines are apart on average, as those of a grid would be, in cells; at most one."""
-        region, lines = self._sample
-        return min(1.0, float(2 * region.area / lines.length))
+    def sample(self) -> LineSample:
+        """What a pattern of such lines is like far from any skin."""
+        return LineSample(pattern=self.pattern)
 
-    @cached_property
-    def _sample(self) -> tuple[shapely.Polygon, shapely.Geometry]:
-        """Return some cells of a pattern whose cell is 1, and the lines in them."""
-        side = SAMPLE / 2
-        region = _square(side)
-        wider = region if self._follows else _square(WIDER * side * 2**0.5)
-        lines = shapely.intersection(self._lines(wider, 1.0), region)
-        if not lines.length:
-            raise PatternError(f"the pattern {self.pattern.name} has no lines; draw some")
-        return region, lines
-
-    @cached_property
+    @property
     def sharpest(self) -> float:
         """See `Voids`."""
-        region, lines = self._sample
-        return sharpest(between_lines(_faces_between(lines, region)))
+        return self.sample.sharpest
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
-        region, lines = self._sample
-
-        def off(times: float) -> float:
-            walls = shapely.buffer(lines, times * self.apart * density / 4, quad_segs=1)
-            return math.log(shapely.intersection(walls, region).area / (density * region.area))
-
-        # Lines a cell apart in one direction would be as wide as the density; most run in two.
-        return self.apart * density / 2 * root(off, NEAR, TRIES)
-
-    @property
-    def _follows(self) -> bool:
-        return getattr(self.pattern, "follows", False)
+        return self.sample.widths(density)
 
     def _lines(self, region: shapely.Polygon, cell: float) -> shapely.MultiLineString:
         return lines_of(sized(self.pattern, cell), region)
@@ -175,10 +143,10 @@ class Drawn:
         high = space.origin[:2] + np.array([first[1], last[1]]) * space.size - self.anchor[:2]
         box = shapely.box(*low, *high)
         region = box.buffer(cell, join_style="mitre")
-        if self._follows:
+        if follows(self.pattern):
             room = self._room(space, cell)
         else:
-            room = _square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
+            room = square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
         lines = shapely.intersection(self._lines(room, cell), region)
         polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
         polygons = polygons[shapely.intersects(polygons, box)]
@@ -218,36 +186,14 @@ class _Faces:
         return reach <= self.reach and width >= THINNER * self.width
 
 
-def sized(pattern: Pattern, cell: float) -> Pattern:
-    """Return a pattern with a cell, mm, and without a frame."""
-    changed: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
-    if hasattr(pattern, "frame"):
-        changed["frame"] = False
-    return dataclasses.replace(pattern, **changed)  # type: ignore[type-var]
-
-
-def _faces_between(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.object_]:
-    """Return what lies between lines, but for what the border of a region cuts."""
-    polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
-    whole: NDArray[np.object_] = polygons[~shapely.intersects(polygons, region.boundary)]
-    return whole
-
-
-def _square(half: float) -> shapely.Polygon:
-    return shapely.box(-half, -half, half, half)
-
-
 def _away(
     lines: NDArray[np.object_], start: NDArray[np.float64], size: float, reach: float, shape: tuple[int, int]
 ) -> NDArray[np.float32]:
     """Return how far the points of a layer lie from lines, in cells, cut off at `reach`."""
     from infill.kernels.cells import lower_to_segments
 
-    points, line = shapely.get_coordinates(lines, return_index=True)
-    points = (points - start) / size
-    joined = np.flatnonzero(line[1:] == line[:-1])
     squared = np.full(shape, np.float32(reach**2))
-    lower_to_segments(np.stack([points[joined], points[joined + 1]], axis=1), reach, squared)
+    lower_to_segments(segments_of(lines, start, size), reach, squared)
     return np.sqrt(squared)
 
 

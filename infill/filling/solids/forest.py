@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-NONE = -1  # what is above a foot
+NONE = -1  # where the way of a foot goes on
 SAME = 0.5  # cells: what is nearer to a node is the node
 SURE = 0.01  # cells: distances that differ by less are equal
 
@@ -51,7 +51,7 @@ class Forest:
         long = np.linalg.norm(way, axis=1)
         longer = long > step + SURE
         self.at[tips[longer]] += way[longer] * (step / long[longer])[:, None]
-        self._keep(~self._set(tips[~longer]))
+        self._keep(~self._flags(tips[~longer]))
         self._drop_bare_feet()
 
     def stand(self, inside: Flags) -> None:
@@ -72,10 +72,15 @@ class Forest:
         else:
             self.to[foot] = self._add(place, NONE, inside=False)
 
-    def plant(self, tip: Floats, place: Floats) -> None:
-        """Let a branch grow from a tip to the nearest one there is, or to a place in a wall if that is nearer."""
+    def plant(self, tip: Floats, place: Floats, *, apart: float = 0.0) -> None:
+        """Let a branch grow from a tip to the nearest one there is, or to a place in a wall if that is nearer.
+
+        None is needed where the nearest one is less than `apart` away, in cells.
+        """
         away = float(np.linalg.norm(place - tip))
         near = self.nearest(tip)
+        if near is not None and near[0] < apart - SURE:
+            return
         if near is None or away <= near[0] + SURE:
             self._add(tip, self._add(place, NONE, inside=False), inside=True)
             return
@@ -115,7 +120,7 @@ class Forest:
         found[self.to[self.to != NONE]] = False
         return found
 
-    def _set(self, numbers: NDArray[np.intp]) -> Flags:
+    def _flags(self, numbers: NDArray[np.intp]) -> Flags:
         found = np.zeros(len(self.to), dtype=bool)
         found[numbers] = True
         return found

@@ -30,8 +30,8 @@ class LineLayers(Protocol):
         """Return the lines in each layer, for cells of a size, mm: (S, 2, 2), in cells from the first centre."""
         ...
 
-    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]] | None:
-        """Yield for each layer which cells (nx, ny) are on one of two sides of the lines; None if there are none."""
+    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
+        """Yield for each layer which cells (nx, ny) are on one of two sides of the lines; nothing if there are none."""
         ...
 
     def widths(self, density: float) -> float:
@@ -62,7 +62,7 @@ class LineLayers(Protocol):
 class _Away:
     """How far cells lie from lines, along their layer, up to a distance, in cells: below 0 on one of two sides."""
 
-    space: Space
+    space: Space  # which this keeps, so that no other gets its number
     away: FIELD
     reach: float
 
@@ -89,6 +89,11 @@ class Layered:
     known: dict[tuple[int, float], _Away] = field(default_factory=dict)
 
     @property
+    def around(self) -> bool:
+        """Whether one void lies around all walls, so that cells of the grid must resolve these."""
+        return not self.layers.two_sided
+
+    @property
     def sharpest(self) -> float:
         """See `Voids`."""
         return self.layers.sharpest
@@ -101,7 +106,7 @@ class Layered:
         """One for each side, or one around all walls."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
-        return 2 if self.layers.two_sided else 1
+        return 1 if self.around else 2
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
         """See `Voids`."""
@@ -147,7 +152,7 @@ class Layered:
             reach *= WIDER_LINES
             segments = np.concatenate([np.empty((0, 2, 2)), *lines])
             in_threads(beside_lines, segments, first, reach, away, threads=thread_count(self.threads))
-            for layer, one in enumerate(self.layers.sides(space, cell) or ()):
+            for layer, one in enumerate(self.layers.sides(space, cell)):
                 away[:, :, layer] *= np.where(one, np.float32(1), np.float32(-1))
             self.known[key] = _Away(space=space, away=away, reach=reach)
         return self.known[key]

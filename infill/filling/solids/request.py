@@ -143,7 +143,7 @@ class Request:
         if self.density is None:
             return ()
         if self.grading is not None:
-            thick = self.cell is not None or (self.line_width is None and thickened(self.kind))
+            thick = self.cell is not None or (self.line_width is None and barred(self.kind))
             return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)

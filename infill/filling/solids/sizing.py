@@ -72,10 +72,10 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
     width *= request.thinnest
     size = request.wall / ACROSS
     if isinstance(voids, Drawn):
-        size = min(size, voids.apart * cell / FINE_LINES, COARSEST_LINES)
+        size = min(size, voids.sample.apart * cell / FINE_LINES, COARSEST_LINES)
     elif barred(request.kind):
         size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
-    elif isinstance(voids, Layered) and not voids.layers.two_sided:
+    elif isinstance(voids, Layered) and voids.around:
         size = min(size, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
@@ -114,10 +114,10 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
     width *= request.thinnest
     size = request.wall / LEAST_ACROSS
     if isinstance(voids, Drawn):
-        return min(size, voids.apart * cell / LEAST_FINE_LINES)
+        return min(size, voids.sample.apart * cell / LEAST_FINE_LINES)
     if barred(request.kind):
         return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
-    if isinstance(voids, Layered) and not voids.layers.two_sided:
+    if isinstance(voids, Layered) and voids.around:
         return min(size, width / LEAST_ACROSS_BAR)
     return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
 

@@ -126,6 +126,11 @@ class Space:
         shares = self.shares[first : first + field.shape[2]]
         return float(sum(np.clip(layer + 0.5, 0, 1).sum(axis=0, dtype=np.float64) @ shares for layer in field))
 
+    @property
+    def below_walls(self) -> NDArray[np.float32]:
+        """How deep all cells lie below the walls, (nx, ny, nz) in cells, also where voids reach through these."""
+        return self.depth - np.float32(self.through) if self.through else self.depth
+
     @cached_property
     def unwalled(self) -> Space:
         """The same, where voids reach through the wall and a little out of the part."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.solids.bodies import Bodies, walled_depth
+from infill.filling.solids.bodies import Bodies
 from infill.filling.solids.grading import Grading
 from infill.filling.solids.roots import root
 from infill.filling.solids.space import BAND, Space
@@ -154,7 +154,7 @@ class Subdivided:
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
         first = (np.floor((ends.min(axis=0) - 1) / most) * most).astype(np.int64)
         counts = (np.floor((ends.max(axis=0) + 1) / most) * most).astype(np.int64) + most - first
-        depth, tree, whole = walled_depth(space), self._skin(space), []
+        depth, tree, whole = space.below_walls, self._skin(space), []
         for level in range(1, self.pattern.levels + 1):
             side = 1 << level
             middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + first
@@ -177,7 +177,7 @@ class Subdivided:
 
         if id(space) not in self.skins:
             self.skins.clear()
-            depth = walled_depth(space)
+            depth = space.below_walls
             every = max(1, ONCE // depth[0].size)
             found = []
             for low in range(0, len(depth), every):
