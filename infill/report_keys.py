@@ -479,6 +479,7 @@ class FillSizes(TypedDict):
     radius: float
     cells: list[float] | None
     widths: list[float] | None
+    narrow: float | None
 
 
 class FillPart(TypedDict):

@@ -22,6 +22,9 @@ from test_command_line import one_line_error, usage_error
 from test_command_line import run as command
 
 from infill import FormatError, Surface, UsageError, check_project, fill, read_mesh, save_project
+from infill.filling.solids.request import checked
+from infill.filling.solids.settings import DEFAULTS
+from infill.filling.solids.sizing import larger
 from infill.report_keys import FillReport
 from infill.result import Result
 from infill.slicers.project import SLICERS, Project, Slicer
@@ -132,13 +135,46 @@ def test_walls_that_are_one_line_are_told() -> None:
     assert any("less than two lines" in each for each in report["problems"])
 
 
-def test_walls_that_slicers_leave_out_are_told() -> None:
-    """As in a screw that two perimeters all but fill."""
+def test_walls_in_small_parts_stay_as_wide_as_two_lines() -> None:
+    """As in a screw that two perimeters all but fill: narrower walls would not be printed."""
     report = fill(box(6, 6, 10), as_="project", density=0.2).report
-    assert report["infill"]["line_width"] < 0.4
+    assert report["infill"]["line_width"] == pytest.approx(0.9, rel=0.06)
+    assert report["density"] == pytest.approx(0.2, abs=0.005)
+    assert report["problems"] == []
+
+
+def test_walls_that_slicers_leave_out_are_told() -> None:
+    report = fill(box(6, 6, 10), as_="project", density=0.2, line_width=0.3).report
+    assert report["infill"]["line_width"] == pytest.approx(0.3, rel=0.06)
     assert any(
         "less than a line of a usual nozzle: slicers leave most of them out" in each for each in report["problems"]
     )
+
+
+@pytest.mark.parametrize(("width", "told"), [(0.9, False), (1.2, True), (1.6, False)])
+def test_walls_between_two_and_three_lines_are_told(width: float, told: bool) -> None:
+    report = fill(box(24, 24, 10), as_="project", line_width=width).report
+    assert any("slicers leave gaps in them" in each for each in report["problems"]) == told
+
+
+@pytest.mark.parametrize(("thick", "told"), [(2.1, True), (4.0, False)])
+def test_room_that_is_narrower_than_a_line_is_told(thick: float, told: bool) -> None:
+    report = fill(box(30, thick, 12), "honeycomb", as_="project", density=0.3, line_width=0.9).report
+    narrow = report["infill"]["narrow"]
+    assert narrow == pytest.approx(1.0 if told else 0.0, abs=0.02)
+    assert any("less room than a line of 0.45 mm" in each for each in report["problems"]) == told
+
+
+def test_larger_walls_of_a_project_leave_no_gap_between_two_lines() -> None:
+    """Where there are too many triangles, cells and walls are larger: to 1.5 mm at least, if to more than 1 mm."""
+    request, solid = (
+        checked(pattern="gyroid", own={}, form=form, **{**DEFAULTS, "density": 0.2}) for form in ("project", "solid")
+    )
+    assert larger(request, (12.0, 0.9), 1.05) == pytest.approx((12.6, 0.945))
+    assert larger(request, (12.0, 0.9), 1.3) == pytest.approx((20.0, 1.5))
+    assert larger(request, (12.0, 0.9), 2.0) == pytest.approx((24.0, 1.8))
+    assert larger(solid, (12.0, 0.9), 1.3) == pytest.approx((15.6, 1.17))
+    assert larger(solid, (12.0, 0.9), 0.5) == (12.0, 0.9)
 
 
 @pytest.mark.parametrize("slicer", SLICERS)

@@ -31,7 +31,7 @@ from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.surfaces.parting import joined
-from infill.surfaces.solids import without
+from infill.surfaces.solids import shortened, without
 from infill.version import __version__
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from infill.report_keys import FillReport
 
 FORM = 1
+SHORT = 1e-3  # mm: edges of the infill of a project are longer than that, or nearly
 INTO_WALL = 0.75  # how far infill reaches into the walls of a part from which it cannot be cut
 
 
@@ -252,6 +253,7 @@ def _result(
             "radius": request.radius(space.thickness),
             "cells": facts.cells,
             "widths": facts.widths,
+            "narrow": facts.narrow,
         },
         "graded": facts.graded,
         "part": {
@@ -285,7 +287,11 @@ def _inside(space: Space, request: Request, threads: int | None) -> Surface:
 
 
 def _through_walls(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:
-    """Return the surface of what the voids leave of the part, or of most of it, if manifold3d does not take that."""
+    """Return the surface of what the voids leave of the part, or of most of it, if manifold3d does not take that.
+
+    Where voids meet the skin, they leave edges so short that single precision, as files have it, takes their ends for
+    one place: such edges are taken out.
+    """
     found = without(space.part, voids)
     if found is None:
         inside = inner_side(
@@ -294,4 +300,4 @@ def _through_walls(space: Space, voids: list[Surface], request: Request, threads
         found = without(inside, voids)
     if found is None or not len(found.faces):
         raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
-    return found
+    return shortened(found, SHORT)

@@ -17,7 +17,7 @@ from infill.filling.solids.inside import SHARE
 from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.request import Request, Size, barred
 from infill.filling.solids.roots import root
-from infill.filling.solids.sizing import coarsest_for, goes_by_slabs, sizes_for, voxel_for
+from infill.filling.solids.sizing import coarsest_for, goes_by_slabs, larger, sizes_for, voxel_for
 from infill.filling.solids.slabwise import cells_filled, unmade
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.surfacing import smoothing_for, surfaces_of, useful
@@ -106,11 +106,11 @@ def hollowed(
                 if last or triangles <= room:
                     break
             sizes = (found.cell, sizes[1])
-        larger, coarser = _coarser(request, voids, sizes, voxel, triangles / room)
+        more, coarser = _coarser(request, voids, sizes, voxel, triangles / room)
         coarser = min(coarser, space.thickness / LEAST_THICK)
         last = coarser < 1.05 * voxel
         if not last:
-            sizes, voxel = larger, coarser
+            sizes, voxel = more, coarser
     if not found.surfaces:
         raise GeometryError(
             f"the pattern leaves no void inside walls of {request.wall:g} mm; give larger cells, a lower density or a "
@@ -157,8 +157,7 @@ def _coarser(
     """Return sizes and voxel with which there would be a fraction of the triangles, as far as that may be."""
     wanted, coarsest = voxel * max(1.1, FEWER * many**0.5), coarsest_for(request, voids, *sizes)
     if wanted > coarsest and request.cell is None and request.line_width is None:
-        larger = min(MOST_LARGER, max(1.2, wanted / coarsest))
-        sizes = (sizes[0] * larger, sizes[1] * larger)
+        sizes = larger(request, sizes, min(MOST_LARGER, max(1.2, wanted / coarsest)))
         coarsest = coarsest_for(request, voids, *sizes)
     return sizes, min(wanted, coarsest)
 
@@ -211,21 +210,28 @@ def _sized(
 ) -> tuple[tuple[float, float], tuple[Size, ...]]:
     """Return cell and width, mm, with which the voids leave the density asked for in this space, before smoothing.
 
-    A cell that is larger than the space is made smaller, and walls thinner instead, if neither was asked for; what may
-    still be varied is returned too.
+    A cell that is larger than the space is made smaller, and walls thinner instead, if neither was asked for: in a
+    project, whose walls are to be lines of a slicer, only if the density cannot be had otherwise. What may still be
+    varied is returned too.
     """
     if not varied:
         return sizes, varied
     density = wanted(request, space, voids) or LEAST
+
+    def off(at: float, sizes: tuple[float, float], vary: Size) -> float:
+        return math.log(share_of_cells(space, voids, *_scaled(sizes, at, vary)) / density)
+
+    def fitted(sizes: tuple[float, float], vary: Size) -> tuple[float, float]:
+        times = root(lambda at: off(at, sizes, vary), CLOSE / 4 / density, TRIES)
+        return _scaled(sizes, times, vary)
+
     if request.cell is None and request.line_width is None and sizes[0] > (most := space.across):
+        if request.form == "project":
+            found = fitted(sizes, varied[0])
+            if abs(off(1.0, found, varied[0])) <= CLOSE / density:
+                return found, varied
         sizes, varied = (most, sizes[1] * most / sizes[0]), ("width",)
-    vary = varied[0]
-    times = root(
-        lambda at: math.log(share_of_cells(space, voids, *_scaled(sizes, at, vary)) / density),
-        CLOSE / 4 / density,
-        TRIES,
-    )
-    return _scaled(sizes, times, vary), varied
+    return fitted(sizes, varied[0]), varied
 
 
 def _corrected(

@@ -22,6 +22,8 @@ Size = Literal["cell", "width"]
 
 DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
 SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
+GAP = 1.0, 1.5  # mm: between these, slicers fill walls with two lines of 0.45 mm that are too far apart, 7 % short
+SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
 LOWEST, HIGHEST = 0.01, 0.9  # densities
 MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
 FURTHEST = 1e4  # mm
@@ -103,9 +105,15 @@ class Request:
         return 5 if self.align == "body" else 0
 
     @property
+    def lined(self) -> bool:
+        """Whether walls and bars are to be as wide as a slicer's lines make them, which no density may change."""
+        return self.form == "project" and not isinstance(self.kind, Lightning)
+
+    @property
     def default_width(self) -> float:
         """Of walls inside, mm: where the density changes, of those of its middle, so that the thinnest are as wide."""
-        return (SLICED_WIDTH if self.form == "project" else LINE_WIDTH) / self.thinnest
+        sliced = SLICED_BAR if barred(self.kind) else SLICED_WIDTH
+        return (sliced if self.form == "project" else LINE_WIDTH) / self.thinnest
 
     @property
     def share(self) -> float:
@@ -147,7 +155,7 @@ class Request:
             return ("width",) if thick else ("cell",)
         if self.cell is not None or self.line_width is not None:
             return ("cell",) if self.cell is None else ("width",)
-        return ("width",) if thickened(self.kind) else ("cell", "width")
+        return ("width",) if thickened(self.kind) and not self.lined else ("cell", "width")
 
     def room(self, taken: int) -> int:
         """Return how many triangles voids may have, if the part has taken so many.

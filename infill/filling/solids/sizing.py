@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.layered import Layered
-from infill.filling.solids.request import Request, barred
+from infill.filling.solids.request import GAP, Request, barred
 from infill.filling.solids.voids import Voids
 
 BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars are as thick as the density asks for; twigs are so far apart
-SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
 # Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
 # of bars; across a wall of the part and a bar; in all.
 FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
@@ -35,24 +34,31 @@ def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> 
     """
     cell, width = _sizes(request, voids)
     if request.cell is None and request.line_width is None:
-        larger = max(
-            1.0,
-            SLACK
-            * _finest(extents, slabs=goes_by_slabs(request, voids))
-            / coarsest_for(replace(request, wall=math.inf), voids, cell, width),
-        )
-        return cell * larger, width * larger
+        finest = _finest(extents, slabs=goes_by_slabs(request, voids))
+        times = SLACK * finest / coarsest_for(replace(request, wall=math.inf), voids, cell, width)
+        return larger(request, (cell, width), times)
     return cell, width
+
+
+def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[float, float]:
+    """Return cell and width, mm, so many times as large, if that is more than 1.
+
+    In a project, walls are never of a width that slicers fill with two lines and leave a gap between.
+    """
+    times, width = max(1.0, times), sizes[1]
+    if request.lined and GAP[0] < times * width < GAP[1]:
+        times = GAP[1] / width
+    return sizes[0] * times, width * times
 
 
 def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
     if request.density is None:
         return request.cell or BRANCHES_CELL, request.line_width or request.default_width
     share = voids.widths(request.density)
-    if request.line_width is None and (request.cell is not None or "cell" not in request.varied):
-        if request.cell is None and request.form == "project" and barred(request.kind):
-            return SLICED_BAR / request.thinnest / share, SLICED_BAR / request.thinnest
-        cell = request.cell or (BAR_CELL if barred(request.kind) else BRANCHES_CELL)
+    if request.line_width is None and request.cell is not None:
+        return request.cell, share * request.cell
+    if request.line_width is None and "cell" not in request.varied and not request.lined:
+        cell = BAR_CELL if barred(request.kind) else BRANCHES_CELL
         return cell, share * cell
     width = request.default_width if request.line_width is None else request.line_width
     return width / share, width

@@ -12,8 +12,9 @@ from infill.filling.solids.drains import trapped
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
+from infill.filling.solids.narrow import in_narrow_room
 from infill.filling.solids.opening import Opening
-from infill.filling.solids.request import Request
+from infill.filling.solids.request import GAP, LINE_WIDTH, Request, barred
 from infill.filling.solids.space import LEAST_OVERLAP
 from infill.filling.solids.voids import Voids
 from infill.surface import Surface
@@ -31,6 +32,7 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
+NARROW = 0.05  # of the infill: if more of it lies where slicers print none, that is told
 AT_ONCE = 200_000  # triangles that manifold3d is shown at a time
 LEAST_WALL = 0.9  # of the wall asked for
 
@@ -106,6 +108,8 @@ class Measured:
     cells, widths : list of float or None
         Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
         the widest walls, mm.
+    narrow : float or None
+        Share of the infill of a project that lies in room narrower than a line; None if that is not known.
     """
 
     least: float | None
@@ -120,6 +124,7 @@ class Measured:
     graded: list[dict[str, float]]
     cells: list[float] | None = None
     widths: list[float] | None = None
+    narrow: float | None = None
 
 
 def measured(
@@ -146,6 +151,9 @@ def measured(
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
         graded=[] if voids.grading is None else steps(hollow, voids),
+        narrow=in_narrow_room(hollow.space.part, solid, request.wall, LINE_WIDTH)
+        if request.form == "project"
+        else None,
         **_ranges(hollow, voids),
     )
 
@@ -213,7 +221,18 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
     elif request.form == "project" and facts.width < THIN:
         yield (
             f"walls or bars inside are {facts.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
-            "such bodies in many short moves, and extrude up to a tenth more; give a line width of 0.9 mm"
+            "such bodies in many short moves, and extrude up to a tenth more or less; give a line width of 0.9 mm"
+        )
+    elif request.form == "project" and GAP[0] < facts.width < GAP[1] and not barred(request.kind):
+        yield (
+            f"walls inside are {facts.width:.2g} mm wide, more than two lines of a usual nozzle and less than three: "
+            f"slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or {GAP[1]:g} or more"
+        )
+    if facts.narrow is not None and facts.narrow > NARROW:
+        yield (
+            f"{facts.narrow:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
+            f"{LINE_WIDTH:g} mm, and slicers print none there; print with fewer perimeters and give their --wall, or "
+            "with so many that they fill such places"
         )
     if moved > request.tolerance:
         most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
