@@ -109,6 +109,11 @@ class Request:
         """Whether walls and bars are to be as wide as a slicer's lines make them, which no density may change."""
         return self.form == "project" and not isinstance(self.kind, Lightning)
 
+    def gaps_in(self, width: float) -> bool:
+        """Return whether slicers leave gaps in walls of a width, mm, that is the same everywhere."""
+        even = self.grading is None or self.grading.varies == "cell"
+        return self.form == "project" and even and not barred(self.kind) and GAP[0] < width < GAP[1]
+
     @property
     def default_width(self) -> float:
         """Of walls inside, mm: where the density changes, of those of its middle, so that the thinnest are as wide."""

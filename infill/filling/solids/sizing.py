@@ -46,7 +46,7 @@ def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[
     In a project, walls are never of a width that slicers fill with two lines and leave a gap between.
     """
     times, width = max(1.0, times), sizes[1]
-    if request.lined and GAP[0] < times * width < GAP[1]:
+    if request.gaps_in(times * width):
         times = GAP[1] / width
     return sizes[0] * times, width * times
 

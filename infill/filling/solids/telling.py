@@ -14,7 +14,7 @@ from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
 from infill.filling.solids.narrow import in_narrow_room
 from infill.filling.solids.opening import Opening
-from infill.filling.solids.request import GAP, LINE_WIDTH, Request, barred
+from infill.filling.solids.request import GAP, LINE_WIDTH, Request
 from infill.filling.solids.space import LEAST_OVERLAP
 from infill.filling.solids.voids import Voids
 from infill.surface import Surface
@@ -223,7 +223,7 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
             f"walls or bars inside are {facts.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
             "such bodies in many short moves, and extrude up to a tenth more or less; give a line width of 0.9 mm"
         )
-    elif request.form == "project" and GAP[0] < facts.width < GAP[1] and not barred(request.kind):
+    elif request.gaps_in(facts.width):
         yield (
             f"walls inside are {facts.width:.2g} mm wide, more than two lines of a usual nozzle and less than three: "
             f"slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or {GAP[1]:g} or more"
