@@ -3,7 +3,8 @@
 Every printable part of the test data is filled by the command, as a project, and sliced twice: the project, and the
 part alone without infill. What the project has more must be the infill body's volume where the slicer puts infill,
 layer by layer: inside of the perimeters, and a quarter of a line into them. There are no solid layers, so that nothing
-else is in the way. ``--parts bracket_medium`` and ``--patterns gyroid`` for a first look.
+else is in the way. A second figure compares it with what of the body lies where perimeters leave at least a line of
+room: slicers print none where they leave less. ``--parts bracket_medium`` and ``--patterns gyroid`` for a first look.
 """
 
 from __future__ import annotations
@@ -24,23 +25,27 @@ from infill.surfaces.solids import FINE, solid_of, status
 from tests.slicers import FILLED_SETTINGS, PERIMETERS, missing_prusa, prusa_volumes
 
 LAYER = float(str(FILLED_SETTINGS["layer_height"]))
-OVERLAP = 0.25  # of a line: the slicer's default
-ROOM = PERIMETERS - OVERLAP * 0.45  # mm below the skin
+LINE = 0.45  # mm
+OVERLAP = 0.25 * LINE  # the slicer's default
 BED = {"bed_shape": "0x0,400x0,400x400,0x400", "max_print_height": 400}
-OPEN = {**BED, "top_solid_layers": 0, "bottom_solid_layers": 0, "infill_overlap": f"{OVERLAP:.0%}"}
+OPEN = {**BED, "top_solid_layers": 0, "bottom_solid_layers": 0, "infill_overlap": f"{OVERLAP / LINE:.0%}"}
+SLOW = 1200  # seconds that the slicer may take: it has 1,778 layers in the tallest part
 OFF_INFILL, OFF_PERIMETERS = 0.05, 0.01
 WALLS = ("Perimeter", "External perimeter", "Overhang perimeter")
 
 
-def room_in_layers(part: Surface, infill: Surface) -> float:
-    """Return the volume of the infill where the slicer puts any, mm³."""
+def room_in_layers(part: Surface, infill: Surface) -> tuple[float, float]:
+    """Return the volume of the infill where the slicer puts any, and what of it has a line of room, mm³."""
     one, two = solid_of(part), solid_of(infill)
     low, high = part.bounds[:, 2]
-    found = 0.0
+    around = manifold3d.JoinType.Round
+    found = wide = 0.0
     for z in np.arange(low + LAYER / 2, high, LAYER):
-        inside = one.slice(z).offset(-ROOM, manifold3d.JoinType.Round)
-        found += (inside ^ two.slice(z)).area() * LAYER
-    return found
+        section, body = one.slice(z), two.slice(z)
+        found += (section.offset(OVERLAP - PERIMETERS, around) ^ body).area() * LAYER
+        opened = section.offset(-PERIMETERS - LINE / 2, around).offset(LINE / 2 + OVERLAP, around)
+        wide += (opened ^ body).area() * LAYER
+    return found, wide
 
 
 def surfaces_of(project: Path, part: Surface) -> Surface:
@@ -62,9 +67,11 @@ def one_case(part: Path, pattern: str, density: float, folder: Path) -> bool:
     found = check_project(project, "prusaslicer")
     skin = Surface(vertices=mesh.vertices, faces=mesh.faces)
     taken = read_mesh(standing) if found.volumes[0].triangles == len(mesh.faces) else skin
-    whole, layers, said = prusa_volumes(project, folder, **OPEN)
-    alone, same, _ = prusa_volumes(standing, folder, **OPEN, fill_density="0%")
-    body = room_in_layers(taken, surfaces_of(project, taken)) if status(taken) == FINE else float("nan")
+    whole, layers, said = prusa_volumes(project, folder, seconds=SLOW, **OPEN)
+    alone, same, _ = prusa_volumes(standing, folder, seconds=SLOW, **OPEN, fill_density="0%")
+    body = wide = float("nan")
+    if status(taken) == FINE:
+        body, wide = room_in_layers(taken, surfaces_of(project, taken))
     infill = sum(whole.values()) - sum(alone.values())
     walls = sum(whole.get(kind, 0.0) for kind in WALLS), sum(alone.get(kind, 0.0) for kind in WALLS)
     wrong = {
@@ -75,7 +82,8 @@ def one_case(part: Path, pattern: str, density: float, folder: Path) -> bool:
         f"perimeters {walls[0] / walls[1] - 1:+.1%}": not abs(walls[0] / walls[1] - 1) <= OFF_PERIMETERS,
     }
     holds = not any(wrong.values())
-    numbers = f"{body:8.0f} mm³ {infill / body - 1:+6.1%} {walls[0] / walls[1] - 1:+7.2%} {layers:4} layers"
+    off = f"{infill / body - 1:+6.1%} {infill / wide - 1:+6.1%} {walls[0] / walls[1] - 1:+7.2%}"
+    numbers = f"{body:8.0f} mm³ {off} {layers:4} layers"
     told = ", ".join(what for what, is_wrong in wrong.items() if is_wrong)
     row(f"{'ok ' if holds else 'NO '} {part.stem}, {pattern}, {density:.0%}", f"{numbers} {told}")
     return holds
@@ -93,7 +101,8 @@ def main() -> int:
         return 1
     parts = [path for path in sorted(FOLDER.iterdir()) if path.suffix in (".stl", ".obj", ".3mf")]
     failed = 0
-    print("infill body where there is infill; how much more is extruded for it; perimeters, against the part alone")
+    print("infill body where there is infill; how much more is extruded for it, and for what of it has a line of room;")
+    print("perimeters, against the part alone")
     for part in parts:
         if given.parts and part.stem not in given.parts:
             continue

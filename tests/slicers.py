@@ -150,12 +150,14 @@ def prusa_slice(path: Path) -> dict[str, Any]:
     }
 
 
-def prusa_volumes(path: Path, folder: Path, **more: object) -> tuple[dict[str, float], int, str]:
+def prusa_volumes(
+    path: Path, folder: Path, *, seconds: float = SECONDS, **more: object
+) -> tuple[dict[str, float], int, str]:
     """Return mm³ by type, the number of layers, and what PrusaSlicer says, of a file that is printed with infill."""
     settings = {**FILLED_SETTINGS, **more}
     (folder / "print.ini").write_text("".join(f"{name} = {value}\n" for name, value in settings.items()))
     words = ["--datadir", "data", "--load", "print.ini", "--dont-arrange", "--export-gcode", "-o", "out.gcode"]
-    said = run_slicer(["prusa-slicer", *words, str(path)], folder)
+    said = run_slicer(["prusa-slicer", *words, str(path)], folder, seconds=seconds)
     found: dict[str, float] = {}
     kind, before, layers = "", 0.0, 0
     for line in (folder / "out.gcode").read_text().splitlines():
@@ -202,7 +204,9 @@ def cura_slice(path: Path) -> dict[str, Any]:
     }
 
 
-def run_slicer(command: Sequence[str], folder: str | os.PathLike[str], **variables: str) -> str:
+def run_slicer(
+    command: Sequence[str], folder: str | os.PathLike[str], *, seconds: float = SECONDS, **variables: str
+) -> str:
     """Run a slicer in a folder, without a display, and return all it says.
 
     Parameters
@@ -210,6 +214,8 @@ def run_slicer(command: Sequence[str], folder: str | os.PathLike[str], **variabl
     command : sequence of str
     folder : path
         Where it runs.
+    seconds : float
+        How long it may take.
     **variables
         Of its environment.
 
@@ -227,7 +233,7 @@ def run_slicer(command: Sequence[str], folder: str | os.PathLike[str], **variabl
         stderr=subprocess.STDOUT,
         encoding="utf-8",
         errors="replace",
-        timeout=SECONDS,
+        timeout=seconds,
         check=False,
     )
     if done.returncode:
