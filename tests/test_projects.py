@@ -137,7 +137,7 @@ def test_walls_that_are_one_line_are_told() -> None:
 
 def test_walls_in_small_parts_stay_as_wide_as_two_lines() -> None:
     """As in a screw that two perimeters all but fill: narrower walls would not be printed."""
-    report = fill(box(6, 6, 10), as_="project", density=0.2).report
+    report = fill(box(8, 8, 10), as_="project", density=0.2).report
     assert report["infill"]["line_width"] == pytest.approx(0.9, rel=0.06)
     assert report["density"] == pytest.approx(0.2, abs=0.005)
     assert report["problems"] == []
@@ -157,12 +157,37 @@ def test_walls_between_two_and_three_lines_are_told(width: float, told: bool) ->
     assert any("slicers leave gaps in them" in each for each in report["problems"]) == told
 
 
-@pytest.mark.parametrize(("thick", "told"), [(2.1, True), (4.0, False)])
+@pytest.mark.parametrize(("thick", "told"), [(2.1, True), (10.0, False)])
 def test_room_that_is_narrower_than_a_line_is_told(thick: float, told: bool) -> None:
     report = fill(box(30, thick, 12), "honeycomb", as_="project", density=0.3, line_width=0.9).report
     narrow = report["infill"]["narrow"]
     assert narrow == pytest.approx(1.0 if told else 0.0, abs=0.02)
     assert any("less room than a line of 0.45 mm" in each for each in report["problems"]) == told
+
+
+@pytest.mark.parametrize(
+    ("pattern", "density", "size"), [("honeycomb", 0.2, (8, 8, 10)), ("rectilinear", 0.3, (30, 6, 12))]
+)
+@prusa
+def test_infill_that_walls_cut_down_to_less_than_a_line_is_told_as_it_is_lost(
+    pattern: str, density: float, size: tuple[float, float, float], tmp_path: Path
+) -> None:
+    """A wall of the pattern along one of the part: what is left of it inside is narrower than a line."""
+    part = box(*size, (100, 100, size[2] / 2))
+    part.export(tmp_path / "part.stl")
+    found = fill(surface(part), pattern, as_="project", density=density, line_width=0.9)
+    save_project(found, tmp_path / "part.3mf", slicer="prusaslicer")
+    settings = {"top_solid_layers": 0, "bottom_solid_layers": 0}
+    whole, _, _ = slicers.prusa_volumes(tmp_path / "part.3mf", tmp_path, **settings)
+    alone, _, _ = slicers.prusa_volumes(tmp_path / "part.stl", tmp_path, **settings, fill_density="0%")
+    reaches = slicers.PERIMETERS - 0.25 * 0.45  # mm from the skin, as infill overlaps perimeters by a quarter of a line
+    room = box(size[0] - 2 * reaches, size[1] - 2 * reaches, size[2], (100, 100, size[2] / 2))
+    printed = sum(whole.values()) - sum(alone.values())
+    narrow = found.report["infill"]["narrow"]
+    assert printed < 0.9 * (solid_of(found.surfaces["infill"]) ^ solid_of(surface(room))).volume()
+    assert narrow is not None
+    assert narrow > 0.05
+    assert any("or is itself as narrow there" in each for each in found.report["problems"])
 
 
 def test_larger_walls_of_a_project_leave_no_gap_between_two_lines() -> None:

@@ -1,4 +1,4 @@
-"""How much of the infill of a project lies where walls leave it less than a line of a slicer."""
+"""How much of the infill of a project is too narrow for a line of a slicer, or lies where there is no room for one."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from infill.surface import Surface
 from infill.surfaces.solids import FINE, solid_of, status_of
 
 SECTIONS = 32
+LEAST_LINE = 0.85  # of a line: what slicers print as one at the least, by their defaults
 
 
-def in_narrow_room(part: Surface, infill: Surface, wall: float, line: float) -> float | None:
-    """Return the share of infill inside the walls that lies in room narrower than a line, or None if that is unknown.
+def too_narrow(part: Surface, infill: Surface, wall: float, line: float) -> float | None:
+    """Return the share of infill inside the walls that slicers print none for, or None if that is unknown.
 
     Parameters
     ----------
@@ -22,16 +23,18 @@ def in_narrow_room(part: Surface, infill: Surface, wall: float, line: float) -> 
     Returns
     -------
     float or None
-        Of horizontal sections; 0 without infill inside the walls, None where manifold3d does not take a surface.
+        Of horizontal sections: the larger of what lies in room narrower than a line, and of what is itself narrower
+        than the thinnest line. 0 without infill inside the walls, None where manifold3d does not take a surface.
 
     Notes
     -----
-    Room is as wide as a line where a disc of that diameter fits: what the opening by such discs leaves of it.
+    A place is as wide as a line where a disc of that diameter fits: what the opening by such discs leaves of it. The
+    two shares are not added up: corners are in either, and slicers print most of those.
 
     >>> import trimesh
     >>> plate, block = trimesh.creation.box((40, 2, 10)), trimesh.creation.box((10, 10, 10))
     >>> plate, block = (Surface(vertices=each.vertices, faces=each.faces) for each in (plate, block))
-    >>> [round(in_narrow_room(part, part, 0.9, 0.45) or 0, 2) for part in (plate, block)]
+    >>> [round(too_narrow(part, part, 0.9, 0.45) or 0, 2) for part in (plate, block)]
     [1.0, 0.0]
     """
     import manifold3d
@@ -40,12 +43,15 @@ def in_narrow_room(part: Surface, infill: Surface, wall: float, line: float) -> 
     if status_of(whole) != FINE or status_of(body) != FINE:
         return None
     around = manifold3d.JoinType.Round
+
+    def opened(section: manifold3d.CrossSection, width: float) -> manifold3d.CrossSection:
+        return section.offset(-width / 2, around).offset(width / 2, around)
+
     low, high = part.bounds[:, 2]
-    there = narrow = 0.0
+    areas = np.zeros(3)  # all, in room as wide as a line, as wide itself
     for z in low + (np.arange(SECTIONS) + 0.5) / SECTIONS * (high - low):
         room = whole.slice(z).offset(-wall, around)
         filled = room ^ body.slice(z)
-        wide = room.offset(-line / 2, around).offset(line / 2, around)
-        there += filled.area()
-        narrow += (filled - wide).area()
-    return narrow / there if there else 0.0
+        areas += [filled.area(), (filled ^ opened(room, line)).area(), opened(filled, LEAST_LINE * line).area()]
+    there, roomy, wide = areas.tolist()
+    return max(0.0, 1 - min(roomy, wide) / there) if there else 0.0

@@ -12,7 +12,7 @@ from infill.filling.solids.drains import trapped
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.narrow import in_narrow_room
+from infill.filling.solids.narrow import too_narrow
 from infill.filling.solids.opening import Opening
 from infill.filling.solids.request import GAP, LINE_WIDTH, Request
 from infill.filling.solids.space import LEAST_OVERLAP
@@ -32,7 +32,7 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
-NARROW = 0.05  # of the infill: if more of it lies where slicers print none, that is told
+NARROW = 0.045  # of the infill: if more of it is where slicers print none, by an estimate, that is told
 AT_ONCE = 200_000  # triangles that manifold3d is shown at a time
 LEAST_WALL = 0.9  # of the wall asked for
 
@@ -109,7 +109,7 @@ class Measured:
         Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
         the widest walls, mm.
     narrow : float or None
-        Share of the infill of a project that lies in room narrower than a line; None if that is not known.
+        Share of the infill of a project that is too narrow for a line, or in room as narrow; None if that is not known.
     """
 
     least: float | None
@@ -151,9 +151,7 @@ def measured(
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
         graded=[] if voids.grading is None else steps(hollow, voids),
-        narrow=in_narrow_room(hollow.space.part, solid, request.wall, LINE_WIDTH)
-        if request.form == "project"
-        else None,
+        narrow=too_narrow(hollow.space.part, solid, request.wall, LINE_WIDTH) if request.form == "project" else None,
         **_ranges(hollow, voids),
     )
 
@@ -231,8 +229,8 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
     if facts.narrow is not None and facts.narrow > NARROW:
         yield (
             f"{facts.narrow:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
-            f"{LINE_WIDTH:g} mm, and slicers print none there; print with fewer perimeters and give their --wall, or "
-            "with so many that they fill such places"
+            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it; shift the pattern by "
+            "--phase, print with fewer perimeters and give their --wall, or with so many that they fill such places"
         )
     if moved > request.tolerance:
         most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
