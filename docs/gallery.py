@@ -1,15 +1,14 @@
-"""Make the gallery of patterns that fill parts, docs/gallery.md and its pictures: ``make gallery``, some minutes."""
+"""Make the gallery of patterns that fill parts, docs/gallery.md and its pictures: ``make gallery``, half an hour."""
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 import trimesh
 from PIL import Image
 
-from infill import Result, Surface, fill
+from infill import InfillError, Result, Surface, fill
 from infill.filling.solids.stages import FillStages
 from infill.inspection.stiffness import Stiffness, stiffness
 from infill.pictures.render import render
@@ -18,13 +17,15 @@ from patterns import PATTERNS, Pattern, parameters
 from patterns.cellular import CELLULAR, InSpace
 from patterns.lightning import LIGHTNING
 from patterns.polyhedra import Polyhedra
-from patterns.unit_cells import Bars, Cellular, Planes, Surfaces
+from patterns.unit_cells import Bars, Cellular, Network, Planes, Surfaces
 
 FOLDER = Path(__file__).parent / "pictures" / "gallery"
 PAGE = Path(__file__).parent / "gallery.md"
 SIDE, WALL, DENSITY = 30.0, 1.2, 0.2  # of the cube, mm
+OTHERS = (0.1, 0.4)  # densities, besides
 FINE = 32  # voxels along a cell, for its stiffness
 AMONG = (0.38, 0.46, 0.57)  # of a voxel: where it is sampled; symmetry would have many points as far away
+OFF = 0.005  # of a density: what is further off is none
 STEEP = np.cos(np.radians(45))  # what hangs over by more than this needs support
 INTRODUCTION = """# Gallery
 
@@ -32,8 +33,11 @@ Every pattern that [fill](fill.md) knows, in a cube of {side:g} mm at {density:.
 Drawings and patterns of your own join them.
 
 * *Cell* and *line* are what gives the density of {density:.0%}, in mm: walls are 0.45 mm wide unless asked otherwise,
-  and bars come from a cell of 8 mm. Another density has another cell: with walls, twice the density is about half the
-  cell. A network's line is its thickest place.
+  and bars come from a cell of 8 mm; [below](#density-against-cell-size) for other densities. A network's line is its
+  thickest place.
+* The *smallest radius* is that of the fillets where walls meet at right angles: 0.25 mm in every pattern, unless
+  `--smooth-radius` asks for another. Where they meet more sharply it is the same; bars that are thinner than six radii
+  have less.
 * *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
   the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
   Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet comes
@@ -46,6 +50,16 @@ Drawings and patterns of your own join them.
 
 | pattern | cell | line | stiffness x | z | weakest | stiffest | overhang | voids |
 |---|---|---|---|---|---|---|---|---|
+"""
+
+SIZES = """## Density against cell size
+
+In the same cube, in mm: the cell of walls 0.45 mm wide, and how thick bars and networks are in cells of 8 mm. Cells
+are no larger than the {room:g} mm inside: walls are thinner then. In a cube as small as this, walls that happen to lie along
+the shell change the cell by up to a tenth. A place is empty where there is no such density.
+
+| pattern | {densities} |
+|---|{lines}
 """
 
 
@@ -101,16 +115,43 @@ def shown(name: str, solid: Surface) -> None:
     picture.quantize(32).save(FOLDER / f"{name}.png", optimize=True)
 
 
-@cache
-def filled(name: str) -> Result[FillStages, FillReport]:
+def filled(name: str, density: float = DENSITY) -> Result[FillStages, FillReport]:
     """Return the cube with a pattern in it."""
-    density = None if name == LIGHTNING.name else DENSITY
-    return fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=density, wall=WALL)
+    asked = None if name == LIGHTNING.name else density
+    return fill(trimesh.creation.box((SIDE, SIDE, SIDE)), name, density=asked, wall=WALL)
 
 
-def entry(name: str, kind: InSpace | type[Pattern]) -> tuple[str, str]:
+def size_at(name: str, kind: InSpace | type[Pattern], density: float) -> str:
+    """Return what gives a density, if anything does."""
+    try:
+        report = filled(name, density).report
+    except InfillError:
+        return ""
+    return size_of(kind, report) if abs(report["density"] - density) < OFF else ""
+
+
+def size_of(kind: InSpace | type[Pattern], report: FillReport) -> str:
+    """Return the cell of walls, or how thick bars are."""
+    sizes = report["infill"]
+    return f"{sizes['line_width']:.2f} thick" if isinstance(kind, Bars | Network) else f"{sizes['cell']:.1f}"
+
+
+def sizes(kinds: dict[str, InSpace | type[Pattern]], usual: dict[str, str]) -> str:
+    """Return the table of sizes at some densities, of which one is known."""
+    densities = sorted({DENSITY, *OTHERS})
+    rows = []
+    for name, size in usual.items():
+        columns = [size if each == DENSITY else size_at(name, kinds[name], each) for each in densities]
+        rows.append(f"| [{name}](#{name}) | {' | '.join(columns)} |")
+        print(rows[-1], flush=True)
+    head = SIZES.format(
+        room=SIDE - 2 * WALL, densities=" | ".join(f"{each:.0%}" for each in densities), lines="---|" * len(densities)
+    )
+    return head + "\n".join(rows) + "\n"
+
+
+def entry(name: str, kind: InSpace | type[Pattern], result: Result[FillStages, FillReport]) -> tuple[str, str]:
     """Return the row and the section of a pattern, and write its picture."""
-    result = filled(name)
     shown(name, result.surface)
     sizes, voids = result.report["infill"], result.report["voids"]["count"]
     found = stiffness(cell_of(kind)) if isinstance(kind, Cellular) else None
@@ -130,15 +171,22 @@ def main() -> None:
         **CELLULAR,
         **{name: kind for name, kind in PATTERNS.built_in.items() if kind.prismatic},
     }
-    rows, sections = [], []
+    rows, sections, light = [], [], 0.0
+    usual = {}
     for name, kind in kinds.items():
-        row, section = entry(name, kind)
+        result = filled(name)
+        row, section = entry(name, kind, result)
+        if name == LIGHTNING.name:
+            light = result.report["density"]
+        else:
+            usual[name] = size_of(kind, result.report)
         rows.append(row)
         sections.append(section)
         print(row, flush=True)
-    light = filled(LIGHTNING.name).report["density"]
     head = INTRODUCTION.format(side=SIDE, density=DENSITY, fine=FINE, light=light)
-    PAGE.write_text(head + "\n".join(rows) + "\n\n" + "\n".join(sections), encoding="utf-8")
+    PAGE.write_text(
+        head + "\n".join(rows) + "\n\n" + sizes(kinds, usual) + "\n" + "\n".join(sections), encoding="utf-8"
+    )
 
 
 GIVEN = ("cell", "angle", "phase", "frame")  # options of the command, or of no use in a part
