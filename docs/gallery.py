@@ -55,8 +55,8 @@ Drawings and patterns of your own join them.
 SIZES = """## Density against cell size
 
 In the same cube, in mm: the cell of walls 0.45 mm wide, and how thick bars and networks are in cells of 8 mm. Cells
-are no larger than the {room:g} mm inside: walls are thinner then. In a cube as small as this, walls that happen to lie along
-the shell change the cell by up to a tenth. A place is empty where there is no such density.
+are no larger than the {room:g} mm inside: walls are thinner then. In a cube as small as this, walls that happen to
+lie along the shell change the cell by up to a tenth. A place is empty where there is no such density.
 
 | pattern | {densities} |
 |---|{lines}
