@@ -22,11 +22,10 @@ from benchmarks.fill_parts import FOLDER, PATTERNS
 from benchmarks.pairs import row
 from infill import Surface, check_project, read_mesh
 from infill.surfaces.solids import FINE, solid_of, status
-from tests.slicers import FILLED_SETTINGS, PERIMETERS, missing_prusa, prusa_volumes
+from tests.slicers import FILLED_SETTINGS, OVERLAP, PERIMETERS, missing_prusa, prusa_volumes
 
 LAYER = float(str(FILLED_SETTINGS["layer_height"]))
 LINE = 0.45  # mm
-OVERLAP = 0.25 * LINE  # the slicer's default
 BED = {"bed_shape": "0x0,400x0,400x400,0x400", "max_print_height": 400}
 OPEN = {**BED, "top_solid_layers": 0, "bottom_solid_layers": 0, "infill_overlap": f"{OVERLAP / LINE:.0%}"}
 SLOW = 1200  # seconds that the slicer may take: it has 1,778 layers in the tallest part

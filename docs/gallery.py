@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 from PIL import Image
 
-from infill import InfillError, Result, Surface, fill
+from infill import GeometryError, Result, Surface, fill
 from infill.filling.solids.stages import FillStages
 from infill.inspection.stiffness import Stiffness, stiffness
 from infill.pictures.render import render
@@ -35,8 +35,8 @@ Drawings and patterns of your own join them.
 * *Cell* and *line* are what gives the density of {density:.0%}, in mm: walls are 0.45 mm wide unless asked otherwise,
   and bars come from a cell of 8 mm; [below](#density-against-cell-size) for other densities. A network's line is its
   thickest place.
-* The *smallest radius* is that of the fillets where walls meet at right angles: 0.25 mm in every pattern, unless
-  `--smooth-radius` asks for another. Where they meet more sharply it is the same; bars that are thinner than six radii
+* The *smallest radius* is the one asked for, of the fillets where walls meet: 0.25 mm in every pattern, unless
+  `--smooth-radius` says another. It is kept where the grid has four cells to it; bars that are thinner than six radii
   have less.
 * *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
   the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
@@ -125,7 +125,7 @@ def size_at(name: str, kind: InSpace | type[Pattern], density: float) -> str:
     """Return what gives a density, if anything does."""
     try:
         report = filled(name, density).report
-    except InfillError:
+    except GeometryError:
         return ""
     return size_of(kind, report) if abs(report["density"] - density) < OFF else ""
 
@@ -136,7 +136,7 @@ def size_of(kind: InSpace | type[Pattern], report: FillReport) -> str:
     return f"{sizes['line_width']:.2f} thick" if isinstance(kind, Bars | Network) else f"{sizes['cell']:.1f}"
 
 
-def sizes(kinds: dict[str, InSpace | type[Pattern]], usual: dict[str, str]) -> str:
+def size_table(kinds: dict[str, InSpace | type[Pattern]], usual: dict[str, str]) -> str:
     """Return the table of sizes at some densities, of which one is known."""
     densities = sorted({DENSITY, *OTHERS})
     rows = []
@@ -185,7 +185,7 @@ def main() -> None:
         print(row, flush=True)
     head = INTRODUCTION.format(side=SIDE, density=DENSITY, fine=FINE, light=light)
     PAGE.write_text(
-        head + "\n".join(rows) + "\n\n" + sizes(kinds, usual) + "\n" + "\n".join(sections), encoding="utf-8"
+        head + "\n".join(rows) + "\n\n" + size_table(kinds, usual) + "\n" + "\n".join(sections), encoding="utf-8"
     )
 
 

@@ -62,6 +62,7 @@ FILLED_SETTINGS = {
     "bottom_solid_layers": 3,
 }
 PERIMETERS = 0.857  # mm that two of them take: they overlap where their sides are round
+OVERLAP = 0.25 * 0.45  # mm that infill reaches into them, by PrusaSlicer's default: a quarter of a line
 
 # CuraEngine takes the definitions' plain defaults and evaluates none of their formulas: what follows from the
 # layer height or from "no infill" is set by hand. The line width stays at its default, 0.4 mm: CuraEngine 4 prints

@@ -135,12 +135,13 @@ def test_walls_that_are_one_line_are_told() -> None:
     assert any("less than two lines" in each for each in report["problems"])
 
 
-def test_walls_in_small_parts_stay_as_wide_as_two_lines() -> None:
+@pytest.mark.parametrize(("side", "narrow"), [(6.0, [True]), (8.0, [])])
+def test_walls_in_small_parts_stay_as_wide_as_two_lines(side: float, narrow: list[bool]) -> None:
     """As in a screw that two perimeters all but fill: narrower walls would not be printed."""
-    report = fill(box(8, 8, 10), as_="project", density=0.2).report
+    report = fill(box(side, side, 10), as_="project", density=0.2).report
     assert report["infill"]["line_width"] == pytest.approx(0.9, rel=0.06)
     assert report["density"] == pytest.approx(0.2, abs=0.005)
-    assert report["problems"] == []
+    assert ["or is itself as narrow there" in each for each in report["problems"]] == narrow
 
 
 def test_walls_that_slicers_leave_out_are_told() -> None:
@@ -180,7 +181,7 @@ def test_infill_that_walls_cut_down_to_less_than_a_line_is_told_as_it_is_lost(
     settings = {"top_solid_layers": 0, "bottom_solid_layers": 0}
     whole, _, _ = slicers.prusa_volumes(tmp_path / "part.3mf", tmp_path, **settings)
     alone, _, _ = slicers.prusa_volumes(tmp_path / "part.stl", tmp_path, **settings, fill_density="0%")
-    reaches = slicers.PERIMETERS - 0.25 * 0.45  # mm from the skin, as infill overlaps perimeters by a quarter of a line
+    reaches = slicers.PERIMETERS - slicers.OVERLAP
     room = box(size[0] - 2 * reaches, size[1] - 2 * reaches, size[2], (100, 100, size[2] / 2))
     printed = sum(whole.values()) - sum(alone.values())
     narrow = found.report["infill"]["narrow"]

@@ -8,7 +8,7 @@ from infill.surface import Surface
 from infill.surfaces.solids import FINE, solid_of, status_of
 
 SECTIONS = 32
-LEAST_LINE = 0.85  # of a line: what slicers print as one at the least, by their defaults
+LEAST_LINE = 0.85  # of a line: of 0.25 to 1, what best foretold the losses above 5 % when PrusaSlicer sliced parts
 
 
 def too_narrow(part: Surface, infill: Surface, wall: float, line: float) -> float | None:
