@@ -479,7 +479,9 @@ class FillSizes(TypedDict):
     radius: float
     cells: list[float] | None
     widths: list[float] | None
+    phase: Vector
     narrow: float | None
+    left_out: float
 
 
 class FillPart(TypedDict):
@@ -567,6 +569,7 @@ class FillSeconds(TypedDict):
     depth: float
     voids: float
     simplify: float
+    shift: NotRequired[float]
     check: float
     total: float
 

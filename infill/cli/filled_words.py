@@ -69,6 +69,11 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         if request["grade"] == "cell":
             (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
             rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
+    if infill["phase"] != request["phase"]:
+        shift = ", ".join(f"{each:.3g}" for each in infill["phase"])
+        rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"
+    if request["form"] == "project" and infill["left_out"]:
+        rows["left out"] = f"{infill['left_out']:.3g} mm³ that is too narrow for slicers"
     if voids["islands"]:
         rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
     if report["problems"]:

@@ -71,8 +71,10 @@ def shortened(surface: Surface, tolerance: float) -> Surface:
     solid = solid_of(surface)
     if status_of(solid) != FINE:
         return surface
-    for share in SHARES:
-        few = replace(surface_from(solid.simplify(share * MOVED * tolerance)), space=surface.space)
+    for share in (*SHARES, 0.0):
+        few = surface
+        if share:
+            few = replace(surface_from(solid.simplify(share * MOVED * tolerance)), space=surface.space)
         if (twins := in_one_place(few)).any():
             few = _moved_inwards(few, twins, ASIDE * tolerance)
         if few.closed and not in_one_place(few).any():

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from infill.errors import GeometryError
 from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.drains import drained
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.inside import SHARE, inner_side
 from infill.filling.solids.opening import between, cut_open
+from infill.filling.solids.projected import Projected, projected
 from infill.filling.solids.request import TOLERANCE, Request, checked
 from infill.filling.solids.sizing import on_grid_of
 from infill.filling.solids.space import Space
@@ -31,7 +31,6 @@ from infill.result import Clock, Progress, Result
 from infill.surface import Surface
 from infill.surfaces.merging import surface_of
 from infill.surfaces.parting import joined
-from infill.surfaces.solids import shortened, without
 from infill.version import __version__
 
 if TYPE_CHECKING:
@@ -40,8 +39,6 @@ if TYPE_CHECKING:
     from infill.report_keys import FillReport
 
 FORM = 1
-SHORT = 1e-3  # mm: edges of the infill of a project are longer than that, or nearly
-INTO_WALL = 0.75  # how far infill reaches into the walls of a part from which it cannot be cut
 
 
 def fill(
@@ -193,10 +190,15 @@ def filled(
 ) -> Result[FillStages, FillReport]:
     """Return a part that is filled as a request says: see `fill`."""
     clock, request = Clock(progress), on_grid_of(request, given.bounds)
-    voids = voids_of(request, given.bounds, threads)
-    hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+    project = None
+    if request.form == "project":
+        project = projected(given, request, clock=clock, threads=threads, max_memory=max_memory)
+        voids, hollow = project.voids, project.hollow
+    else:
+        voids = voids_of(request, given.bounds, threads)
+        hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
-        result, report, hollow = _result(given, hollow, voids, request, threads)
+        result, report, hollow = _result(given, hollow, voids, request, threads, project)
     report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
@@ -204,12 +206,17 @@ def filled(
 
 
 def _result(
-    given: Surface, hollow: Hollow, pattern: Voids, request: Request, threads: int | None
+    given: Surface,
+    hollow: Hollow,
+    pattern: Voids,
+    request: Request,
+    threads: int | None,
+    project: Projected | None,
 ) -> tuple[Surface, dict[str, Any], Hollow]:
     """Return the surface that was asked for, the report, and the voids, what was left out of it included."""
     space, voids = hollow.space, hollow.surface
-    if request.form == "project":
-        solid = outer = _through_walls(space, hollow.surfaces, request, threads)
+    if project is not None:
+        solid = outer = project.infill
     else:
         outer = space.part if request.form == "solid" else _inside(space, request, threads)
         if space.opening is None:
@@ -221,6 +228,7 @@ def _result(
     if request.drain is not None and len(hollow.shut.faces):
         solid, drains = drained(solid, space.part, hollow.shut, request.drain)
     facts = measured(solid, outer, hollow, pattern, request, threads=threads)
+    narrow = None if project is None else project.narrow
     bounds = solid.bounds
     report = {
         "form": FORM,
@@ -233,7 +241,7 @@ def _result(
         "bounds": bounds.tolist(),
         "volume": solid.volume,
         "density": hollow.density,
-        "problems": list(problems(request, hollow, facts)),
+        "problems": list(problems(request, hollow, facts, narrow)),
         "request": request.facts(),
         "grid": {
             "shape": list(space.shape),
@@ -253,7 +261,9 @@ def _result(
             "radius": request.radius(space.thickness),
             "cells": facts.cells,
             "widths": facts.widths,
-            "narrow": facts.narrow,
+            "phase": list(request.phase if project is None else project.phase),
+            "narrow": None if narrow is None else narrow.all,
+            "left_out": hollow.loose,
         },
         "graded": facts.graded,
         "part": {
@@ -284,20 +294,3 @@ def _inside(space: Space, request: Request, threads: int | None) -> Surface:
     near = min(SHARE * request.tolerance, request.overlap / 2)
     found = inner_side(space, overlap=request.overlap, tolerance=near, threads=threads)
     return found if space.opening is None else between(found, space.opening, space.size)
-
-
-def _through_walls(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:
-    """Return the surface of what the voids leave of the part, or of most of it, if manifold3d does not take that.
-
-    Where voids meet the skin, they leave edges so short that single precision, as files have it, takes their ends for
-    one place: such edges are taken out.
-    """
-    found = without(space.part, voids)
-    if found is None:
-        inside = inner_side(
-            space, overlap=INTO_WALL * request.wall, tolerance=SHARE * request.tolerance, threads=threads
-        )
-        found = without(inside, voids)
-    if found is None or not len(found.faces):
-        raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
-    return shortened(found, SHORT)

@@ -51,7 +51,7 @@ class Hollow:
     walls : Surface or None, mm
         The inner side of the walls, if voids reach through them.
     loose : float
-        mm³ of infill that hung free where the part was cut open, and was left out.
+        mm³ of infill that was left out: what hung free where the part was cut open, or slicers print none for.
     unmade : Unmade or None
         What is known in place of surfaces.
     """
@@ -111,7 +111,7 @@ class Hollow:
             return self.loose + sum(opening.volume(surface) for surface in self.surfaces)
         if self.walls is None:
             return sum(volume_and_area(surface)[0] for surface in self.surfaces)
-        return sum(volume_within(surface, self.walls) for surface in self.surfaces)
+        return self.loose + sum(volume_within(surface, self.walls) for surface in self.surfaces)
 
     @cached_property
     def median(self) -> tuple[float | None, int]:
@@ -122,4 +122,14 @@ class Hollow:
     @property
     def density(self) -> float:
         """Solid share of what lies inside the walls."""
-        return 1 - self.volume / (self.space.volume if self.walls is None else self.walls.volume)
+        return 1 - self.volume / self._room
+
+    @property
+    def density_before(self) -> float:
+        """That before anything was left out."""
+        return 1 - (self.volume - self.loose) / self._room
+
+    @cached_property
+    def _room(self) -> float:
+        """What lies inside the walls, mm³."""
+        return self.space.volume if self.walls is None else self.walls.volume

@@ -12,7 +12,7 @@ from infill.filling.solids.drains import trapped
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
-from infill.filling.solids.narrow import too_narrow
+from infill.filling.solids.narrow import NARROW, Narrow
 from infill.filling.solids.opening import Opening
 from infill.filling.solids.request import GAP, LINE_WIDTH, Request
 from infill.filling.solids.space import LEAST_OVERLAP
@@ -32,7 +32,6 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
-NARROW = 0.045  # of the infill: if more of it is where slicers print none, by an estimate, that is told
 AT_ONCE = 200_000  # triangles that manifold3d is shown at a time
 LEAST_WALL = 0.9  # of the wall asked for
 
@@ -108,8 +107,6 @@ class Measured:
     cells, widths : list of float or None
         Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
         the widest walls, mm.
-    narrow : float or None
-        Share of the infill of a project that is too narrow for a line, or in room as narrow; None if that is not known.
     """
 
     least: float | None
@@ -124,7 +121,6 @@ class Measured:
     graded: list[dict[str, float]]
     cells: list[float] | None = None
     widths: list[float] | None = None
-    narrow: float | None = None
 
 
 def measured(
@@ -151,7 +147,6 @@ def measured(
         drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
         wanted=wanted(request, hollow.space, voids),
         graded=[] if voids.grading is None else steps(hollow, voids),
-        narrow=too_narrow(hollow.space.part, solid, request.wall, LINE_WIDTH) if request.form == "project" else None,
         **_ranges(hollow, voids),
     )
 
@@ -186,7 +181,7 @@ def near(width: float, asked: float) -> bool:
     return abs(width / asked - 1) <= OFF_WIDTH
 
 
-def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]:
+def problems(request: Request, hollow: Hollow, facts: Measured, lost: Narrow | None = None) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
     if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
@@ -204,10 +199,10 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
                 f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
                 "little room for cells of such sizes beside one another; give densities that are nearer to one another"
             )
-    if hollow.density < LEAST_LEFT * facts.drawn:
+    if (left := hollow.density_before) < LEAST_LEFT * facts.drawn:
         yield (
-            f"of the infill, {facts.drawn:.1%} as drawn, {hollow.density:.1%} is left: walls or bars are too thin for "
-            "the grid, or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
+            f"of the infill, {facts.drawn:.1%} as drawn, {left:.1%} is left: walls or bars are too thin for the grid, "
+            "or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
     if request.line_width is not None and request.grading is None and not near(facts.width, request.line_width):
         yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
@@ -226,11 +221,12 @@ def problems(request: Request, hollow: Hollow, facts: Measured) -> Iterator[str]
             f"walls inside are {facts.width:.2g} mm wide, more than two lines of a usual nozzle and less than three: "
             f"slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or {GAP[1]:g} or more"
         )
-    if facts.narrow is not None and facts.narrow > NARROW:
+    if lost is not None and lost.all > NARROW:
+        done = ", so that was left out" if hollow.loose else ""
         yield (
-            f"{facts.narrow:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
-            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it; shift the pattern by "
-            "--phase, print with fewer perimeters and give their --wall, or with so many that they fill such places"
+            f"{lost.all:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
+            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it{done}; shift the pattern "
+            "by --phase, print with fewer perimeters and give their --wall, or with so many that they fill such places"
         )
     if moved > request.tolerance:
         most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
