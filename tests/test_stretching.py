@@ -180,6 +180,17 @@ def test_the_local_density_follows_a_linear_field(ramp: Any) -> None:
     assert report["request"]["grade"] == "cell"
 
 
+def test_densities_that_are_told_are_those_of_the_mesh() -> None:
+    """Of thin walls too, in cells of the grid as wide as they are: which centres are solid says something else."""
+    found = fill(box(90, 24, 24), density=(0.1, 0.4), by="x", grade="cell", voxel=0.9, wall=WALL)
+    long, side = 90 - 2 * WALL, 24 - 2 * WALL
+    voids = solid_of(found.stages.voids)
+    for third, step in enumerate(found.report["graded"]):
+        slab = manifold3d.Manifold.cube([long / 3, side, side], True).translate([(third - 1) * long / 3, 0, 0])
+        assert step["wanted"] == pytest.approx(0.1 + 0.3 * (third + 0.5) / 3, abs=0.003)
+        assert step["density"] == pytest.approx(1 - (voids ^ slab).volume() / slab.volume(), abs=0.006)
+
+
 def test_walls_are_as_wide_above_as_below(ramp: Any) -> None:
     """Measured across them in the finished mesh, in the lowest and in the highest third."""
     part, voids, third = ramp.stages.part, ramp.stages.voids, 2 * CELL

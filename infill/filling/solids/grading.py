@@ -18,6 +18,7 @@ Varies = Literal["width", "cell"]
 NODES = 48  # along the longest side of a part: where the field is asked for; it is straight in between
 TABLE = 9  # densities of which widths are computed; they are straight in between
 AT_ONCE = 100_000
+SAMPLES = 20_000  # cells at which a field is asked for, to know where it is lowest and highest
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -132,7 +133,10 @@ class Grading:
         inside = _inside(space, points)
         if not np.isfinite(found[inside]).all():
             raise GeometryError(f"by is {self.name}, which is not finite everywhere in the part; check it")
-        low, high = float(found[inside].min()), float(found[inside].max())
+        drawn, outermost = _drawn(space)
+        drawn, outermost = (self.by.at(space.origin + space.size * each, space) for each in (drawn, outermost))
+        known = np.concatenate([found[inside], drawn, outermost])
+        low, high = float(np.nanmin(known)), float(np.nanmax(known))
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
             raise GeometryError(
                 f"by is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
@@ -149,7 +153,7 @@ class Grading:
         return Local(
             ratio=ratio.astype(np.float32),
             step=step,
-            mean=float(shares[inside].mean()),
+            mean=self.first + (self.last - self.first) * float(np.nanmean((drawn - low) / (high - low))),
             shares=shares.reshape(counts).astype(np.float32),
             within=inside.reshape(counts),
             spline=spline,
@@ -166,6 +170,17 @@ def _inside(space: Space, points: NDArray[np.float64]) -> NDArray[np.bool_]:
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
     inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
+
+
+def _drawn(space: Space) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return cells inside the walls that are drawn by chance, (N, 3), and the outermost along each axis and deepest."""
+    cells = np.argwhere(space.within)
+    if not len(cells):
+        cells = np.argwhere(np.ones(space.depth.shape, dtype=bool))
+    deepest = np.array(np.unravel_index(int(space.depth.argmax()), space.depth.shape))[None]
+    outermost = cells[np.concatenate([cells.argmin(axis=0), cells.argmax(axis=0)])]
+    drawn = cells[np.random.default_rng(0).integers(len(cells), size=SAMPLES)]
+    return drawn.astype(np.float64), np.concatenate([outermost, deepest]).astype(np.float64)
 
 
 NONE = (np.ones((1, 1, 1), dtype=np.float32), 1.0)  # walls of one width everywhere, as kernels take it

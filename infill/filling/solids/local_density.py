@@ -10,21 +10,34 @@ from infill.filling.solids.space import Space
 from infill.surface import Surface
 from infill.voxels.scanlines import crossings, filled
 
-SAMPLES = 200_000  # cells
+SAMPLES = 200_000
+SHIFTS = (  # of a cell: in all of its octants but opposite ones, and so in all of every side of it
+    (-0.375, -0.125, 0.125),
+    (0.125, 0.375, -0.375),
+    (-0.125, 0.125, 0.375),
+    (0.375, -0.375, -0.125),
+)
 Floats = NDArray[np.float64]
 
 
 def densities_by_share(space: Space, voids: Surface, local: Local, count: int, *, mean: float) -> tuple[Floats, Floats]:
     """Return what was asked for on average, and what is there, in equal numbers of cells drawn by chance: (count,).
 
-    Whether the centre of a cell is solid is asked of the meshes of the voids. Along the walls, more centres or fewer
-    are in than volume is, as the grid happens to lie: so voids are scaled to leave the mean density.
+    Whether a place is solid is asked of the meshes of the voids, on grids that are shifted by parts of a cell: vertices
+    of the meshes lie between the centres of cells, which say of thin walls that they are thicker or thinner. Voids are
+    scaled to leave the mean density, for what chance there still is.
     """
-    corners, shape = (np.asarray(voids.vertices, dtype=np.float64) - space.origin) / space.size, space.depth.shape
-    void = filled(crossings(corners, voids.faces, shape), shape)
-    inside = np.argwhere(space.within)
-    cells = inside[np.random.default_rng(0).integers(len(inside), size=SAMPLES)]
-    shares, solid = _between(local.shares, cells / local.step), ~void[tuple(cells.T)]
+    depth, corners = space.depth, (np.asarray(voids.vertices, dtype=np.float64) - space.origin) / space.size
+    near = np.argwhere((depth > -1) & (space.shares >= 0.5))  # within a cell of what lies inside the walls
+    cells = near[np.random.default_rng(0).integers(len(near), size=SAMPLES)]
+    places, solid = cells.astype(np.float64), np.empty(SAMPLES, dtype=bool)
+    for shift, some in zip(SHIFTS, np.array_split(np.arange(SAMPLES), len(SHIFTS)), strict=True):
+        void = filled(crossings(corners - shift, voids.faces, depth.shape), depth.shape)
+        solid[some] = ~void[tuple(cells[some].T)]
+        places[some] += shift
+    inside = _between(depth, places) > 0
+    places, solid = places[inside], solid[inside]
+    shares = _between(local.shares, places / local.step)
     order = np.array_split(np.argsort(shares), count)
     larger = (1 - mean) / max(1 - float(solid.mean()), 1e-9)
     return (
@@ -37,5 +50,5 @@ def _between(nodes: NDArray[np.float32], at: Floats) -> Floats:
     """Return the values between nodes, straight."""
     from scipy.ndimage import map_coordinates
 
-    found: Floats = map_coordinates(nodes.astype(np.float64), at.T, order=1, mode="nearest")
+    found: Floats = map_coordinates(nodes, at.T, output=np.float64, order=1, mode="nearest")
     return found
