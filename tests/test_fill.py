@@ -527,6 +527,15 @@ def test_far_from_the_origin() -> None:
     assert there["problems"] == []
 
 
+@pytest.mark.parametrize("voxel", [0.01, 0.02, 0.023])
+def test_fillets_are_small_in_small_parts_however_their_walls_lie_on_the_grid(voxel: float) -> None:
+    """Walls that lie between two layers of cells, as near to one as to the other, have an area too."""
+    report = fill(box(1, 1, 1), wall=0.1, voxel=voxel, tolerance=0.0).report
+    assert report["infill"]["radius"] == pytest.approx(0.8 / 3 / 6, rel=0.02)  # a cube of 0.8 mm: V over A is a sixth
+    assert report["density"] == pytest.approx(0.2, abs=0.01)
+    assert report["walls"]["least"] == pytest.approx(0.1, abs=0.01)
+
+
 def test_a_part_smaller_than_a_cell_has_thinner_walls_instead() -> None:
     result = fill(box(6, 5, 4), "gyroid", density=0.1, wall=0.8)
     assert result.report["problems"] == []

@@ -113,8 +113,8 @@ def hollowed(
             sizes, voxel = more, coarser
     if not found.surfaces:
         raise GeometryError(
-            f"the pattern leaves no void inside walls of {request.wall:g} mm; give larger cells, a lower density or a "
-            "thinner wall"
+            f"the pattern leaves no void inside walls of {request.wall:g} mm; give larger cells, narrower lines, a "
+            "lower density or a thinner wall"
         )
     if found.triangles > room:
         with clock.stage("simplify", 0.8):

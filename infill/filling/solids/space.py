@@ -164,10 +164,11 @@ class Space:
     @cached_property
     def thickness(self) -> float:
         """How thick what lies inside the walls is, mm: as a plate with this volume and surface would be."""
-        cells = 0
+        cells = 0.0
         for first, slab in self.layers.each():
             some = self.shares[first : first + slab.shape[2]] > 0
-            cells += sum(int((np.abs(layer[:, some]) < 0.5).sum()) for layer in slab)
+            # Weights add up to 1 across a plane wherever it lies between the cells.
+            cells += sum(float(np.clip(1 - np.abs(layer[:, some]), 0, None).sum(dtype=np.float64)) for layer in slab)
         area = cells * self.size**2
         return 2 * self.volume / max(area, self.size**2)
 
