@@ -145,7 +145,7 @@ def fill(
         typer.Option(
             metavar="MM MM MM",
             show_default=False,
-            help="Shifts the pattern in x, y and z. (default: 0 0 0)",
+            help="Shifts the pattern in x, y and z. (default: 0 0 0; in a project, to where slicers print it)",
             rich_help_panel=PATTERN,
         ),
     ] = (0.0, 0.0, 0.0),

@@ -106,7 +106,7 @@ def fill(
     angle : float
         Turns the pattern counter-clockwise about z, degrees.
     phase : (x, y) or (x, y, z)
-        Shifts the pattern, mm.
+        Shifts the pattern, mm. In a project that has none, a pattern of which slicers would print little is shifted.
     drain : float, optional
         Diameter of a hole straight down from the lowest place of every void, mm; by default there is none.
         Voids that are open need none.

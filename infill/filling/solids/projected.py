@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 from infill.errors import GeometryError, ParameterError
 from infill.filling.solids.choosing import voids_of
@@ -96,7 +97,7 @@ def projected(
 
     found = placed(request, clock)
     if _may_be_shifted(found, request):
-        found = min([found, *_shifted(found, request, placed, clock)], key=lambda each: each.lost)
+        found = min(chain([found], _shifted(found, request, placed, clock)), key=lambda each: each.lost)
     # Shifted, a pattern has little infill in a part, and what is lost of that is soon a twentieth.
     most = NARROW if found.phase == request.phase else HARDLY
     return _printable(found, request) if found.narrow is not None and found.narrow.all > most else found
