@@ -569,7 +569,7 @@ class FillSeconds(TypedDict):
     depth: float
     voids: float
     simplify: float
-    shift: NotRequired[float]
+    shift: float
     check: float
     total: float
 

@@ -199,7 +199,7 @@ def filled(
         hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
         result, report, hollow = _result(given, hollow, voids, request, threads, project)
-    report["seconds"] = {**clock.seconds, "total": sum(clock.seconds.values())}
+    report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
     return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
