@@ -73,7 +73,7 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         shift = ", ".join(f"{each:.3g}" for each in infill["phase"])
         rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"
     if request["form"] == "project" and infill["left_out"]:
-        rows["left out"] = f"{infill['left_out']:.3g} mm³ that is too narrow for slicers"
+        rows["too narrow"] = f"{infill['left_out']:.3g} mm³ of infill, left out: slicers would print none of it"
     if voids["islands"]:
         rows["left out"] = f"{voids['islands']:,} piece(s) of infill that would have hung free"
     if report["problems"]:

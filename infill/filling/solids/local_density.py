@@ -11,7 +11,7 @@ from infill.surface import Surface
 from infill.voxels.scanlines import crossings, filled
 
 SAMPLES = 200_000
-SHIFTS = (  # of a cell: in all of its octants but opposite ones, and so in all of every side of it
+SHIFTS = (  # of a cell: along every axis, the middles of its four quarters
     (-0.375, -0.125, 0.125),
     (0.125, 0.375, -0.375),
     (-0.125, 0.125, 0.375),

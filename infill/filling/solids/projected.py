@@ -28,8 +28,8 @@ from infill.surfaces.solids import shortened, volume_within, without
 SHORT = 1e-3  # mm: edges of the infill of a project are longer than that, or nearly
 INTO_WALL = 0.75  # how far infill reaches into the walls of a part from which it cannot be cut
 # Of a line, and of walls: PrusaSlicer prints plates of 0.45 mm with lines of 0.45 mm, and none of 0.4 mm; but where a
-# wall of a part cuts through a wall of the pattern, it drops what is narrower than two of its thinnest lines.
-# Of thinner walls, it prints most as they are.
+# wall of a part cuts through a wall of the pattern, it drops more. Without what is narrower than 0.6 mm, of 0.5 to 0.72
+# that were tried, bodies were nearest to what it extrudes. Of thinner walls, it prints most as they are.
 LEAST_LINE, LEAST_LINES, LEAST_WIDTH = 0.9, 4 / 3, 0.9
 MUCH = 0.1  # of the infill: if more of it is lost, the pattern is shifted, until hardly any is
 HARDLY = 0.02
@@ -134,7 +134,7 @@ def _printable(found: Projected, request: Request) -> Projected:
     if walls is None or kept is found.infill:
         return found
     left = volume_within(kept, walls)
-    if not left:
+    if not left > 0:  # nan too
         return found
     out = volume_within(found.infill, walls) - left
     return replace(found, infill=shortened(kept, SHORT), hollow=replace(hollow, loose=out))

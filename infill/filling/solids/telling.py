@@ -199,7 +199,8 @@ def problems(request: Request, hollow: Hollow, facts: Measured, lost: Narrow | N
                 f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
                 "little room for cells of such sizes beside one another; give densities that are nearer to one another"
             )
-    if (left := hollow.density_before) < LEAST_LEFT * facts.drawn:
+    left = hollow.density_before if request.form == "project" else hollow.density
+    if left < LEAST_LEFT * facts.drawn:
         yield (
             f"of the infill, {facts.drawn:.1%} as drawn, {left:.1%} is left: walls or bars are too thin for the grid, "
             "or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
