@@ -19,6 +19,7 @@ from test_command_line import run as command
 from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
+from infill.filling.solids import telling
 from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.drains import falls
 from infill.filling.solids.grading import NONE
@@ -85,7 +86,7 @@ def test_a_filled_part_is_the_part_without_voids_that_keep_their_distance(patter
     assert len(deep) > 3000
     assert np.mean(winding(deep, voids) == 0) == pytest.approx(0.25, abs=0.025)  # three times what chance does
     # The wall, from both sides.
-    assert least_wall(surface(part), voids, 2)[0] >= 0.9 * 1.2
+    assert least_wall(surface(part), [voids], 2)[0] >= 0.9 * 1.2
     skin = trimesh.sample.sample_surface(part, 5000, seed=2)[0]
     assert Tree.of(voids).nearest(skin)[0].min() >= 0.9 * 1.2
     assert not winding(points[(away > 0) & (away < 0.9 * 1.2)][:2000], voids).any()
@@ -826,15 +827,19 @@ def test_volumes_between_open_sides_are_those_of_cut_solids() -> None:
 # --- what is told ------------------------------------------------------------------------------------------------------
 
 
-def test_a_thin_wall_and_a_void_outside_are_found() -> None:
+def test_a_thin_wall_and_a_void_outside_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Planted: voids that are moved towards the skin, and through it."""
     part = surface(box(20, 20, 20))
     voids = fill(part, "gyroid", **FEW).stages.voids
-    assert least_wall(part, voids, 1)[0] >= 0.9 * 1.5
+    assert least_wall(part, [voids], 1)[0] >= 0.9 * 1.5
     nearer = replace(voids, vertices=voids.vertices + np.array([1.0, 0, 0]))
-    least, at = least_wall(part, nearer, 1)
+    least, at = least_wall(part, [nearer], 1)
     assert 0.3 < least < 0.6
     assert at[0] == pytest.approx(10 - least, abs=0.01)
+    points = np.concatenate([nearer.vertices, nearer.vertices[nearer.faces].mean(axis=1)])
+    assert least == pytest.approx(Tree.of(part).nearest(points)[0].min(), rel=1e-12)
+    monkeypatch.setattr(telling, "AT_ONCE", 700)
+    assert least_wall(part, [nearer], 1)[0] == least
     assert outside(part, [voids], 1) == 0
     assert outside(part, [replace(voids, vertices=voids.vertices + np.array([40.0, 0, 0]))], 1) > 0
 

@@ -19,7 +19,7 @@ from infill.kernels import quadrics
 from infill.surface import Surface
 from infill.surfaces import collapsing
 from infill.surfaces.collapsing import Table, collapsed
-from infill.surfaces.distance import Tree
+from infill.surfaces.distance import LEAF, Tree
 from infill.surfaces.intersections import self_intersections
 from infill.surfaces.mending import MANY, mended
 from infill.surfaces.simplification import simplified
@@ -347,6 +347,22 @@ def test_the_nearest_triangle_is_found_whatever_came_before_and_any_that_is_near
     assert (near >= away - 1e-12).all()
     np.testing.assert_array_equal(near <= 1.0, away <= 1.0)
     np.testing.assert_allclose(near[near > 1.0], away[near > 1.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 8, 9, 16, 17, 31])
+def test_boxes_of_a_tree_hold_what_is_below_them(count: int) -> None:
+    vertices = np.random.default_rng(count).uniform(-3, 3, (count, 3, 3))
+    tree = Tree.of(Surface(vertices=vertices.reshape(-1, 3), faces=np.arange(3 * count).reshape(-1, 3)))
+    np.testing.assert_array_equal(tree.corners, vertices[tree.order])
+    np.testing.assert_array_equal(np.sort(tree.order), np.arange(count))
+    leaves = (len(tree.low) + 1) // 2
+    for box in range(len(tree.low)):
+        first, held = box, 1
+        while first < leaves - 1:
+            first, held = 2 * first + 1, 2 * held
+        below = tree.corners[LEAF * (first - leaves + 1) :][: LEAF * held].reshape(-1, 3)
+        np.testing.assert_array_equal(tree.low[box], below.min(axis=0, initial=np.inf))
+        np.testing.assert_array_equal(tree.high[box], below.max(axis=0, initial=-np.inf))
 
 
 def test_a_quadric_is_the_sum_of_squared_distances_and_is_least_where_the_planes_meet() -> None:

@@ -22,6 +22,7 @@ from infill.filling.solids.request import Request, checked
 from infill.filling.solids.slabwise import surfaces_by_slabs, unmade
 from infill.filling.solids.space import Space, space_inside
 from infill.filling.solids.surfacing import smoothing_for, surfaces_of
+from infill.surfaces import slabs
 from infill.surfaces.capping import open_edges
 from infill.surfaces.distance import Tree
 from infill.surfaces.shells import with_faces
@@ -302,3 +303,18 @@ def test_few_of_a_piece_keeps_its_planes() -> None:
     assert len(few.surface.faces) < len(piece.surface.faces)
     rims = [each.surface.vertices[each.rim(each.high)] for each in (piece, few)]
     assert np.array_equal(*rims)
+
+
+def test_components_of_a_piece_are_simplified_some_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    ball = trimesh.creation.icosphere(4, radius=3)
+    both = trimesh.util.concatenate([ball, ball.copy().apply_translation((8, 0, 0))])
+    piece = piece_between(surface(both), -2, 1)
+    assert isinstance(piece, Piece)
+    monkeypatch.setattr(slabs, "AT_ONCE", 100)
+    few = few_of(piece, 0.1)
+    assert len(few.surface.faces) < len(piece.surface.faces) / 2
+    for height in (0, piece.high):
+        np.testing.assert_array_equal(few.surface.vertices[few.rim(height)], piece.surface.vertices[piece.rim(height)])
+    for one, other in ((piece, few), (few, piece)):
+        assert Tree.of(one.surface).nearest(other.surface.vertices)[0].max() < 0.1
+    assert len(open_edges(few.surface.faces)) == len(open_edges(piece.surface.faces))

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from test_command_line import run, usage_error
 
 from infill import UsageError, fill
+from infill.filling.solids import crossing
 from infill.filling.solids.crossing import median_width
 from infill.filling.solids.stretching import place, slopes_of, stretched, walls_in
 from infill.filling.solids.voids import NODES
@@ -204,6 +205,14 @@ def test_walls_are_as_wide_above_as_below(ramp: Any) -> None:
         widths.append(median)
     assert widths[0] == pytest.approx(widths[1], rel=0.1)
     assert widths[1] == pytest.approx(ramp.report["infill"]["line_width"], rel=0.1)
+
+
+def test_a_width_is_measured_with_little_of_the_voids_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = fill(box(20, 24, 30), density=0.3, voxel=0.6, wall=WALL).stages
+    whole = median_width(found.part, found.voids, wall=WALL, width=0.6)
+    monkeypatch.setattr(crossing, "AT_A_TIME", 500)
+    assert len(found.voids.faces) > 20 * 500
+    assert median_width(found.part, found.voids, wall=WALL, width=0.6) == whole
 
 
 def test_a_flat_part_leaves_the_rest_to_the_widths_and_says_so() -> None:

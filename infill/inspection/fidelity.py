@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from infill.surface import Surface
 from infill.surfaces.distance import Tree, along_curve
+from infill.surfaces.measuring import face_areas
 
 Word = Literal["kept", "changed a little", "lost"]
 Floats = NDArray[np.float64]
@@ -219,8 +220,7 @@ def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], 
         What each stands for.
     """
     vertices = np.asarray(surface.vertices, dtype=np.float64)
-    corners = vertices[surface.faces]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    areas = face_areas(surface)
     total = float(areas.sum())
     count = int(min(MOST, max(1.0, np.ceil(total / pitch**2)))) if total > 0 else 0
     at = (np.arange(count) + 0.5) * (total / max(count, 1))
@@ -228,7 +228,7 @@ def sampled(surface: Surface, pitch: float) -> tuple[Floats, NDArray[np.int64], 
     u, v = ((np.arange(count) * share) % 1 for share in GOLDEN)
     over = u + v > 1
     u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
-    a, b, c = (corners[face, i] for i in range(3))
+    a, b, c = (vertices[surface.faces[face, i]] for i in range(3))
     points = a + u[:, None] * (b - a) + v[:, None] * (c - a)
     used, first = np.unique(surface.faces.ravel(), return_index=True)
     some = slice(None, None, max(1, -(-len(used) // MOST)))

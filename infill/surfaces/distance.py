@@ -43,18 +43,26 @@ class Tree:
         -----
         Neighbours on the curve of Morton (1966), which interleaves the bits of the coordinates, are near in space.
         """
-        corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces]
-        order = along_curve(corners.mean(axis=1))
-        corners = np.ascontiguousarray(corners[order])
+        vertices, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
+        middles = vertices[faces[:, 0]]
+        middles += vertices[faces[:, 1]]
+        middles += vertices[faces[:, 2]]
+        middles /= 3
+        order = along_curve(middles)
+        del middles  # whatever is as long as the faces adds to what is held at a time
+        corners = vertices[faces[order]]
         leaves = 1 << max(0, int(np.ceil(np.log2(-(-len(corners) // LEAF)))))
-        low, high = np.full((leaves * LEAF, 3), np.inf), np.full((leaves * LEAF, 3), -np.inf)
-        low[: len(corners)], high[: len(corners)] = corners.min(axis=1), corners.max(axis=1)
-        low, high = low.reshape(leaves, LEAF, 3).min(axis=1), high.reshape(leaves, LEAF, 3).max(axis=1)
-        lows, highs = [low], [high]
-        while len(lows[0]) > 1:
-            lows.insert(0, lows[0].reshape(-1, 2, 3).min(axis=1))
-            highs.insert(0, highs[0].reshape(-1, 2, 3).max(axis=1))
-        return cls(corners=corners, low=np.concatenate(lows), high=np.concatenate(highs), order=order)
+        low, high = np.full((2 * leaves - 1, 3), np.inf), np.full((2 * leaves - 1, 3), -np.inf)
+        for box, least in ((low, np.minimum), (high, np.maximum)):
+            full, first = len(corners) // LEAF, leaves - 1
+            box[first : first + full] = least.reduce(corners[: full * LEAF].reshape(full, 3 * LEAF, 3), axis=1)
+            if full * LEAF < len(corners):
+                box[first + full] = least.reduce(corners[full * LEAF :].reshape(-1, 3), axis=0)
+            while first:
+                above = first // 2
+                box[above:first] = least(box[first : 2 * first + 1 : 2], box[first + 1 : 2 * first + 1 : 2])
+                first = above
+        return cls(corners=corners, low=low, high=high, order=order)
 
     def nearest(
         self, points: NDArray[np.floating], *, enough: float = 0.0, threads: int | None = None
@@ -116,10 +124,11 @@ def _interleaved(points: Floats) -> NDArray[np.uint64]:
     """Return the bits of the coordinates, x, y and z in turn: the place of points on the curve of Morton."""
     low = points.min(axis=0)
     side = max(float(np.ptp(points, axis=0).max()), 1e-300)
-    cells = ((points - low) * ((2**BITS - 1) / side)).astype(np.int64)
     spread = np.zeros(2**BITS, dtype=np.uint64)
     for bit in range(BITS):
         spread |= ((np.arange(2**BITS, dtype=np.uint64) >> np.uint64(bit)) & np.uint64(1)) << np.uint64(3 * bit)
-    x, y, z = (spread[cells[:, axis]] for axis in range(3))
-    code: NDArray[np.uint64] = x | y << np.uint64(1) | z << np.uint64(2)
+    code = np.zeros(len(points), dtype=np.uint64)
+    for axis in range(3):
+        cells = ((points[:, axis] - low[axis]) * ((2**BITS - 1) / side)).astype(np.int16)
+        code |= spread[cells] << np.uint64(axis)
     return code

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
 
+AT_A_TIME = 2**16  # faces
 FEW = 2**29  # vertices, whose numbers and two bits more fit into 32
 
 
@@ -37,6 +39,20 @@ def volume_and_area(surface: Surface, *, threads: int | None = None) -> tuple[fl
     in_threads(sum_up, vertices, faces, middle, sums, threads=thread_count(threads))
     sixfold, doubled = sums.sum(axis=0).tolist()
     return sixfold / 6, doubled / 2
+
+
+def face_areas(surface: Surface) -> NDArray[np.float64]:
+    """Return the area of every face, (F,) mm², of some at a time: corners of all would take nine times the memory.
+
+    >>> corners = np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]])
+    >>> face_areas(Surface(vertices=corners, faces=np.array([[0, 1, 2]]))).tolist()
+    [6.0]
+    """
+    vertices, areas = np.asarray(surface.vertices, dtype=np.float64), np.empty(len(surface.faces))
+    for begin in range(0, len(areas), AT_A_TIME):
+        a, b, c = (vertices[surface.faces[begin : begin + AT_A_TIME, corner]] for corner in range(3))
+        areas[begin : begin + AT_A_TIME] = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return areas
 
 
 def _is_closed(surface: Surface, threads: int) -> bool:

@@ -86,7 +86,9 @@ def joined(surfaces: list[Surface]) -> Surface:
     begins = np.cumsum([0, *(len(each.vertices) for each in surfaces)])
     return Surface(
         vertices=np.concatenate([each.vertices for each in surfaces]),
-        faces=np.concatenate([each.faces + begin for each, begin in zip(surfaces, begins, strict=False)]),
+        faces=np.concatenate(
+            [each.faces + each.faces.dtype.type(begin) for each, begin in zip(surfaces, begins, strict=False)]
+        ),
         space=surfaces[0].space,
     )
 

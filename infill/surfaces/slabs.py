@@ -19,11 +19,14 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
-from infill.surfaces.shells import with_faces
+from infill.surfaces.parting import joined
+from infill.surfaces.shells import in_batches, with_faces
 from infill.surfaces.solids import shortened_between
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.integer]
+
+AT_ONCE = 30_000  # triangles that are simplified at a time, if they are of several components: so much less memory
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -162,4 +165,5 @@ def _require_meeting(met: bool) -> None:
 
 def few_of(piece: Piece, tolerance: float) -> Piece:
     """Return a piece with fewer triangles, within a tolerance, in cells, of which all vertices on planes are left."""
-    return replace(piece, surface=shortened_between(piece.surface, tolerance))
+    few = [shortened_between(batch, tolerance) for batch in in_batches(piece.surface, AT_ONCE)]
+    return replace(piece, surface=joined(few))

@@ -74,7 +74,8 @@ def shortened(surface: Surface, tolerance: float) -> Surface:
     for share in (*SHARES, 0.0):
         few = surface
         if share:
-            few = replace(surface_from(solid.simplify(share * MOVED * tolerance)), space=surface.space)
+            few = surface_from(solid.simplify(share * MOVED * tolerance))
+            few = replace(few, faces=few.faces.astype(surface.faces.dtype), space=surface.space)
         if (twins := in_one_place(few)).any():
             few = _moved_inwards(few, twins, ASIDE * tolerance)
         if few.closed and not in_one_place(few).any():

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
+from infill.surfaces.shells import shell_volumes
 from infill.surfaces.solids import FINE, solid_of, status_of, surface_from
 
 SIDES = 32
@@ -119,9 +120,7 @@ def trapped(solid: Surface) -> list[tuple[float, list[float]]]:
     """
     names, count = shell_names(solid)
     vertices = np.asarray(solid.vertices, dtype=np.float64)
-    corners = vertices[solid.faces] - vertices.mean(axis=0)
-    six = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
-    volume = np.bincount(names[solid.faces[:, 0]], weights=six, minlength=count) / 6
+    volume = shell_volumes(solid, names, count)
     order = np.lexsort((vertices[:, 2], names))
     first = order[np.searchsorted(names[order], np.arange(count))]
     closed = sorted(np.flatnonzero(volume < 0).tolist(), key=lambda shell: volume[shell])

@@ -29,6 +29,7 @@ from infill.filling.solids.telling import measured, problems
 from infill.filling.solids.voids import Voids
 from infill.result import Clock, Progress, Result
 from infill.surface import Surface
+from infill.surfaces.measuring import with_measures
 from infill.surfaces.merging import surface_of
 from infill.surfaces.parting import joined
 from infill.version import __version__
@@ -214,19 +215,20 @@ def _result(
     project: Projected | None,
 ) -> tuple[Surface, dict[str, Any], Hollow]:
     """Return the surface that was asked for, the report, and the voids, what was left out of it included."""
-    space, voids = hollow.space, hollow.surface
+    space = hollow.space
     if project is not None:
         solid = outer = project.infill
     else:
         outer = space.part if request.form == "solid" else _inside(space, request, threads)
         if space.opening is None:
-            solid = joined([outer, replace(voids, faces=voids.faces[:, ::-1])])
+            solid = joined([outer, *(replace(each, faces=each.faces[:, ::-1]) for each in hollow.surfaces)])
         else:
             solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
     drains = np.empty((0, 3))
     if request.drain is not None and len(hollow.shut.faces):
         solid, drains = drained(solid, space.part, hollow.shut, request.drain)
+    solid = with_measures(solid, threads=threads)
     facts = measured(solid, outer, hollow, pattern, request, threads=threads)
     narrow = None if project is None else project.narrow
     bounds = solid.bounds
@@ -278,7 +280,7 @@ def _result(
             "count": hollow.count,
             "open": hollow.open,
             "volume": hollow.volume,
-            "triangles": len(voids.faces),
+            "triangles": hollow.triangles,
             "specks": hollow.specks,
             "islands": hollow.islands,
             "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,24 +33,36 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
-AT_ONCE = 200_000  # triangles that manifold3d is shown at a time
+AT_ONCE = 50_000  # triangles or points that are looked at at a time
 LEAST_WALL = 0.9  # of the wall asked for
 
 
 def least_wall(
-    part: Surface, voids: Surface, threads: int | None, opening: Opening | None = None
+    part: Surface, voids: list[Surface], threads: int | None, opening: Opening | None = None
 ) -> tuple[float, list[float]]:
     """Return how near the voids come to the skin, mm, and where: at corners and in the middle of triangles.
 
     What lies beyond an open side does not count.
     """
-    corners = np.asarray(voids.vertices, dtype=np.float64)
-    points = np.concatenate([corners, corners[voids.faces].mean(axis=1)])
     if opening is not None:
-        part, points = opening.shell, points[opening.inside(points[:, 2])]
-    away, _ = Tree.of(part).nearest(points, threads=threads)
-    nearest = int(np.argmin(away))
-    return float(away[nearest]), points[nearest].tolist()
+        part = opening.shell
+    tree, least, at = Tree.of(part), np.inf, np.full(3, np.nan)
+    for points in chain.from_iterable(map(_points_of, voids)):
+        if opening is not None:
+            points = points[opening.inside(points[:, 2])]
+        away, _ = tree.nearest(points, threads=threads)
+        if away.min(initial=np.inf) < least:
+            least, at = away.min(), points[np.argmin(away)]
+    return float(least), at.tolist()
+
+
+def _points_of(surface: Surface) -> Iterator[NDArray[np.float64]]:
+    """Yield the corners of a surface, (N, 3), and the middles of its triangles, some at a time."""
+    corners, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
+    for begin in range(0, len(corners), AT_ONCE):
+        yield corners[begin : begin + AT_ONCE]
+    for begin in range(0, len(faces), AT_ONCE):
+        yield corners[faces[begin : begin + AT_ONCE]].mean(axis=1)
 
 
 def outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
@@ -133,7 +146,7 @@ def measured(
     if request.form != "project":
         part, opening = hollow.space.part, hollow.space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
-        least, at = least_wall(part, hollow.surface, threads, opening)
+        least, at = least_wall(part, hollow.surfaces, threads, opening)
         astray = outside(part, hollow.surfaces, threads, middle)
         crowded -= int(in_one_place(outer).sum())
     return Measured(
