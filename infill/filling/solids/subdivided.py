@@ -84,8 +84,7 @@ class Subdivided:
     known: dict[tuple[int, float], Tree] = field(default_factory=dict)
     skins: dict[int, tuple[Space, cKDTree]] = field(default_factory=dict)
 
-    @property
-    def sharpest(self) -> float:
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`."""
         return 90.0
 
