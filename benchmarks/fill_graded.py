@@ -29,7 +29,7 @@ OFF = 0.02
 # Pattern, what grows with the density, the size asked for, and whether it repeats after a cell along every side.
 CASES = (
     ("gyroid", "width", "--cell 8", True),
-    ("gyroid", "cell", "--line-width 0.3", False),
+    ("gyroid", "cell", "", False),
     ("schwarz-p", "width", "--cell 8", True),
     ("schwarz-d", "width", "--cell 8", True),
     ("i-wp", "width", "--cell 8", True),
