@@ -3,7 +3,8 @@
 A bar is filled by the command, from 10% at one end of its inside to 40% at the other. The file is read again, and cut
 into slabs of two cells across the bar, and into boxes of two cells along each of its sides. What is solid in each is
 compared with the mean of the field there. A pattern that does not repeat after a cell along every side, as a honeycomb,
-is judged by slabs: a box holds more or less of it by where it lies.
+is judged by slabs: a box holds more or less of it by where it lies. Planes of `cubic` do not repeat after a cell even
+along the bar, so it is not here.
 """
 
 from __future__ import annotations
@@ -34,8 +35,7 @@ CASES = (
     ("schwarz-p", "width", "--cell 8", True),
     ("schwarz-d", "width", "--cell 8", True),
     ("i-wp", "width", "--cell 8", True),
-    ("octet", "width", "--cell 8", True),
-    ("cubic", "width", "--cell 8", False),
+    ("octet", "width", "--cell 16", True),
     ("honeycomb", "width", "--cell 8", False),
     ("grid", "width", "--cell 8", True),
 )
