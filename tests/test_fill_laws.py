@@ -133,11 +133,6 @@ def test_tips_are_those_of_corners_that_stay_themselves() -> None:
 RADIUS = 0.8  # mm, four cells of the grid
 
 
-def walls_meet(name: str) -> bool:
-    """Whether walls or bars of a pattern meet or bend: those of cross-3d bend in space, where some are sharper."""
-    return not isinstance(CELLULAR.get(name), Surfaces | Network | Lightning | Cross3D)
-
-
 def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray:
     """The radii of fillets away from the part's walls, mm: where the surface of voids is rounder than all around.
 
@@ -154,7 +149,7 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
     np.maximum.at(rough, edges[:, 0], bend)
     far = Tree.of(part).nearest(places)[0] > 1 + 0.8 + 2.5 * radius
     round_ = np.flatnonzero(far & (rough > 0.25 / radius))
-    round_ = np.random.default_rng(0).permutation(round_)[:3000]
+    round_ = np.random.default_rng(0).permutation(round_)[:6000]
     tree = cKDTree(places)
     bent = np.zeros(len(round_))
     for number, (each, near) in enumerate(
@@ -183,12 +178,12 @@ def fillets(voids: Surface, part: Surface, radius: float = RADIUS) -> np.ndarray
     return np.array(found)
 
 
-@pytest.mark.parametrize("name", [name for name in EVERY if name != "rectilinear" and walls_meet(name)])
+@pytest.mark.parametrize("name", ["grid", "triangles", "honeycomb", "cubic", "quarter-cubic", "octet"])
 def test_fillets_have_at_least_the_radius_asked_for(name: str) -> None:
-    """At 95 % of all places where walls meet or bend, or bars meet, six radii thick."""
+    """At 95 % of all places where walls meet, at 60, 70, 90 and 120 degrees, or bars, six radii thick."""
     given = {"density": 0.25, "line_width": 0.8, "voxel": RADIUS / 4}
     radius = RADIUS
-    if isinstance(CELLULAR.get(name), Bars):
+    if name == "octet":
         radius = 0.5
         given = {"cell": 14.0, "line_width": 6 * radius, "voxel": radius / 4}
     result = fill(box(24, 24, 24), name, smooth_radius=radius, tolerance=0, wall=1.0, **given)

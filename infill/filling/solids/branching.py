@@ -53,7 +53,8 @@ class Branches:
         """How far tips draw back in a layer, in cells, and how well that is known."""
         return math.tan(math.radians(self.pattern.overhang)) + SLACK
 
-    def sharpest(self, space: Space, cell: float) -> float:  # noqa: ARG002 - of the protocol
+    @property
+    def sharpest(self) -> float:
         """See `Voids`."""
         return 90.0
 

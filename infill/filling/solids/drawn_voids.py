@@ -12,7 +12,6 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.filling.solids.bodies import Bodies
-from infill.filling.solids.fillets import between_lines, sharpest
 from infill.filling.solids.grading import NONE, Grading
 from infill.filling.solids.line_sample import WIDER, LineSample, follows, segments_of, sized, square
 from infill.filling.solids.shadow import shadow_of
@@ -106,9 +105,10 @@ class Drawn:
         """What a pattern of such lines is like far from any skin."""
         return LineSample(pattern=self.pattern)
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
-        """See `Voids`: of the lines in this space; where each component of the part has its own, of a sample."""
-        return self.sample.sharpest if self.bodies is not None else self._faces(space, cell, width).sharpest
+    @property
+    def sharpest(self) -> float:
+        """See `Voids`."""
+        return self.sample.sharpest
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -161,7 +161,7 @@ class Drawn:
             inside = shapely.contains_xy(several, x[:, None], y[None, :])
             beside = _away(shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny))
             planes.append(np.where(inside, away, -beside))
-        return _Faces(colours=planes, sharpest=sharpest(between_lines(polygons, box)), reach=reach, width=width)
+        return _Faces(colours=planes, reach=reach, width=width)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -171,8 +171,6 @@ class _Faces:
     Parameters
     ----------
     colours : list of (nx, ny) float32
-    sharpest : float
-        Degrees, at corners: few are sharper.
     reach : float
         Cells; depths are cut off here.
     width : float
@@ -180,7 +178,6 @@ class _Faces:
     """
 
     colours: list[NDArray[np.float32]]
-    sharpest: float
     reach: float
     width: float
 

@@ -48,7 +48,8 @@ class LineLayers(Protocol):
         """How far a line lies from that of the layer above, in cells, at most."""
         ...
 
-    def sharpest(self, space: Space, cell: float) -> float:
+    @property
+    def sharpest(self) -> float:
         """See `Voids`."""
         ...
 
@@ -92,9 +93,10 @@ class Layered:
         """Whether one void lies around all walls, so that cells of the grid must resolve these."""
         return not self.layers.two_sided
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+    @property
+    def sharpest(self) -> float:
         """See `Voids`."""
-        return self.layers.sharpest(space, cell)
+        return self.layers.sharpest
 
     def about(self, middle: Floats) -> Layered:
         """See `Anchored`."""

@@ -45,7 +45,7 @@ class LineSample:
     def sharpest(self) -> float:
         """See `Voids`."""
         region, lines = self._drawn
-        return sharpest(corners(lines, region))
+        return sharpest(between_lines(_faces_between(lines, region)))
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -100,11 +100,8 @@ def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: fl
     return np.stack([points[joined], points[joined + 1]], axis=1)
 
 
-def corners(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.float64]:
-    """Return the angles between lines inside of a region, where they meet or bend, degrees.
-
-    >>> corners(shapely.LineString([(-2, 0), (0, 0), (0, 2)]), square(1.0)).round(6).tolist()
-    [90.0]
-    """
+def _faces_between(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.object_]:
+    """Return what lies between lines, but for what the border of a region cuts."""
     polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
-    return between_lines(polygons, region)
+    whole: NDArray[np.object_] = polygons[~shapely.intersects(polygons, region.boundary)]
+    return whole

@@ -84,7 +84,8 @@ class Subdivided:
     known: dict[tuple[int, float], Tree] = field(default_factory=dict)
     skins: dict[int, tuple[Space, cKDTree]] = field(default_factory=dict)
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+    @property
+    def sharpest(self) -> float:
         """See `Voids`."""
         return 90.0
 

@@ -40,7 +40,8 @@ class Voids(Protocol):
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
         ...
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+    @property
+    def sharpest(self) -> float:
         """How sharp the corners of voids are, degrees, where walls of the pattern meet: few are sharper."""
         ...
 
@@ -74,8 +75,9 @@ class Repeating:
     grading: Grading | None = None
     bodies: Bodies | None = None
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
-        """See `Voids`: the same for all cells."""
+    @property
+    def sharpest(self) -> float:
+        """See `Voids`."""
         return _sharpest(self.pattern)
 
     def about(self, middle: NDArray[np.float64]) -> Repeating:
