@@ -33,7 +33,7 @@ STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
-AT_ONCE = 50_000  # triangles or points that are looked at at a time
+AT_ONCE = 50_000  # triangles or points that are looked at together
 LEAST_WALL = 0.9  # of the wall asked for
 
 
