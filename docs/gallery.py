@@ -36,9 +36,9 @@ Drawings and patterns of your own join them.
   and bars come from a cell of 8 mm; [below](#density-against-cell-size) for other densities. A network's line is its
   thickest place.
 * The *smallest radius* is the one asked for, of the fillets where walls meet: 0.25 mm in every pattern, unless
-  `--smooth-radius` says another. It is kept where the grid has four cells to it; bars that are thinner than six radii
-  have less. In a small part one corner in ten of `zigzag` and `voronoi` is sharper, by up to a tenth of it, and one
-  bend in ten of `cross-3d`, by up to half.
+  `--smooth-radius` says another. It is kept at 95% of all places at least where the grid has four cells to it; bars
+  that are thinner than six radii have less, and so has one bend in ten of `cross-3d`: half of it at the sharpest.
+  Minimal surfaces bend as their formula says.
 * *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
   the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
   Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet comes

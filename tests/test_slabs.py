@@ -149,7 +149,7 @@ def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space
     """Triangle by triangle; with a radius of 1.5 mm, more layers are needed beside a slab than it has."""
     phase = (0.0, 0.0) if pattern == "concentric" else (0.3, 0.1)
     request, voids, whole, slabs, known = made(space, pattern, smooth_radius=radius, phase=phase)
-    steps = smoothing_for(space, voids, request, SIZES[1]).steps
+    steps = smoothing_for(space, voids, request, SIZES).steps
     assert (steps > THICK) == (radius > 1)
     assert len(whole) == len(slabs) > 0
     for one, other in zip(whole, slabs, strict=True):
@@ -166,6 +166,16 @@ def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space
     assert known == pytest.approx(sum(each.volume for each in slabs), rel=1e-9)
 
 
+def test_corners_are_those_of_the_part_at_hand() -> None:
+    """The waves of a zigzag are as long as the part: in a small one they meet at sharper angles than in a large one."""
+    request, found = asked("zigzag", cell=7.8, line_width=0.8, phase=(0.0, 0.0)), []
+    for side in (24.0, 96.0):
+        inside = space_inside(surface(box(side, side, 6)), wall=1.0, voxel=0.4)
+        voids = voids_of(request, inside.part.bounds, None)
+        found.append(voids.sharpest(inside, cell=7.8, width=0.8))
+    assert found[0] < 84 < 88 < found[1] < 90
+
+
 def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest.MonkeyPatch) -> None:
     """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
     from infill.filling.solids import slabwise
@@ -173,7 +183,7 @@ def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest
     request = asked("honeycomb", smooth_radius=1.5)
     voids = voids_of(request, space.part.bounds, None)
     assert isinstance(voids, Drawn)
-    smoothing = smoothing_for(space, voids, request, SIZES[1])
+    smoothing = smoothing_for(space, voids, request, SIZES)
 
     def few(*_: Any) -> Any:
         return replace(smoothing, steps=0)

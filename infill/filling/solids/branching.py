@@ -53,8 +53,7 @@ class Branches:
         """How far tips draw back in a layer, in cells, and how well that is known."""
         return math.tan(math.radians(self.pattern.overhang)) + SLACK
 
-    @property
-    def sharpest(self) -> float:
+    def sharpest(self, space: Space, cell: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`."""
         return 90.0
 

@@ -10,10 +10,12 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from infill.filling.solids.line_sample import LineSample, segments_of, sized
+from infill.filling.solids.fillets import sharpest
+from infill.filling.solids.line_sample import SAMPLE, LineSample, corners, segments_of, sized, square
 from infill.filling.solids.space import BAND, Space
 from patterns.protocol import LEVEL_SET, LevelSet, Pattern, gives, lines_of
 
+LOOKED_AT = 8  # heights at which corners are looked at
 STEEPEST = 1.75  # of a wall, which is 60 degrees: what moves by more from layer to layer is another one
 
 Floats = NDArray[np.float64]
@@ -49,10 +51,12 @@ class Changing:
         """See `LineLayers`."""
         return STEEPEST
 
-    @property
-    def sharpest(self) -> float:
-        """See `Voids`: that of one height."""
-        return self.sample.sharpest
+    def sharpest(self, space: Space, cell: float) -> float:
+        """See `Voids`: of a few cells at some heights."""
+        pattern, heights = sized(self.pattern, cell), self._heights(space)
+        region = square(SAMPLE / 2 * cell)
+        some = heights[:: max(1, len(heights) // LOOKED_AT)]
+        return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region) for z in some]))
 
     def widths(self, density: float) -> float:
         """See `Voids`: those of one height."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import weakref
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -12,8 +13,9 @@ import shapely
 from numpy.typing import NDArray
 
 from infill.filling.solids.bodies import Bodies
+from infill.filling.solids.fillets import between_lines, sharpest
 from infill.filling.solids.grading import NONE, Grading
-from infill.filling.solids.line_sample import WIDER, LineSample, follows, segments_of, sized, square
+from infill.filling.solids.line_sample import WIDER, LineSample, faces_between, follows, segments_of, sized, square
 from infill.filling.solids.shadow import shadow_of
 from infill.filling.solids.space import BAND, Space
 from infill.filling.solids.voids import FIELD, local_widths
@@ -105,10 +107,9 @@ class Drawn:
         """What a pattern of such lines is like far from any skin."""
         return LineSample(pattern=self.pattern)
 
-    @property
-    def sharpest(self) -> float:
-        """See `Voids`."""
-        return self.sample.sharpest
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+        """See `Voids`: of the lines in this space; where each component of the part has its own, of a sample."""
+        return self.sample.sharpest if self.bodies is not None else self._faces(space, cell, width).sharpest
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -120,7 +121,7 @@ class Drawn:
     def _faces(self, space: Space, cell: float, width: float) -> _Faces:
         """Return what lies between the lines, whatever their width."""
         widest, thinnest = self._range(space)
-        reach, key = widest * width / 2 / space.size + 2 * BAND, (id(space), cell)
+        reach, key = widest * width / 2 / space.size + 2 * BAND, (weakref.ref(space), cell)
         width = thinnest * width
         if key not in self.known or not self.known[key].fits(reach, width):
             self.known.clear()
@@ -148,7 +149,7 @@ class Drawn:
         else:
             room = square(WIDER * float(np.linalg.norm(np.abs([low, high]).max(axis=0))))
         lines = shapely.intersection(self._lines(room, cell), region)
-        polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
+        polygons = faces_between(lines, region, cell=cell)
         polygons = polygons[shapely.intersects(polygons, box)]
         nx, ny, _ = space.shape
         x, y = (space.origin[i] + space.size * np.arange(n) - self.anchor[i] for i, n in enumerate((nx, ny)))
@@ -161,7 +162,7 @@ class Drawn:
             inside = shapely.contains_xy(several, x[:, None], y[None, :])
             beside = _away(shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny))
             planes.append(np.where(inside, away, -beside))
-        return _Faces(colours=planes, reach=reach, width=width)
+        return _Faces(colours=planes, sharpest=sharpest(between_lines(polygons, box)), reach=reach, width=width)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -171,6 +172,8 @@ class _Faces:
     Parameters
     ----------
     colours : list of (nx, ny) float32
+    sharpest : float
+        Degrees, at corners: few are sharper.
     reach : float
         Cells; depths are cut off here.
     width : float
@@ -178,6 +181,7 @@ class _Faces:
     """
 
     colours: list[NDArray[np.float32]]
+    sharpest: float
     reach: float
     width: float
 

@@ -16,7 +16,7 @@ COARSE, CELLS = 0.12, 4.0  # of the radius, what a grid costs at corners along i
 BLUNT = 1.7  # cells: grids that are coarser beside the radius round corners more than asked for anyway
 GRID = 0.05 / 30  # of the radius, for each degree that a corner is sharper than a right angle: what a coarse grid costs
 THINNER = 0.1  # of a bar, which curvature may take for corners sharper than right angles
-FEW = 0.05  # of the corners may be sharper
+FEW = 0.02  # of the corners may be sharper
 STRAIGHT = 150.0  # degrees: what turns by less is no corner
 EQUAL = 1e-6  # of a cell: ends of bars that are nearer are one
 
@@ -103,21 +103,31 @@ def _between_bars(pattern: Bars) -> Floats:
     return angles[angles > 1.0]  # the same bar, from two periods
 
 
-def between_lines(polygons: NDArray[np.object_]) -> Floats:
-    """Return the angles at the corners of polygons, degrees.
+def between_lines(polygons: NDArray[np.object_], within: shapely.Polygon | None = None) -> Floats:
+    """Return the angles at the corners of polygons, degrees; of those that lie inside of a region, if there is one.
 
     >>> between_lines(np.array([shapely.box(0, 0, 2, 1)])).round(6).tolist()
     [90.0, 90.0, 90.0, 90.0]
+    >>> between_lines(np.array([shapely.box(0, 0, 2, 1)]), shapely.box(1, 0.5, 3, 3)).round(6).tolist()
+    [90.0]
     """
-    found = [np.empty(0)]
-    for polygon in polygons:
-        ring = shapely.get_coordinates(shapely.get_exterior_ring(shapely.normalize(polygon)))[:-1]
-        if len(ring) < 3:
-            continue
-        before, after = np.roll(ring, 1, axis=0) - ring, np.roll(ring, -1, axis=0) - ring
-        turn = after[:, 0] * before[:, 1] - after[:, 1] * before[:, 0]
-        angle = np.degrees(np.arctan2(turn, (before * after).sum(axis=1))) % 360
-        if not shapely.is_ccw(shapely.get_exterior_ring(shapely.normalize(polygon))):
-            angle = 360 - angle
-        found.append(angle[angle < STRAIGHT])
-    return np.concatenate(found)
+    rings = shapely.get_exterior_ring(polygons)
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    if not len(points):
+        return np.empty(0)
+    begins = np.flatnonzero(np.diff(ring, prepend=-1))
+    number = np.arange(len(points))
+    last = np.zeros(len(points), dtype=bool)
+    last[np.append(begins[1:], len(points)) - 1] = True  # the first point again
+    before = number - 1
+    before[begins] = np.append(begins[1:], len(points)) - 2
+    back, on = (points[each] - points for each in (before, np.minimum(number + 1, len(points) - 1)))
+    turn = on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0]
+    angle = np.degrees(np.arctan2(turn, (back * on).sum(axis=1))) % 360
+    angle = np.where(shapely.is_ccw(rings)[ring], angle, 360 - angle)
+    kept = ~last & (angle < STRAIGHT)
+    if within is not None:
+        low, high = np.reshape(within.bounds, (2, 2))
+        kept &= ((points > low) & (points < high)).all(axis=1)
+    corners: Floats = angle[kept]
+    return corners

@@ -48,8 +48,7 @@ class LineLayers(Protocol):
         """How far a line lies from that of the layer above, in cells, at most."""
         ...
 
-    @property
-    def sharpest(self) -> float:
+    def sharpest(self, space: Space, cell: float) -> float:
         """See `Voids`."""
         ...
 
@@ -93,10 +92,9 @@ class Layered:
         """Whether one void lies around all walls, so that cells of the grid must resolve these."""
         return not self.layers.two_sided
 
-    @property
-    def sharpest(self) -> float:
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`."""
-        return self.layers.sharpest
+        return self.layers.sharpest(space, cell)
 
     def about(self, middle: Floats) -> Layered:
         """See `Anchored`."""

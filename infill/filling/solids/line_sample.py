@@ -17,6 +17,7 @@ from patterns.errors import PatternError
 from patterns.protocol import Pattern, lines_of
 
 SAMPLE = 12.0  # cells of the pattern along a side of what is measured to tell how width and density go together
+SNAP = 1e-6  # of a cell: lines that are nearer than this meet
 NEAR, TRIES = 0.01, 12  # of the density of that: when it is near enough
 # Half a diagonal of what is filled, in which lines are drawn: hearts that are the largest to fit into that reach
 # beyond the part.
@@ -45,7 +46,7 @@ class LineSample:
     def sharpest(self) -> float:
         """See `Voids`."""
         region, lines = self._drawn
-        return sharpest(between_lines(_faces_between(lines, region)))
+        return sharpest(corners(lines, region))
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -100,8 +101,23 @@ def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: fl
     return np.stack([points[joined], points[joined + 1]], axis=1)
 
 
-def _faces_between(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.object_]:
-    """Return what lies between lines, but for what the border of a region cuts."""
-    polygons = shapely.get_parts(shapely.polygonize([shapely.node(shapely.union(lines, region.boundary))]))
-    whole: NDArray[np.object_] = polygons[~shapely.intersects(polygons, region.boundary)]
-    return whole
+def corners(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.float64]:
+    """Return the angles between lines inside of a region, where they meet or bend, degrees.
+
+    >>> corners(shapely.LineString([(-2, 0), (0, 0), (0, 2)]), square(1.0)).round(6).tolist()
+    [90.0]
+    """
+    return between_lines(faces_between(lines, region), region)
+
+
+def faces_between(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.object_]:
+    """Return the polygons between lines of a cell, and between them and the border of their region.
+
+    Lines that meet but for rounding do so here: what is nearer than a millionth of a cell is in one place.
+
+    >>> upright, level = shapely.LineString([(0, -1), (0, 1)]), shapely.LineString([(1e-9, 0), (1, 0)])
+    >>> [face.area for face in faces_between(shapely.MultiLineString([upright, level]), square(1.0))]
+    [1.0, 2.0, 1.0]
+    """
+    noded = shapely.union_all([lines, region.boundary], grid_size=SNAP * cell)
+    return shapely.get_parts(shapely.polygonize([noded]))

@@ -150,7 +150,7 @@ def _by_field(
 ) -> list[list[tuple[int, Found | None]]]:
     """Return what a function finds in each piece, with the first layer of its slab: a list for each field."""
     (cell, width), layers = sizes, space.layers
-    smoothing = smoothing_for(space, voids, request, width)
+    smoothing = smoothing_for(space, voids, request, sizes)
     planes = voids.planes(space, cell=cell, width=width)
     beside = smoothing.steps + 1
     known: dict[tuple[object, ...], list[Found | None]] = {}

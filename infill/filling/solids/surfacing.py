@@ -27,12 +27,13 @@ SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 
 
-def smoothing_for(space: Space, voids: Voids, request: Request, width: float) -> Smoothing:
-    """Return the steps that round the corners between walls of a width, mm, or bars, to the radius asked for."""
-    smoothing = Smoothing(interface=INTERFACE, fidelity=0.0)
+def smoothing_for(space: Space, voids: Voids, request: Request, sizes: tuple[float, float]) -> Smoothing:
+    """Return the steps that round corners to the radius asked for, for a cell and a width of walls or bars, mm."""
+    (cell, width), smoothing = sizes, Smoothing(interface=INTERFACE, fidelity=0.0)
+    sharpest = voids.sharpest(_inside(space, request), cell=cell, width=width)
     bar = width * request.thinnest if barred(request.kind) else None
     radius = request.radius(space.thickness)
-    times = times_for(radius, voids.sharpest, bar, cell=space.size) / space.size**2  # cells²
+    times = times_for(radius, sharpest, bar, cell=space.size) / space.size**2  # cells²
     if times < SHORTEST:
         return replace(smoothing, steps=0)
     steps = math.ceil(times / smoothing.alpha)
@@ -45,10 +46,10 @@ def surfaces_of(
     """Return the surfaces of the voids, smoothed, without what is no void of any use."""
     cell, width = sizes
     out = np.empty_like(space.depth)
-    smoothing = smoothing_for(space, voids, request, width)
-    inside, walls = space, None
+    smoothing = smoothing_for(space, voids, request, sizes)
+    inside, walls = _inside(space, request), None
     if request.form == "project":
-        inside, walls = space.unwalled, inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
+        walls = inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
     surfaces, islands, specks = [], 0, 0
     lost: list[Surface] = []
     for which in range(voids.count(inside, cell=cell, width=width)):
@@ -80,6 +81,11 @@ def surfaces_of(
         specks=specks,
         walls=walls,
     )
+
+
+def _inside(space: Space, request: Request) -> Space:
+    """Return where there are voids: in a project, up to the skin."""
+    return space.unwalled if request.form == "project" else space
 
 
 def smoothed_void(

@@ -40,8 +40,7 @@ class Voids(Protocol):
         """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
         ...
 
-    @property
-    def sharpest(self) -> float:
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
         """How sharp the corners of voids are, degrees, where walls of the pattern meet: few are sharper."""
         ...
 
@@ -75,9 +74,8 @@ class Repeating:
     grading: Grading | None = None
     bodies: Bodies | None = None
 
-    @property
-    def sharpest(self) -> float:
-        """See `Voids`."""
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+        """See `Voids`: the same for all cells."""
         return _sharpest(self.pattern)
 
     def about(self, middle: NDArray[np.float64]) -> Repeating:
