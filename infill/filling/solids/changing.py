@@ -56,7 +56,7 @@ class Changing:
         pattern, heights = sized(self.pattern, cell), self._heights(space)
         region = square(SAMPLE / 2 * cell)
         some = heights[:: max(1, len(heights) // LOOKED_AT)]
-        return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region) for z in some]))
+        return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in some]))
 
     def widths(self, density: float) -> float:
         """See `Voids`: those of one height."""

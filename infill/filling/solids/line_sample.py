@@ -101,13 +101,14 @@ def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: fl
     return np.stack([points[joined], points[joined + 1]], axis=1)
 
 
-def corners(lines: shapely.Geometry, region: shapely.Polygon) -> NDArray[np.float64]:
-    """Return the angles between lines inside of a region, where they meet or bend, degrees.
+def corners(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.float64]:
+    """Return the angles between lines of a cell inside of a region, where they meet or bend, degrees.
 
-    >>> corners(shapely.LineString([(-2, 0), (0, 0), (0, 2)]), square(1.0)).round(6).tolist()
+    >>> corners(shapely.LineString([(-1 / 3, 0), (0, 0), (0, 1 / 3)]), square(1 / 3)).round(6).tolist()
     [90.0]
     """
-    return between_lines(faces_between(lines, region), region)
+    inside = region.buffer(-2 * SNAP * cell, join_style="mitre")
+    return between_lines(faces_between(lines, region, cell=cell), inside)
 
 
 def faces_between(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.object_]:
@@ -120,4 +121,5 @@ def faces_between(lines: shapely.Geometry, region: shapely.Polygon, *, cell: flo
     [1.0, 2.0, 1.0]
     """
     noded = shapely.union_all([lines, region.boundary], grid_size=SNAP * cell)
-    return shapely.get_parts(shapely.polygonize([noded]))
+    faces: NDArray[np.object_] = shapely.get_parts(shapely.polygonize([noded]))
+    return faces
