@@ -36,9 +36,9 @@ Drawings and patterns of your own join them.
   and bars come from a cell of 8 mm; [below](#density-against-cell-size) for other densities. A network's line is its
   thickest place.
 * The *smallest radius* is the one asked for, of the fillets where walls meet: 0.25 mm in every pattern, unless
-  `--smooth-radius` says another. It is kept at 95% of all places at least where the grid has four cells to it; bars
-  that are thinner than six radii have less, and voids that are narrower than two are round instead. Minimal surfaces
-  bend as their formula says.
+  `--smooth-radius` says another. Where the grid has four cells to it, at least 95% of all places keep it; bars that
+  are thinner than six radii have less, and so have voids that are narrower than two and a half, which are round.
+  Minimal surfaces bend as their formula says, whatever is asked for.
 * *Stiffness* is Young's modulus of the pattern far from any wall, in percent of the solid's: along x, along z, and in
   the weakest and the stiffest direction. It is an estimate with {fine} voxels to a cell (foam: 24), homogenised with
   Poisson's ratio 0.3, and exact for upright walls along z. At 3 % the octet comes

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 import trimesh
 from made_shapes import box, less, rod, turned, union
 from scipy.spatial import KDTree
@@ -28,6 +29,8 @@ from infill.surfaces.distance import Tree
 from infill.surfaces.shells import with_faces
 from infill.surfaces.slabs import Piece, few_of, piece_between, shells_of, stitched, volumes_of
 from infill.surfaces.solids import FINE, shortened_between, status
+from patterns import Pattern
+from patterns.shared import cell_parameter
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -166,14 +169,45 @@ def test_slabs_make_the_surfaces_of_the_whole(pattern: str, radius: float, space
     assert known == pytest.approx(sum(each.volume for each in slabs), rel=1e-9)
 
 
+def sharpest(mesh: Any, pattern: str, **more: Any) -> float:
+    inside = space_inside(surface(mesh), wall=1.0, voxel=0.4)
+    voids = voids_of(asked(pattern, phase=(0.0, 0.0), **more), inside.part.bounds, None)
+    return voids.sharpest(inside, cell=7.8, width=0.8)
+
+
 def test_corners_are_those_of_the_part_at_hand() -> None:
     """The waves of a zigzag are as long as the part: in a small one they meet at sharper angles than in a large one."""
-    request, found = asked("zigzag", cell=7.8, line_width=0.8, phase=(0.0, 0.0)), []
-    for side in (24.0, 96.0):
-        inside = space_inside(surface(box(side, side, 6)), wall=1.0, voxel=0.4)
-        voids = voids_of(request, inside.part.bounds, None)
-        found.append(voids.sharpest(inside, cell=7.8, width=0.8))
-    assert found[0] < 84 < 88 < found[1] < 90
+    small, large = (box(side, side, 6) for side in (24.0, 96.0))
+    assert sharpest(small, "zigzag") < 84 < 88 < sharpest(large, "zigzag") < 90
+    both = union(small, box(24, 24, 6, (0, 72, 0)))
+    assert sharpest(both, "zigzag", align="body") == pytest.approx(sharpest(small, "zigzag"), abs=0.01)
+    assert sharpest(both, "zigzag") > 87
+    assert sharpest(small, "cross-3d") == pytest.approx(90, abs=0.001)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Star(Pattern):
+    """Two lines that meet at 53 degrees in the middle."""
+
+    name = "star"
+    summary = ""
+    cell: float = cell_parameter(6.0)
+
+    def lines(self, region: Any, z: float = 0.0) -> Any:
+        return shapely.intersection(
+            shapely.multilinestrings([[(-50, -100), (50, 100)], [(50, -100), (-50, 100)]]), region
+        )
+
+    def line_spacing(self, region: Any) -> float:
+        return self.cell
+
+
+def test_corners_outside_of_the_walls_are_none() -> None:
+    """Two walls that meet at 53 degrees in the hole of a frame, and nowhere in the frame itself."""
+    frame, block = (surface(mesh) for mesh in (less(box(20, 20, 6), box(12, 12, 8)), box(20, 20, 6)))
+    voids = Drawn(pattern=Star(), anchor=np.zeros(3), share=0.1)
+    found = [voids.sharpest(space_inside(each, wall=1.0, voxel=0.4), cell=7.8, width=0.8) for each in (frame, block)]
+    assert found == [90, pytest.approx(53.13, abs=0.01)]
 
 
 def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -26,6 +26,10 @@ class Anchored(Protocol):
         """Return how many fields the voids need."""
         ...
 
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+        """Return the angle than which few corners of the voids are sharper, degrees."""
+        ...
+
     def into(self, out: Field, space: Space, which: int, *, cell: float, width: float) -> float:
         """Write a field, and return how many cells it fills."""
         ...
@@ -70,6 +74,11 @@ class Bodies:
         """Return how many fields are needed in the body that needs the most."""
         each = self._each(voids, space)
         return max((one.count(part, cell=cell, width=width) for _, part, one in each), default=0)
+
+    def sharpest(self, voids: Anchored, space: Space, *, cell: float, width: float) -> float:
+        """Return the angle than which few corners are sharper in the body with the sharpest, degrees; 90 at most."""
+        each = self._each(voids, space)
+        return min((one.sharpest(part, cell=cell, width=width) for _, part, one in each), default=90.0)
 
     def into(self, voids: Anchored, out: Field, space: Space, which: int, *, cell: float, width: float) -> float:
         """Write a field of all bodies, and return how many cells it fills."""

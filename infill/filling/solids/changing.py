@@ -55,7 +55,7 @@ class Changing:
         """See `Voids`: of a few cells at some heights."""
         pattern, heights = sized(self.pattern, cell), self._heights(space)
         region = square(SAMPLE / 2 * cell)
-        some = heights[:: max(1, len(heights) // LOOKED_AT)]
+        some = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
         return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in some]))
 
     def widths(self, density: float) -> float:

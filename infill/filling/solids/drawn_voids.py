@@ -6,7 +6,6 @@ import dataclasses
 import weakref
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import shapely
@@ -53,7 +52,7 @@ class Drawn:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[Any, ...], _Faces] = field(default_factory=dict)
+    known: dict[tuple[weakref.ref[Space], float], _Faces] = field(default_factory=dict)
 
     def about(self, middle: NDArray[np.float64]) -> Drawn:
         """See `Anchored`."""
@@ -108,8 +107,10 @@ class Drawn:
         return LineSample(pattern=self.pattern)
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:
-        """See `Voids`: of the lines in this space; where each component of the part has its own, of a sample."""
-        return self.sample.sharpest if self.bodies is not None else self._faces(space, cell, width).sharpest
+        """See `Voids`: of the lines in this space."""
+        if self.bodies is not None:
+            return self.bodies.sharpest(self, space, cell=cell, width=width)
+        return self._faces(space, cell, width).sharpest
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
@@ -162,7 +163,10 @@ class Drawn:
             inside = shapely.contains_xy(several, x[:, None], y[None, :])
             beside = _away(shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny))
             planes.append(np.where(inside, away, -beside))
-        return _Faces(colours=planes, sharpest=sharpest(between_lines(polygons, box)), reach=reach, width=width)
+        places, angles = between_lines(polygons)
+        at = np.round((places - start) / space.size).astype(np.int64)
+        deep = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # no room at the rim of the grid
+        return _Faces(colours=planes, sharpest=sharpest(angles[deep]), reach=reach, width=width)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -12,7 +12,7 @@ from patterns.unit_cells import Bars, Cellular, Planes
 # angle and stays itself, the larger the longer.
 DEGREES = (45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0)
 TIPS = (1.4976, 1.3727, 1.2632, 1.166, 1.0785, 0.9992, 0.9265, 0.8593, 0.7969, 0.7386)
-COARSE, CELLS = 0.12, 4.0  # of the radius, what a grid costs at corners along it with so many cells to the radius
+COARSE, CELLS = 0.16, 4.0  # of the radius, what a grid costs with so many cells to it, wherever corners lie on it
 BLUNT = 1.7  # cells: grids that are coarser beside the radius round corners more than asked for anyway
 GRID = 0.05 / 30  # of the radius, for each degree that a corner is sharper than a right angle: what a coarse grid costs
 THINNER = 0.1  # of a bar, which curvature may take for corners sharper than right angles
@@ -39,7 +39,7 @@ def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: 
     ----------
     radius : float
     degrees : float
-        Of the corners.
+        Of the corners; what is sharper than 45 counts as that.
     bar : float, optional
         Diameter of bars, which curvature makes thinner: for corners that are sharper than right angles, no more than a
         tenth is taken from it.
@@ -53,12 +53,13 @@ def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: 
 
     >>> round(times_for(1.0, 90.0), 4), times_for(1.0, 60.0) > 2.4 * times_for(1.0, 90.0)
     (0.2728, True)
-    >>> times_for(1.0, 60.0, bar=1.0) == times_for(1.0, 90.0)
-    True
+    >>> times_for(1.0, 60.0, bar=1.0) == times_for(1.0, 90.0), times_for(1.0, 15.0) == times_for(1.0, 45.0)
+    (True, True)
     """
+    degrees = min(max(degrees, DEGREES[0]), 90.0)
     more = 1 + COARSE * min(1.0, (CELLS * cell / radius) ** 2) if radius >= BLUNT * cell > 0 else 1.0
     right = (tip(90.0) * radius * more) ** 2 / 2
-    sharp = (tip(degrees) * radius * (more + GRID * (90.0 - min(degrees, 90.0)))) ** 2 / 2
+    sharp = (tip(degrees) * radius * (more + GRID * (90.0 - degrees))) ** 2 / 2
     if bar is None:
         return sharp
     # The square of the radius of a cylinder falls by twice the time.
@@ -103,31 +104,27 @@ def _between_bars(pattern: Bars) -> Floats:
     return angles[angles > 1.0]  # the same bar, from two periods
 
 
-def between_lines(polygons: NDArray[np.object_], within: shapely.Polygon | None = None) -> Floats:
-    """Return the angles at the corners of polygons, degrees; of those that lie inside of a region, if there is one.
+def between_lines(polygons: NDArray[np.object_]) -> tuple[Floats, Floats]:
+    """Return where the corners of polygons are, and of their holes, (N, 2), and the angles inside of them, degrees.
 
-    >>> between_lines(np.array([shapely.box(0, 0, 2, 1)])).round(6).tolist()
-    [90.0, 90.0, 90.0, 90.0]
-    >>> between_lines(np.array([shapely.box(0, 0, 2, 1)]), shapely.box(1, 0.5, 3, 3)).round(6).tolist()
-    [90.0]
+    >>> places, angles = between_lines(np.array([shapely.box(0, 0, 2, 1)]))
+    >>> places.tolist(), angles.round(6).tolist()
+    ([[2.0, 0.0], [2.0, 1.0], [0.0, 1.0], [0.0, 0.0]], [90.0, 90.0, 90.0, 90.0])
     """
-    rings = shapely.get_exterior_ring(polygons)
+    rings, polygon = shapely.get_rings(shapely.remove_repeated_points(polygons), return_index=True)
+    if not len(rings):
+        return np.empty((0, 2)), np.empty(0)
+    hole = np.diff(polygon, prepend=-1) == 0
     points, ring = shapely.get_coordinates(rings, return_index=True)
-    if not len(points):
-        return np.empty(0)
     begins = np.flatnonzero(np.diff(ring, prepend=-1))
+    ends = np.append(begins[1:], len(points)) - 1  # the first point again
     number = np.arange(len(points))
-    last = np.zeros(len(points), dtype=bool)
-    last[np.append(begins[1:], len(points)) - 1] = True  # the first point again
     before = number - 1
-    before[begins] = np.append(begins[1:], len(points)) - 2
+    before[begins] = ends - 1
     back, on = (points[each] - points for each in (before, np.minimum(number + 1, len(points) - 1)))
     turn = on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0]
     angle = np.degrees(np.arctan2(turn, (back * on).sum(axis=1))) % 360
-    angle = np.where(shapely.is_ccw(rings)[ring], angle, 360 - angle)
-    kept = ~last & (angle < STRAIGHT)
-    if within is not None:
-        low, high = np.reshape(within.bounds, (2, 2))
-        kept &= ((points > low) & (points < high)).all(axis=1)
-    corners: Floats = angle[kept]
-    return corners
+    angle = np.where((shapely.is_ccw(rings) != hole)[ring], angle, 360 - angle)
+    kept = angle < STRAIGHT
+    kept[ends] = False
+    return points[kept], angle[kept]

@@ -127,8 +127,9 @@ def _as_wide(
 ) -> Hollow:
     """Return voids between which walls are as wide as asked for, mm, or bars as thick, if not the density says that."""
     space = found.space
-    smoothed = smoothing_for(space, voids, request, (found.cell, width)).steps > 0
-    if "width" in varied[:1] or voids.grading is not None or not even(voids) or not smoothed:
+    if "width" in varied[:1] or voids.grading is not None or not even(voids):
+        return found
+    if not smoothing_for(space, voids, request, (found.cell, width)).steps:
         return found
     for _ in range(REDRAWN):
         median, seen = found.median

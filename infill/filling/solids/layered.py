@@ -92,8 +92,10 @@ class Layered:
         """Whether one void lies around all walls, so that cells of the grid must resolve these."""
         return not self.layers.two_sided
 
-    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
         """See `Voids`."""
+        if self.bodies is not None:
+            return self.bodies.sharpest(self, space, cell=cell, width=width)
         return self.layers.sharpest(space, cell)
 
     def about(self, middle: Floats) -> Layered:

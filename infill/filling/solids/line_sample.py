@@ -102,19 +102,33 @@ def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: fl
 
 
 def corners(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.float64]:
-    """Return the angles between lines of a cell inside of a region, where they meet or bend, degrees.
+    """Return the angles between lines inside of a region, where they meet or bend, degrees.
+
+    Parameters
+    ----------
+    lines, region
+    cell : float
+        Of the pattern, in the unit of the lines.
 
     >>> corners(shapely.LineString([(-1 / 3, 0), (0, 0), (0, 1 / 3)]), square(1 / 3)).round(6).tolist()
     [90.0]
     """
-    inside = region.buffer(-2 * SNAP * cell, join_style="mitre")
-    return between_lines(faces_between(lines, region, cell=cell), inside)
+    places, angles = between_lines(faces_between(lines, region, cell=cell))
+    off_border = shapely.distance(shapely.points(places), region.boundary) > 2 * SNAP * cell
+    inside: NDArray[np.float64] = angles[off_border]
+    return inside
 
 
 def faces_between(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.object_]:
-    """Return the polygons between lines of a cell, and between them and the border of their region.
+    """Return the polygons between lines, and between them and the border of their region.
 
     Lines that meet but for rounding do so here: what is nearer than a millionth of a cell is in one place.
+
+    Parameters
+    ----------
+    lines, region
+    cell : float
+        Of the pattern, in the unit of the lines.
 
     >>> upright, level = shapely.LineString([(0, -1), (0, 1)]), shapely.LineString([(1e-9, 0), (1, 0)])
     >>> [face.area for face in faces_between(shapely.MultiLineString([upright, level]), square(1.0))]

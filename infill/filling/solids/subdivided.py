@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import weakref
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -82,7 +81,7 @@ class Subdivided:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[weakref.ref[Space], float], Tree] = field(default_factory=dict)
+    known: dict[tuple[int, float], Tree] = field(default_factory=dict)
     skins: dict[int, tuple[Space, cKDTree]] = field(default_factory=dict)
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
@@ -136,7 +135,7 @@ class Subdivided:
 
     def tree(self, space: Space, cell: float) -> Tree:
         """Return the cubes in a space, the smallest of which have sides of a cell, mm."""
-        key = weakref.ref(space), cell
+        key = id(space), cell
         if key not in self.known:
             self.known.clear()
             self.known[key] = self._found(space, cell)

@@ -30,7 +30,7 @@ SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are lef
 def smoothing_for(space: Space, voids: Voids, request: Request, sizes: tuple[float, float]) -> Smoothing:
     """Return the steps that round corners to the radius asked for, for a cell and a width of walls or bars, mm."""
     (cell, width), smoothing = sizes, Smoothing(interface=INTERFACE, fidelity=0.0)
-    sharpest = voids.sharpest(_inside(space, request), cell=cell, width=width)
+    sharpest = voids.sharpest(_reached(space, request), cell=cell, width=width)
     bar = width * request.thinnest if barred(request.kind) else None
     radius = request.radius(space.thickness)
     times = times_for(radius, sharpest, bar, cell=space.size) / space.size**2  # cells²
@@ -47,7 +47,7 @@ def surfaces_of(
     cell, width = sizes
     out = np.empty_like(space.depth)
     smoothing = smoothing_for(space, voids, request, sizes)
-    inside, walls = _inside(space, request), None
+    inside, walls = _reached(space, request), None
     if request.form == "project":
         walls = inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
     surfaces, islands, specks = [], 0, 0
@@ -83,8 +83,8 @@ def surfaces_of(
     )
 
 
-def _inside(space: Space, request: Request) -> Space:
-    """Return where there are voids: in a project, up to the skin."""
+def _reached(space: Space, request: Request) -> Space:
+    """Return the space that voids may take: in a project, through the walls and a little out of the part."""
     return space.unwalled if request.form == "project" else space
 
 
