@@ -51,7 +51,14 @@ class Profile:
         """Return the level of distance that corresponds to a level of phi, which must be within `steepest`."""
         return math.atanh(level) / self.scale
 
-    def phase(self, distance: NDArray[np.floating], *, unit: float = 1.0, threads: int | None = None) -> Field:
+    def phase(
+        self,
+        distance: NDArray[np.floating],
+        *,
+        unit: float = 1.0,
+        out: Field | None = None,
+        threads: int | None = None,
+    ) -> Field:
         """Return phi for distances in units of the one at which they are cut off, +-1 from there on.
 
         Parameters
@@ -59,6 +66,8 @@ class Profile:
         distance : (...) float
         unit : float
             By which they are divided first.
+        out : (...) float32, contiguous, optional
+            Where phi is written; it may be `distance`.
         threads : int, optional
             See `infill.kernels.threads.thread_count`.
 
@@ -66,7 +75,7 @@ class Profile:
         [-1.0, 0.0, 1.0]
         """
         given = np.asarray(distance).reshape(-1)
-        found: Field = np.empty(given.shape, dtype=np.float32)
+        found = np.empty(given.shape, dtype=np.float32) if out is None else out.reshape(-1)
 
         def fill(thread: int, threads: int) -> None:
             for begin in range(thread * AT_ONCE, len(given), threads * AT_ONCE):

@@ -193,13 +193,17 @@ def _hold(result: SparseField, mild: Field, unit: float, threads: int) -> None:
     in_threads(kernels.hold, result.values.reshape(-1, CELLS), distance, held.bound / unit, threads=threads)
 
 
-def on_profile(distance: NDArray[np.floating], interface: float, *, threads: int | None = None) -> Field:
+def on_profile(
+    distance: NDArray[np.floating], interface: float, *, out: Field | None = None, threads: int | None = None
+) -> Field:
     """Return distances in cells as the phase field whose surface does not move: +-1 where the distance is cut off.
+
+    It is written to `out`, if given, which may be the distances.
 
     >>> on_profile(np.array([-9, 0, 2, 9]), 2.0).round(2).tolist()
     [-1.0, 0.0, 0.8999999761581421, 1.0]
     """
-    return REFINED.phase(distance, unit=cut_off(interface), threads=threads)
+    return REFINED.phase(distance, unit=cut_off(interface), out=out, threads=threads)
 
 
 def cut_off(interface: float) -> float:
@@ -286,7 +290,7 @@ class _Sum:
 def _grown(before: Field, known: int, bricks: Bricks) -> Field:
     """Return the last but one field extended by the new bricks: until now, those were equal to their data."""
     if len(before) < bricks.count:
-        larger = np.empty((int(MORE * bricks.count), CELLS), dtype=np.float32)
+        larger = np.empty((bricks.room(MORE), CELLS), dtype=np.float32)
         larger[:known] = before[:known]
         before = larger
     before[known : bricks.count] = bricks.held[known : bricks.count]

@@ -163,7 +163,6 @@ class Bricks:
     def __init__(self, slots: NDArray[np.int32], where: NDArray[np.int32], data: Data, threads: int) -> None:
         self.slots, self.count, self.shape, self.threads = slots, len(where), data.shape, threads
         self.where = where
-        room = max(16, int(ROOM * self.count))
         self.phi = np.empty((0, CELLS), dtype=np.float32)
         self.held: Data = np.empty((0, CELLS), dtype=data.dtype)
         self.faces, self.next_faces = (np.empty((0, FACES), dtype=np.float32) for _ in range(2))
@@ -171,7 +170,7 @@ class Bricks:
         self.rows, self.next_rows = (np.empty((0, MASKS), dtype=np.uint64) for _ in range(2))
         self.still = np.empty((0, 2), dtype=np.uint64)  # the rows of the data that are +1, and -1, throughout
         self.beside = np.empty((0, 6), dtype=np.int32)
-        self._grow(room)
+        self._grow(ROOM)
         kernels.find_neighbours(self.slots, self.where, self.beside, 0, self.count)
 
     @classmethod
@@ -224,7 +223,7 @@ class Bricks:
             return
         first, self.count = self.count, self.count + len(wanted)
         if self.count > len(self.phi):
-            self._grow(int(MORE * self.count))
+            self._grow(MORE)
         self.where[first : self.count] = wanted
         values = np.where(self.slots[tuple(wanted.T)] == SOLID_BRICK, 1, -1).astype(np.int8)
         self.slots[tuple(wanted.T)] = np.arange(first, self.count)
@@ -273,8 +272,13 @@ class Bricks:
         self.flat, self.next_flat = self.next_flat, self.flat
         self.rows, self.next_rows = self.next_rows, self.rows
 
-    def _grow(self, room: int) -> None:
+    def room(self, times: float) -> int:
+        """Return for how many bricks there is to be room: times as many as there are, but no more than there can be."""
+        return max(16, min(int(times * self.count), self.slots.size))
+
+    def _grow(self, times: float) -> None:
         """Make room; the part that is not used costs no memory."""
+        room = self.room(times)
         faces = ("faces", "next_faces", "flat", "next_flat", "rows", "next_rows")
         for name in ("phi", "held", *faces, "still", "beside", "where"):
             old = getattr(self, name)

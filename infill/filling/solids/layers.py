@@ -73,12 +73,14 @@ class Layers:
     def between(self, low: int, high: int) -> Field:
         """Return the layers from one up to, not including, another: (nx, ny, high - low)."""
         first, last = low // self.thick, (high - 1) // self.thick
-        found = [self._slab(number) for number in range(first, last + 1)]
-        some = found[0] if len(found) == 1 else np.concatenate(found, axis=2)
-        begin = low - first * self.thick
-        if some.shape[2] == high - low:
-            return some
-        return np.ascontiguousarray(some[:, :, begin : begin + high - low])
+        if not self.in_slabs:
+            return np.ascontiguousarray(self.slabs[0][:, :, low:high])
+        found = np.empty((*self.shape[:2], high - low), dtype=np.float32)
+        for number in range(first, last + 1):
+            begin = number * self.thick
+            start, end = max(low, begin), min(high, begin + self.thick)
+            found[:, :, start - low : end - low] = self._slab(number)[:, :, start - begin : end - begin]
+        return found
 
     def alike(self, low: int, high: int) -> tuple[object, ...]:
         """Return what is equal for layers that are: they need not be looked at again."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.filling.solids.drawn_voids import Drawn
 from infill.filling.solids.hollow import Hollow, Unmade
@@ -153,6 +154,17 @@ def _by_field(
     smoothing = smoothing_for(space, voids, request, sizes)
     planes = voids.planes(space, cell=cell, width=width)
     beside = smoothing.steps + 1
+
+    def found_in(depth: NDArray[np.float32], plane: NDArray[np.float32], low: int, high: int) -> Found | None:
+        distance = np.empty_like(depth)
+        voids.lesser(distance, depth, plane, width / space.size)
+        field = smoothed_void(distance, depth, smoothing, threads=threads)
+        if field is None:
+            return None
+        surface = extract_bricks(field, spacing=(1.0,) * 3, origin=(-0.5,) * 3, threads=threads)
+        piece = piece_between(surface, low, high)
+        return None if piece is None else then(piece)
+
     known: dict[tuple[object, ...], list[Found | None]] = {}
     found: list[list[tuple[int, Found | None]]] = [[] for _ in planes]
     for low, high in layers.bounds():
@@ -160,17 +172,8 @@ def _by_field(
         key = (low - first, high - first, *layers.alike(first, last))
         if key not in known:
             depth = layers.between(first, last)
-            known[key] = []
-            for plane in planes:
-                out = np.empty_like(depth)
-                voids.lesser(out, depth, plane, width / space.size)
-                field = smoothed_void(out, depth, smoothing, threads=threads)
-                del out
-                piece = None
-                if field is not None:
-                    surface = extract_bricks(field, spacing=(1.0,) * 3, origin=(-0.5,) * 3, threads=threads)
-                    piece = piece_between(surface, low - first, high - first)
-                known[key].append(None if piece is None else then(piece))
+            known[key] = [found_in(depth, plane, low - first, high - first) for plane in planes]
+            del depth
         for each, one in zip(found, known[key], strict=True):
             each.append((low, one))
     return found

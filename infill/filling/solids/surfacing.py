@@ -96,16 +96,18 @@ def smoothed_void(
     Parameters
     ----------
     distance, depth : (nx, ny, nz) float32
-        Into the void, and below the inner side of the wall, in cells.
+        Into the void, which is overwritten, and below the inner side of the wall, in cells.
     smoothing : Smoothing
     """
     if not (distance > 0).any():
         return None
-    field = smooth_bricks(on_profile(distance, INTERFACE, threads=threads), smoothing, threads=threads)
+    phase = on_profile(distance, INTERFACE, out=distance, threads=threads)
+    field = smooth_bricks(phase, smoothing, threads=threads)
     if smoothing.steps:
         # Where the skin bends inwards, curvature would draw voids into the wall.
-        walled = on_profile(field.gathered(depth, threads=threads), INTERFACE, threads=threads)
-        field = replace(field, values=np.minimum(field.values, walled))
+        walled = field.gathered(depth, threads=threads)
+        walled = on_profile(walled, INTERFACE, out=walled, threads=threads)
+        field = replace(field, values=np.minimum(field.values, walled, out=walled))
     return field if (field.values > 0).any() else None
 
 
