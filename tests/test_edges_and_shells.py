@@ -162,12 +162,12 @@ def test_the_volume_of_every_shell_is_that_of_its_mesh() -> None:
 
 def test_batches_hold_every_face_once_and_whole_shells() -> None:
     surface = several()
-    batches = in_batches(surface, len(surface.faces) // 3 + 1)
+    batches = list(in_batches(surface, len(surface.faces) // 3 + 1))
     assert len(batches) > 1
     assert all(batch.closed for batch in batches)
     corners = np.concatenate([batch.vertices[batch.faces] for batch in batches])
     np.testing.assert_array_equal(corners, surface.vertices[surface.faces])
-    assert in_batches(surface, len(surface.faces)) == [surface]
+    assert list(in_batches(surface, len(surface.faces))) == [surface]
 
 
 def test_some_faces_keep_their_corners_and_only_these() -> None:

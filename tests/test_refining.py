@@ -215,6 +215,14 @@ def test_phase_and_distance_are_inverse() -> None:
         )
 
 
+def test_the_phase_may_take_the_place_of_distances(rng: np.random.Generator) -> None:
+    distance = rng.normal(scale=4, size=(7, 40, 3)).astype(np.float32)
+    apart = REFINED.phase(distance, unit=3)
+    assert not np.shares_memory(apart, distance)
+    assert np.shares_memory(REFINED.phase(distance, unit=3, out=distance), distance)
+    assert np.array_equal(distance, apart)
+
+
 def test_despeckle_goes_with_refining() -> None:
     ball = sum(x**2 for x in grid(40, 40, 40)) < 12**2
     ball[2:4, 2:4, 2:4] = True

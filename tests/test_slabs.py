@@ -13,7 +13,7 @@ import trimesh
 from made_shapes import box, less, rod, turned, union
 from scipy.spatial import KDTree
 
-from infill import GeometryError, Surface, fill
+from infill import GeometryError, Surface, Volume, fill
 from infill.filling.solids import hollowing, layers
 from infill.filling.solids.choosing import voids_of
 from infill.filling.solids.drawn_voids import Drawn
@@ -115,6 +115,18 @@ def test_packed_layers_are_what_was_packed(rng: np.random.Generator) -> None:
         assert np.array_equal(packed.between(low, high), whole[:, :, low:high])
         assert np.array_equal(Layers.of(whole).between(low, high), whole[:, :, low:high])
     assert packed.alike(6, 12) == packed.alike(12, 18) != packed.alike(0, 6)
+
+
+@pytest.mark.parametrize("thick", [1, 5, 8, 23, 40])
+def test_a_volume_in_slabs_is_that_volume(
+    thick: int, rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(layers, "LEAST_LAYERS", thick)
+    monkeypatch.setattr(layers, "SLAB", 1)
+    whole = Volume(values=rng.random((4, 5, 23)) < 0.5, spacing=0.5, origin=(1, 2, 3))
+    found = list(layers.in_slabs(whole))
+    assert np.array_equal(np.concatenate([each.values for each in found], axis=2), whole.values)
+    assert [each.origin for each in found] == [(1, 2, 3 + 0.5 * low) for low in range(0, 23, thick)]
 
 
 def test_a_space_in_slabs_measures_as_the_whole(space: Space) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -76,14 +77,16 @@ def with_faces(surface: Surface, kept: NDArray[np.bool_]) -> Surface:
     return replace(surface, vertices=surface.vertices[used], faces=number.astype(faces.dtype, copy=False)[faces])
 
 
-def in_batches(surface: Surface, most: int) -> list[Surface]:
-    """Return a surface as several, none with more faces than a number unless a single component has; all in order."""
+def in_batches(surface: Surface, most: int) -> Iterator[Surface]:
+    """Yield a surface as several, none with more faces than a number unless a single component has; all in order."""
     if len(surface.faces) <= most:
-        return [surface]
+        yield surface
+        return
     names, count = vertex_components(surface.faces, len(surface.vertices), compiled=True)
     shell = names[surface.faces[:, 0]]
     batch = np.cumsum(np.bincount(shell, minlength=count)) // most
-    return [with_faces(surface, batch[shell] == each) for each in np.unique(batch)]
+    for each in np.unique(batch):
+        yield with_faces(surface, batch[shell] == each)
 
 
 def _by_scipy(faces: Integers, vertices: int) -> tuple[Names, int, NDArray[np.bool_]]:

@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -129,8 +129,10 @@ def volumes_of(slabs: Sequence[Shells | None]) -> Floats:
     return volumes
 
 
-def stitched(pieces: Sequence[tuple[int, Piece | None]]) -> Surface:
+def stitched(pieces: Iterable[tuple[int, Piece | None]]) -> Surface:
     """Return the surface of which pieces are given from the bottom, each with the height of its lower plane, in cells.
+
+    Each piece is looked at once.
 
     Raises
     ------
@@ -155,7 +157,9 @@ def stitched(pieces: Sequence[tuple[int, Piece | None]]) -> Surface:
         rim = piece.rim(piece.high)
         upper, below = number[rim], points[rim, :2]
     _require_meeting(not len(upper))
-    return Surface(vertices=np.concatenate(vertices), faces=np.concatenate(faces))
+    whole = np.concatenate(faces)
+    faces.clear()  # so that no more than twice as much is held at a time
+    return Surface(vertices=np.concatenate(vertices), faces=whole)
 
 
 def _require_meeting(met: bool) -> None:

@@ -43,7 +43,7 @@ FARTHER_OFF = 0.005  # of the density: not for walls of the right width
 FINEST, DOUBLINGS = 0.01, 4  # of a cell: where tolerances begin; how often they are doubled for fewer triangles
 FIRST = 0.75  # of a tolerance, for the pieces of a surface that is made slab by slab; the rest is for all of it
 AT_ONCE = 500_000  # triangles that are simplified at a time, if they are of several voids: so much less memory
-FEW_AT_ONCE = 100_000  # of voids that were made slab by slab, with few triangles from the beginning
+FEW_AT_ONCE = 30_000  # of voids that were made slab by slab, with few triangles from the beginning
 COLLAPSE_BYTES = 4000  # for each triangle, at most
 GRADING_STEPS, GRADING_ROUNDS, GRADING_CLOSE, MOST_OFF = 24, 4, 0.01, 0.5  # of a density that changes
 LEAST_THICK = 1.5  # cells of the grid in the thickness of what lies inside the walls
@@ -170,9 +170,12 @@ def few_triangles(found: Hollow, tolerance: float) -> Hollow:
         found, left, at_once = found.unmade.made(FIRST * tolerance), (1 - FIRST) * tolerance, FEW_AT_ONCE
     if tolerance == 0:
         return found
-    few = (joined([shortened(batch, SHARE * left) for batch in in_batches(each, at_once)]) for each in found.surfaces)
-    kept = (useful(each, (FLAT * found.space.size) ** 3)[0] for each in few)
-    return replace(found, surfaces=[each for each in kept if each is not None], tolerance=tolerance)
+    every, kept = found.surfaces[::-1], []
+    found = replace(found, surfaces=[], tolerance=tolerance)
+    while every:  # those of before are not kept too, if nobody else has them
+        few = joined([shortened(batch, SHARE * left) for batch in in_batches(every.pop(), at_once)])
+        kept.append(useful(few, (FLAT * found.space.size) ** 3)[0])
+    return replace(found, surfaces=[each for each in kept if each is not None])
 
 
 def _about(space: Space, voids: Voids, sizes: tuple[float, float]) -> float:

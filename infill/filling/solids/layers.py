@@ -16,6 +16,7 @@ from infill.volume import Volume
 WHOLE = 12_000_000  # cells: spaces with fewer are kept as one array, which takes less time
 SLAB, LEAST_LAYERS = 2_000_000, 24  # cells of a slab, and layers at least
 QUICKLY = 1  # of the levels of zlib
+BITS = 8  # in a byte
 
 Field = NDArray[np.float32]
 
@@ -73,8 +74,9 @@ class Layers:
     def between(self, low: int, high: int) -> Field:
         """Return the layers from one up to, not including, another: (nx, ny, high - low)."""
         first, last = low // self.thick, (high - 1) // self.thick
-        if not self.in_slabs:
-            return np.ascontiguousarray(self.slabs[0][:, :, low:high])
+        if first == last:
+            begin = first * self.thick
+            return np.ascontiguousarray(self._slab(first)[:, :, low - begin : high - begin])
         found = np.empty((*self.shape[:2], high - low), dtype=np.float32)
         for number in range(first, last + 1):
             begin = number * self.thick
@@ -110,9 +112,18 @@ def _unpacked(few: bytes, shape: tuple[int, int, int]) -> Field:
 
 
 def in_slabs(cells: Volume) -> Iterator[Volume]:
-    """Yield a volume whose cells have equal sides in slabs, from the bottom."""
+    """Yield a volume of booleans whose cells have equal sides in slabs, from the bottom.
+
+    A bit is kept for each cell, and nothing of the volume if nobody else has it.
+    """
     size, (nx, ny, nz) = float(cells.cell_size[0]), cells.values.shape
     thick = max(LEAST_LAYERS, math.ceil(SLAB / (nx * ny)))
     x, y, z = cells.origin
+    bits = np.packbits(cells.values.astype(np.bool_, copy=False), axis=2)
+    few = replace(cells, values=cells.values[:1, :1, :1].copy())
+    del cells
     for low in range(0, nz, thick):
-        yield replace(cells, values=cells.values[:, :, low : low + thick], origin=(x, y, z + low * size))
+        first, high = low // BITS, min(low + thick, nz)
+        some = np.unpackbits(bits[:, :, first : -(-high // BITS)], axis=2).view(np.bool_)
+        some = some[:, :, low - first * BITS : high - first * BITS]
+        yield replace(few, values=some, origin=(x, y, z + low * size))

@@ -6,7 +6,7 @@ it as there are steps, and is what it would be in the whole, to the last bit. Sl
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -96,12 +96,9 @@ def surfaces_by_slabs(
     while fields:  # what is stitched together is not kept in pieces too
         slabs = fields.pop(0)
         counts += np.sum([each.counts for _, each in slabs if each is not None] or [(0, 0)], axis=0)
-        pieces = [(low, None if each is None else each.piece) for low, each in slabs]
-        if all(piece is None for _, piece in pieces):
+        if all(each is None or each.piece is None for _, each in slabs):
             continue
-        whole = stitched(pieces)
-        whole = replace(whole, vertices=space.origin + space.size * whole.vertices)
-        kept, islands, specks, loose = useful(whole, (SPECK * space.size) ** 3)
+        kept, islands, specks, loose = useful(_in_place(stitched(_taken(slabs)), space), (SPECK * space.size) ** 3)
         counts += (islands, specks)
         lost.extend(loose)
         if kept is not None:
@@ -116,6 +113,21 @@ def surfaces_by_slabs(
         islands=islands,
         specks=specks,
     )
+
+
+def _taken(slabs: list[tuple[int, _Few | None]]) -> Iterator[tuple[int, Piece | None]]:
+    """Yield the pieces in slabs, from the bottom, and empty the list."""
+    while slabs:
+        low, each = slabs.pop(0)
+        yield low, None if each is None else each.piece
+
+
+def _in_place(surface: Surface, space: Space) -> Surface:
+    """Return a surface in mm, of which the vertices were in cells and are overwritten."""
+    vertices = surface.vertices
+    vertices *= space.size
+    vertices += space.origin
+    return replace(surface, vertices=vertices)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -217,7 +217,8 @@ def space_inside(
     require_memory(_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
     found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
     whole, skin, overlap = _skin(found)
-    longer, cells, opening = whole, found.volume, None
+    longer, cells, opening, repairs = whole, found.volume, None, found.repairs
+    del found
     if open_ is not None:
         opening, lids = flat_sides(whole, open_)
         longer = lengthened(whole, lids, further / len(lids))
@@ -230,8 +231,11 @@ def space_inside(
         found -= np.float32(wall / voxel)
         return found
 
+    origin = np.array(cells.origin) + voxel / 2
     if slabs and not several and cells.values.size > WHOLE:
-        layers = Layers.packed(deep(each) for each in in_slabs(cells))
+        some = in_slabs(cells)
+        del cells
+        layers = Layers.packed(deep(each) for each in some)
     else:
         layers = Layers.of(deep(cells))
     if not any((slab > 0).any() for _, slab in layers.each()):
@@ -239,9 +243,9 @@ def space_inside(
     space = Space(
         layers=layers,
         size=voxel,
-        origin=np.array(cells.origin) + voxel / 2,
+        origin=origin,
         part=whole,
-        repairs=found.repairs,
+        repairs=repairs,
         skin=skin,
         overlap=overlap,
         wall=wall,
