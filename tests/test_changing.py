@@ -8,9 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import shapely.affinity
 from made_shapes import box
+from test_slabs import asked
 
 from infill import Surface, fill
+from infill.filling.solids.choosing import voids_of
+from infill.filling.solids.space import space_inside
 from infill.surfaces.distance import Tree
 from infill.surfaces.winding import winding
 from patterns import Cross, Pattern, cell_parameter
@@ -91,6 +95,28 @@ class LeaningSurface(Leaning):
 
     def level_set(self, x: Any, y: Any, z: Any) -> Any:
         return np.sin(np.pi * (x - self.slope * z) / self.cell)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Twisting(Leaning):
+    """Upright walls, and others across that meet them at a right angle where z is 0, and turn above and below."""
+
+    name = "twisting"
+    slope: float = 0.0
+    turn: float = 3.0  # degrees a millimetre
+
+    def lines(self, region: Any, z: float = 0.0) -> Any:
+        straight = shapely.multilinestrings([[(-100, y), (100, y)] for y in np.arange(-96, 97, self.cell)])
+        across = shapely.affinity.rotate(straight, self.turn * z, origin=(0, 0))
+        return shapely.union(super().lines(region, z), shapely.intersection(across, region))
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.5, 3.0])
+def test_fillets_suit_the_height_at_which_walls_meet_at_the_sharpest_angles(turn: float) -> None:
+    part = box(24, 20, 22)
+    inside = space_inside(Surface(vertices=part.vertices, faces=part.faces), wall=1.0, voxel=0.5)
+    voids = voids_of(asked(Twisting(turn=turn)), inside.part.bounds, None)
+    assert voids.sharpest(inside, cell=6.0, width=0.8) == pytest.approx(90 - 10 * turn, abs=0.5 * turn)
 
 
 def to_walls(points: np.ndarray, cell: float, slope: float) -> np.ndarray:

@@ -52,8 +52,8 @@ class Changing:
         return STEEPEST
 
     def sharpest(self, space: Space, cell: float) -> float:
-        """See `Voids`: of a few cells at some heights."""
-        pattern, heights = sized(self.pattern, cell), self._heights(space)
+        """See `Voids`: of a few cells at some heights inside the walls."""
+        pattern, heights = sized(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
         region = square(SAMPLE / 2 * cell)
         some = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
         return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in some]))
