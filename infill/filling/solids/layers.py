@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from infill.volume import Volume
 
 WHOLE = 12_000_000  # cells: spaces with fewer are kept as one array, which takes less time
-SLAB, LEAST_LAYERS = 2_000_000, 24  # cells of a slab, and layers at least
+SLAB, LEAST_LAYERS = 4_000_000, 24  # cells of a slab, and layers at least: with thinner ones, more are beside them
 QUICKLY = 1  # of the levels of zlib
 BITS = 8  # in a byte
 
