@@ -103,7 +103,11 @@ def corners(each: Surface, digits: int) -> np.ndarray:
 # --- packed layers ----------------------------------------------------------------------------------------------------
 
 
-def test_packed_layers_are_what_was_packed(rng: np.random.Generator) -> None:
+@pytest.mark.parametrize("at_once", [1, 100, layers.AT_ONCE])
+def test_packed_layers_are_what_was_packed(
+    at_once: int, rng: np.random.Generator, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(layers, "AT_ONCE", at_once)
     whole = rng.normal(size=(5, 4, 23)).astype(np.float32)
     whole[:, :, 6:12] = whole[:, :, 12:18]
     packed = Layers.packed(whole[:, :, low : low + 6] for low in range(0, 23, 6))

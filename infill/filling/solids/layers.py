@@ -16,6 +16,7 @@ from infill.volume import Volume
 WHOLE = 12_000_000  # cells: spaces with fewer are kept as one array, which takes less time
 SLAB, LEAST_LAYERS = 4_000_000, 24  # cells of a slab, and layers at least: with thinner ones, more are beside them
 QUICKLY = 1  # of the levels of zlib
+AT_ONCE = 1_000_000  # bytes that are unpacked
 BITS = 8  # in a byte
 
 Field = NDArray[np.float32]
@@ -106,7 +107,12 @@ def _packed(slab: Field) -> bytes:
 
 def _unpacked(few: bytes, shape: tuple[int, int, int]) -> Field:
     """Return the slab that was packed, bit for bit."""
-    numbers = np.frombuffer(zlib.decompress(few), dtype=np.uint32).reshape(shape).copy()
+    numbers, unpacking, begin = np.empty(shape, dtype=np.uint32), zlib.decompressobj(), 0
+    room = numbers.reshape(-1).view(np.uint8)
+    while begin < len(room):
+        some = np.frombuffer(unpacking.decompress(few, AT_ONCE), dtype=np.uint8)
+        room[begin : begin + len(some)] = some
+        begin, few = begin + len(some), unpacking.unconsumed_tail
     np.cumsum(numbers, axis=2, dtype=np.uint32, out=numbers)
     return numbers.view(np.float32)
 
