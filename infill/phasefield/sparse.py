@@ -28,7 +28,7 @@ from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_a
 
 # Room to reserve for bricks, relative to those there are: at first enough for one more layer on both sides of the
 # surface, to get beyond which takes 8 steps; later half as much again, so that all copies together are at most three
-# times the last one. Room that is not used costs no memory until it is written to.
+# times the last one. There is none for more than the lattice has: memory that was used before is not free of cost.
 ROOM, MORE = 3.0, 1.5
 
 
@@ -277,7 +277,7 @@ class Bricks:
         return max(16, min(int(times * self.count), self.slots.size))
 
     def _grow(self, times: float) -> None:
-        """Make room; the part that is not used costs no memory."""
+        """Make room for so many times as many bricks as there are."""
         room = self.room(times)
         faces = ("faces", "next_faces", "flat", "next_flat", "rows", "next_rows")
         for name in ("phi", "held", *faces, "still", "beside", "where"):

@@ -218,7 +218,7 @@ def space_inside(
     found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
     whole, skin, overlap = _skin(found)
     longer, cells, opening, repairs = whole, found.volume, None, found.repairs
-    del found
+    del found  # so that the cells can go when their depths are known
     if open_ is not None:
         opening, lids = flat_sides(whole, open_)
         longer = lengthened(whole, lids, further / len(lids))
