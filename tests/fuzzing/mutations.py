@@ -33,13 +33,8 @@ def _mutate_once(name: str, data: bytes, rng: Random, others: tuple[bytes, ...])
     if rng.random() < 0.7:
         if suffix in ("3mf", "npz") and (members := unzipped(data)):
             return _mutate_member(members, rng)
-        if suffix in ("gz", "mgz") and data[:2] == b"\x1f\x8b":
-            try:
-                inner = gunzipped(data)
-            except (OSError, EOFError):
-                inner = None
-            if inner:
-                return gzip.compress(_break(inner, rng, others), mtime=0)
+        if suffix in ("gz", "mgz") and (inner := gunzipped(data)):
+            return gzip.compress(_break(inner, rng, others), mtime=0)
         if suffix == "glb" and len(data) > 20 and rng.random() < 0.7:
             return _mutate_glb(data, rng)
     return _break(data, rng, others)
@@ -61,7 +56,7 @@ def _mutate_member(members: dict[str, bytes], rng: Random) -> bytes:
 def _mutate_glb(data: bytes, rng: Random) -> bytes:
     try:
         tree, rest = glb_parts(data)
-    except (ValueError, IndexError):
+    except (ValueError, IndexError, RecursionError):
         return _break(data, rng, ())
     text = json.dumps(_mutate_tree(tree, rng)).encode()
     text += b" " * (-len(text) % 4)

@@ -272,17 +272,21 @@ def repacked_zip(members: dict[str, bytes]) -> bytes:
 
 
 def unzipped(data: bytes) -> dict[str, bytes] | None:
-    """Return the members of a ZIP file, or None if it is none."""
+    """Return the members of a ZIP file, or None if it is none, or a broken one."""
+    broken = (zipfile.BadZipFile, zlib.error, ValueError, OSError, EOFError, LookupError, RuntimeError)
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             return {name: archive.read(name) for name in archive.namelist()}
-    except zipfile.BadZipFile:
+    except broken:
         return None
 
 
 def gunzipped(data: bytes) -> bytes | None:
-    """Return what a gzip file holds, or None if it is none."""
-    return gzip.decompress(data) if data[:2] == b"\x1f\x8b" else None
+    """Return what a gzip file holds, or None if it is none, or a broken one."""
+    try:
+        return gzip.decompress(data)
+    except (OSError, EOFError, zlib.error):
+        return None
 
 
 def glb_parts(data: bytes) -> tuple[dict[str, object], bytes]:
