@@ -78,7 +78,7 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) 
     Raises
     ------
     GeometryError
-        If every line is shorter than a tenth of a line width at this size, or there are too many lines for a tile.
+        If every line is shorter than a quarter of a line width at this size, or there are too many lines for a tile.
     """
     together = _ends_together(lines, size, CLOSE * line_width)
     if not together:
