@@ -177,7 +177,7 @@ def test_a_point_that_is_too_far_is_named(far: float, words: list[str], tmp_path
     path = tmp_path / "p.npy"
     np.save(path, points)
     one_line_error(
-        run("smooth", path, "--as", "points", "--voxel", "0.5", *words, "-o", tmp_path / "a.stl"),
+        run("smooth", path, "--as", "points", "--units", "mm", "--voxel", "0.5", *words, "-o", tmp_path / "a.stl"),
         re.escape(f"a point lies at {far:g} mm; the limit is 1e+09 mm"),
     )
     assert sorted(tmp_path.iterdir()) == [path]
