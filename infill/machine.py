@@ -11,6 +11,7 @@ from pathlib import Path
 from infill.errors import MemoryLimitError
 
 GIB = 2**30
+LARGEST = 2**100  # bytes that a message names: a grid may be too large for a float
 
 
 def usable_cores() -> int:
@@ -49,6 +50,7 @@ def require_memory(needed: int, limit: int | None, advice: str) -> None:
     """Raise MemoryLimitError if `needed` bytes exceed `limit`, or the available memory if it is None."""
     allowed = available_memory() if limit is None else limit
     if allowed is not None and needed > allowed:
+        needed = min(needed, LARGEST)
         whose = "is at hand" if limit is None else "is allowed"
         raise MemoryLimitError(
             f"this needs about {needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB {whose}; {advice}"

@@ -268,9 +268,9 @@ BROKEN = {
     "copies of copies": (
         "tile.svg",
         svg("".join(f'<g id="g{k}"><use href="#g{k + 1}"/><use href="#g{k + 1}"/></g>' for k in range(40)) + '<g id="g40"/>'),
-        "more than",
+        "100001 drawn elements or more",
     ),
-    "deep": ("tile.svg", "<g>" * 2000, "nested deeper"),
+    "deep": ("tile.svg", "<g>" * 2000, "101 groups in one another"),
     "only text": ("tile.svg", svg("<text>a</text>"), "only 1 text"),
     "no lines": ("tile.svg", svg(""), "no lines"),
     "a dot": ("tile.svg", svg('<path d="M1 1L1 1"/>'), "without length"),
@@ -323,8 +323,8 @@ def test_a_dxf_cut_off_anywhere_is_told_in_one_line(tmp_path: Path) -> None:
     [
         ("nan", "extend over nan"),
         ("far", "e+300 mm"),
-        ("itself", "recursion"),
-        ("many", "more than 50000"),
+        ("itself", "contains itself"),
+        ("many", "the limit is 50000"),
         ("text", "only 1 text"),
     ],
 )

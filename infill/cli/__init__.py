@@ -44,6 +44,7 @@ def main(*, alone: bool = False) -> None:
     for name in ("SIGTERM", "SIGHUP"):
         with contextlib.suppress(AttributeError, ValueError):  # no such signal here, or not the main thread
             signal.signal(getattr(signal, name), _terminate)
+    _open_missing_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a name that the console cannot show is no reason to fail
             stream.reconfigure(errors="backslashreplace")
@@ -62,6 +63,22 @@ def main(*, alone: bool = False) -> None:
         # Whatever is still buffered for stdout would fail again when Python exits.
         sys.stdout = None
         sys.exit(1)
+
+
+def _open_missing_streams() -> None:
+    """Open the null device in place of standard streams that do not exist: under pythonw, or after `2>&-`.
+
+    Their numbers are taken first: a file that got number 2 would receive what compiled libraries print.
+    """
+    for number in range(3):
+        with contextlib.suppress(OSError):
+            try:
+                os.fstat(number)
+            except OSError:
+                os.open(os.devnull, os.O_RDWR)
+    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, mode, encoding="utf-8"))  # noqa: SIM115 - for the life of the process
 
 
 def _end(code: int) -> None:

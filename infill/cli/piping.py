@@ -6,6 +6,7 @@ Its format is what follows the dash, as in ``-o -.3mf``, since everywhere else t
 from __future__ import annotations
 
 import io
+import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
@@ -58,7 +59,7 @@ def check_outputs(
     BadParameter
         If stdout is named twice, or the report goes there.
     OutputError
-        If stdout is a terminal, or as `infill.formats.whole_files.check_targets`.
+        If stdout is a terminal or does not exist, or as `infill.formats.whole_files.check_targets`.
     """
     binary = [path for path in paths if path is not None]
     every = [*binary, *([] if text is None else [text])]
@@ -69,6 +70,8 @@ def check_outputs(
         piped = []
     if piped and as_json:
         raise typer.BadParameter("'-' and --json would both go to stdout; give a file name, or leave --json out")
+    if piped and getattr(sys.stdout, "name", "") == os.devnull:
+        raise OutputError("'-' is stdout, and this process has none; name a file")
     if any(path in binary for path in piped) and sys.stdout.isatty():
         raise OutputError("'-' is stdout, and that is a terminal; send it on (> FILE, | PROGRAM), or name a file")
     check_targets((path for path in every if not is_piped(path)), overwrite=overwrite)

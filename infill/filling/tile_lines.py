@@ -74,8 +74,19 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) 
         Of the tile, mm.
     line_width : float
         mm.
+
+    Raises
+    ------
+    GeometryError
+        If every line is shorter than a quarter of a line width at this size, or there are too many lines for a tile.
     """
-    graph = _torus(_copies(_ends_together(lines, size, CLOSE * line_width), size), size)
+    together = _ends_together(lines, size, CLOSE * line_width)
+    if not together:
+        raise GeometryError(
+            f"every line of the drawing is shorter than {CLOSE * line_width:.3g} mm in tiles of "
+            f"{size[0]:.4g} × {size[1]:.4g} mm; make the cell larger"
+        )
+    graph = _torus(_copies(together, size), size)
     double = doubled_parts(graph)
     crossings, inward = _crossings(graph, ~double, AHEAD * min(size))
     single = _edges([part for part, twice in zip(graph.parts, double, strict=True) if not twice])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +14,7 @@ Line = NDArray[np.float64]
 Bounds = tuple[float, float, float, float]
 
 LARGEST = 1e5  # mm: beyond a hundred metres, a drawing is a mistake in its units
-MOST_POINTS = 4_000_000  # with those of curves, before they are simplified
+MOST_POINTS = 500_000  # with those of curves, before they are simplified
 FLATNESS = 1e-4  # of the size of a drawing: how far its chords may lie from its curves
 
 
@@ -57,6 +58,31 @@ class Picture:
     left_out: tuple[str, ...] = ()
 
 
+class TooComplexError(FormatError):
+    """A drawing exceeds one of the limits that keep its reading within seconds; the path is not in the message."""
+
+
+def require_at_most(limit: int, count: float, what: str) -> None:
+    """Raise TooComplexError where a drawing has more of something than the limit.
+
+    >>> require_at_most(3, 4, "elements")
+    Traceback (most recent call last):
+    ...
+    infill.formats.drawing.TooComplexError: has 4 elements; the limit is 3
+    """
+    if count > limit:
+        raise TooComplexError(f"has {count:.0f} {what}; the limit is {limit}")
+
+
+def count_points(lines: Iterable[Line]) -> Iterator[Line]:
+    """Yield the lines; raise TooComplexError as soon as they have more than MOST_POINTS points together."""
+    points = 0
+    for line in lines:
+        points += len(line)
+        require_at_most(MOST_POINTS, points, "points or more")
+        yield line
+
+
 def checked_drawing(
     path: object, lines: list[Line], *, page: Bounds | None = None, left_out: dict[str, int] | None = None
 ) -> Drawing:
@@ -69,9 +95,6 @@ def checked_drawing(
     if not long:
         only = f", only {' and '.join(words)}" if words else ""
         raise FormatError(f"{path} holds no lines{only}; draw outlines or strokes, and turn texts into paths")
-    count = sum(map(len, long))
-    if count > MOST_POINTS:
-        raise FormatError(f"{path} holds {count} points; the limit is {MOST_POINTS}; give a simpler drawing")
     points = np.concatenate(long)
     largest = np.abs(points).max()
     if not largest <= LARGEST:

@@ -15,7 +15,7 @@ from pathlib import Path
 from infill.errors import FormatError
 from infill.formats.bitmaps import read_bitmap
 from infill.formats.broken import readable
-from infill.formats.drawing import Drawing, Picture
+from infill.formats.drawing import Drawing, Picture, TooComplexError
 from infill.formats.dxf import read_dxf
 from infill.formats.svg import read_svg
 from infill.formats.wkt import read_wkt
@@ -48,6 +48,8 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
     source = readable(path, READERS, "a drawing")
     try:
         return READERS[source.suffix.lower()](source)
+    except TooComplexError as error:
+        raise FormatError(f"{source} {error}; give a simpler drawing") from error
     except OSError as error:
         if isinstance(error, FormatError):
             raise

@@ -19,15 +19,15 @@ from xml.parsers import expat
 
 import numpy as np
 
-from infill.errors import FormatError
 from infill.formats.broken import told_broken
-from infill.formats.drawing import Bounds, Drawing, Line, checked_drawing
+from infill.formats.drawing import Bounds, Drawing, Line, checked_drawing, count_points, require_at_most
 from infill.formats.svg_numbers import IDENTITY, PX, Matrix, chained, fitted, length_in_px, matrix_of, numbers_in
 from infill.formats.svg_paths import ellipse_lines, path_lines, rectangle_lines
 
-LARGEST_FILE = 50_000_000  # bytes
+LARGEST_FILE = 20_000_000  # bytes
 LONGEST_ENTITY = 256  # characters: names of namespaces, which some programs abbreviate
-MOST_ELEMENTS = 100_000  # copies counted, which may copy copies
+MOST_ELEMENTS = 100_000  # drawn, copies counted, which may copy copies
+MOST_PARSED = 400_000  # elements of the file, drawn or not
 DEEPEST = 100
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
 LEFT_OUT = {"text": "text", "image": "picture", "foreignObject": "foreign object"}
@@ -35,14 +35,13 @@ LEFT_OUT = {"text": "text", "image": "picture", "foreignObject": "foreign object
 
 def read_svg(path: Path) -> Drawing:
     """Return the drawing of an SVG file; see the module for what is read."""
-    if path.stat().st_size > LARGEST_FILE:
-        raise FormatError(f"{path} has {path.stat().st_size} bytes; the limit is {LARGEST_FILE}; simplify the drawing")
+    require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
     with told_broken(path, advice="save it again as plain SVG"), np.errstate(all="ignore"):
         root = _tree(path.read_bytes())
         if _tag(root) != "svg":
             raise ValueError(f"its root is {_tag(root)}, not svg")
         reader = _Reader(root)
-        lines = list(reader.lines())
+        lines = list(count_points(reader.lines()))
     flip = np.array([1.0, -1.0])
     upright = [line * (PX, PX) * flip + (0, reader.page[3] * PX if reader.page else 0) for line in lines]
     page = None
@@ -60,13 +59,13 @@ def _tree(data: bytes) -> ElementTree.Element:
     builder = ElementTree.TreeBuilder()
     parser = expat.ParserCreate(namespace_separator="}")
     parser.buffer_text = True
-    depth = 0
+    depth = parsed = 0
 
     def start(name: str, attributes: dict[str, str]) -> None:
-        nonlocal depth
-        depth += 1
-        if depth > DEEPEST:
-            raise ValueError(f"its groups are nested deeper than {DEEPEST}")
+        nonlocal depth, parsed
+        depth, parsed = depth + 1, parsed + 1
+        require_at_most(MOST_PARSED, parsed, "elements or more")
+        require_at_most(DEEPEST, depth, "groups in one another")
         builder.start(name, attributes)
 
     def end(name: str) -> None:
@@ -101,6 +100,7 @@ class _Reader:
         self.root = root
         self.left_out: Counter[str] = Counter()
         self.visited = 0
+        self.shapes: dict[ElementTree.Element, list[Line]] = {}
         self.by_name = {each.get("id"): each for each in root.iter() if each.get("id")}
         self.page = self._page()
         x0, y0, x1, y1 = self.page or (0.0, 0.0, 0.0, 0.0)
@@ -136,8 +136,7 @@ class _Reader:
         if get("clip-path") or get("mask"):
             self.left_out["clip"] += 1
         self.visited += 1
-        if self.visited > MOST_ELEMENTS:
-            raise ValueError(f"it draws more than {MOST_ELEMENTS} elements")
+        require_at_most(MOST_ELEMENTS, self.visited, "drawn elements or more, copies counted")
         if depth > DEEPEST:
             raise ValueError("a copy by `use` contains itself")
         matrix = chained(outer, matrix_of(get("transform")))
@@ -153,7 +152,9 @@ class _Reader:
             for each in element:
                 yield from self._inside(each, matrix, depth + 1)
         else:
-            for line in self._shape(element, tag):
+            if element not in self.shapes:  # which copies share
+                self.shapes[element] = self._shape(element, tag)
+            for line in self.shapes[element]:
                 yield line @ matrix[:, :2].T + matrix[:, 2]
 
     def _nested(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:

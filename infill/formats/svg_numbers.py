@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 import re
+from functools import lru_cache
 from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.formats.drawing import require_at_most
 from infill.formats.svg_paths import NUMBER
 
 Matrix = NDArray[np.float64]  # (2, 3)
 
 PX = 25.4 / 96  # mm
 UNITS = {"": 1.0, "px": 1.0, "pt": 4 / 3, "pc": 16.0, "mm": 1 / PX, "cm": 10 / PX, "q": 0.25 / PX, "in": 96.0}  # px
+MOST_TRANSFORMS = 100  # one after another, of one element
 IDENTITY = np.array([[1.0, 0, 0], [0, 1, 0]])
 
 
@@ -37,10 +40,13 @@ def numbers_in(text: str) -> list[float]:
     return [float(each) for each in re.findall(NUMBER, text)]
 
 
+@lru_cache(maxsize=10_000)
 def matrix_of(text: str | None) -> Matrix:
     """Return the matrix of an attribute `transform`."""
     matrix = IDENTITY
-    for name, inside in re.findall(r"(\w+)\s*\(([^)]*)\)", text or ""):
+    transforms = re.findall(r"(\w+)\s*\(([^)]*)\)", text or "")
+    require_at_most(MOST_TRANSFORMS, len(transforms), "transforms of one element")
+    for name, inside in transforms:
         numbers = numbers_in(inside)
         match name, numbers:
             case "matrix", [a, b, c, d, e, f]:

@@ -11,9 +11,8 @@ import math
 import re
 
 import numpy as np
-from numpy.typing import NDArray
 
-Line = NDArray[np.float64]
+from infill.formats.drawing import MOST_POINTS, Line, require_at_most
 
 TURN = 0.03  # rad
 HUGE = 1e9
@@ -37,9 +36,11 @@ def path_lines(data: str) -> list[Line]:
     >>> [line.tolist() for line in path_lines("M0 0h2v1z m5,5 1-1")]
     [[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 0.0]], [[5.0, 5.0], [6.0, 4.0]]]
     """
+    data = data.strip()
     pieces = PIECE.findall(data)
-    if "".join(letter + rest for letter, rest in pieces) != data.strip():
-        raise ValueError(f"a path begins with {data.strip()[:20]!r}, not with a letter of a path")
+    if "".join(letter + rest for letter, rest in pieces) != data:
+        raise ValueError(f"a path begins with {data[:20]!r}, not with a letter of a path")
+    require_at_most(MOST_POINTS, len(pieces), "letters or more in a path")
     if pieces and pieces[0][0] not in "Mm":
         raise ValueError(f"a path begins with {pieces[0][0]!r}, not with M")
     pen = _Pen()
@@ -68,6 +69,7 @@ def _rows(letter: str, text: str) -> list[list[float]]:
             raise ValueError(f"a path gives {letter} {len(numbers)} numbers instead of {wanted} each time")
         else:
             rows = [numbers[i : i + wanted] for i in range(0, len(numbers), wanted)]
+    require_at_most(MOST_POINTS, len(rows), "points or more in a path")
     if not rows:
         raise ValueError(f"a path gives {letter} a wrong number of numbers")
     if not all(abs(number) < HUGE for row in rows for number in row):
@@ -79,6 +81,7 @@ class _Pen:
     """Where the pen is, and what it has drawn."""
 
     def __init__(self) -> None:
+        self.drawn = 0
         self.lines: list[Line] = []
         self.points: list[Line] = []
         self.here = self.start = np.zeros(2)
@@ -119,6 +122,8 @@ class _Pen:
                 controls = np.vstack([mirrored, controls])
             added = bezier_points(np.vstack([self.here, controls]))
             self.handle = ("C" if kind in "CS" else "Q", controls[-2])
+        self.drawn += len(added)
+        require_at_most(MOST_POINTS, self.drawn, "points or more in a path")
         self.points.append(added)
         self.here = added[-1]
         if kind == "Z":

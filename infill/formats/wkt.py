@@ -9,11 +9,13 @@ import numpy as np
 
 from infill.errors import FormatError
 from infill.formats.broken import one_line, told_broken
-from infill.formats.drawing import Drawing, checked_drawing
+from infill.formats.drawing import MOST_POINTS, Drawing, checked_drawing, require_at_most
 
 if TYPE_CHECKING:
     from shapely import Geometry
 
+LARGEST_FILE = 50_000_000  # bytes
+DEEPEST = 20  # parentheses: a polygon has two, and collections hold others
 AGAIN = "write lines as well-known text, such as LINESTRING (0 0, 10 5)"
 
 
@@ -22,7 +24,9 @@ def read_wkt(path: Path) -> Drawing:
     import shapely
 
     with told_broken(path, advice=AGAIN), np.errstate(invalid="ignore"):
+        require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
         text = path.read_text(encoding="utf-8-sig").strip()
+        _require_bounds(text)
         try:
             whole = [shapely.from_wkt(text)]
         except shapely.errors.GEOSException:
@@ -36,6 +40,15 @@ def read_wkt(path: Path) -> Drawing:
     lines = [shapely.get_coordinates(each) for each in [*parts[np.isin(kinds, [1, 2])], *rings]]
     points = int((kinds == 0).sum())
     return checked_drawing(path, lines, left_out={"point": points} if points else {})
+
+
+def _require_bounds(text: str) -> None:
+    """Raise TooComplexError for more points than a drawing may have, or deeper parentheses than a parser survives."""
+    require_at_most(MOST_POINTS, text.count(","), "points or more")
+    brackets = np.frombuffer(text.encode(), dtype=np.uint8)
+    brackets = brackets[(brackets == ord("(")) | (brackets == ord(")"))]
+    depth = np.where(brackets == ord("("), 1, -1).cumsum(dtype=np.int64)
+    require_at_most(DEEPEST, depth.max(initial=0), "parentheses in one another")
 
 
 def _line_by_line(path: Path, text: str) -> list[Geometry]:

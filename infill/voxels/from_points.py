@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from scipy.spatial import KDTree
 
 FEWEST = 4  # points that can enclose a volume
+FARTHEST = 1e9  # mm, a thousand kilometres: beyond, a coordinate is broken
 FLAT = 1e-6  # of the largest extent: points that deviate from their plane by less than this count as lying in it
 AT_ONCE = 2**18  # spans of cells handled at a time
 # Points spread evenly over a surface have six others around them; the spacing is the distance to the sixth that 95 %
@@ -170,6 +171,11 @@ def _checked(points: ArrayLike) -> Floats:
     broken = len(positions) - int(np.isfinite(positions).all(axis=1).sum())
     if broken:
         raise ParameterError(f"{broken} of {len(positions)} points are not three finite numbers; leave them out")
+    farthest = float(np.abs(positions).max(initial=0.0))
+    if farthest > FARTHEST:
+        raise ParameterError(
+            f"a point lies at {farthest:g} mm; the limit is {FARTHEST:g} mm; leave it out, or check units"
+        )
     if len(positions) < FEWEST:
         raise ParameterError(f"{len(positions)} point(s) are given; give at least {FEWEST}")
     return positions

@@ -19,7 +19,7 @@ from infill.errors import ParameterError
 from infill.grid import SOLID, VOID, Grid
 from infill.ragged import spread
 
-ROUNDING = 1e-9  # of a cell: a point this far outside still counts as on the edge
+ROUNDING = 1e-9  # of a cell: a point this near to a border of cells lies on it, and belongs to the cell above
 CANDIDATES_AT_ONCE = 2_000_000  # pairs of a cell and a piece of a line: about 100 bytes each
 
 
@@ -76,7 +76,8 @@ def stamp(
             f"{int((~inside).sum())} of {len(where)} points lie outside the grid, the first at ({first}) mm; "
             "enlarge the grid, or ask for them to be clipped"
         )
-    index = np.clip(np.floor(cell[inside]).astype(np.intp), 0, np.array(grid.shape) - 1)
+    # A straight line along a border of cells stays on one side of it, whichever way its points were rounded.
+    index = np.clip(np.floor(cell[inside] + ROUNDING).astype(np.intp), 0, np.array(grid.shape) - 1)
     marked = np.zeros(grid.shape, dtype=bool)
     marked[tuple(index.T)] = True
     for axis in range(marked.ndim):

@@ -1,0 +1,183 @@
+"""Drawings that would take gigabytes or minutes are refused before a library is asked, each with its limit."""
+
+from __future__ import annotations
+
+import math
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+from test_command_line import one_line_error, run
+
+from infill import FormatError
+from infill.errors import GeometryError
+from infill.filling.tile_lines import borders
+from infill.formats.drawing import MOST_POINTS
+from infill.formats.drawings import read_drawing
+
+HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">'
+
+
+def nested(inner: str, times: int, levels: int) -> str:
+    """Return groups of copies of copies: `times` to the power of `levels` in a few hundred bytes."""
+    groups = "".join(
+        f'<g id="g{i}">{(f"<use href={chr(34)}#g{i - 1}{chr(34)}/>") * times}</g>' for i in range(1, levels)
+    )
+    return f'{HEAD}<defs><g id="g0">{inner}</g>{groups}</defs><use href="#g{levels - 1}"/></svg>'
+
+
+SVG = {
+    "points of copies": (nested(f'<path d="M0 0{"c1 2 3 1 2 2" * 100}"/>', 10, 5), "points or more"),
+    "copies of nothing": (nested('<path d="M1 1"/>', 10, 7), "drawn elements or more, copies counted"),
+    "one path": (f'{HEAD}<path d="M0 0{"h1v1" * 300_000}"/></svg>', "letters or more in a path"),
+    "one letter": (f'{HEAD}<path d="M0 0L{"1 1 " * 500_001}"/></svg>', "points or more in a path"),
+    "curves": (f'{HEAD}<path d="M0 0{"a9 9 0 1 1 1 1" * 4000}"/></svg>', "points or more in a path"),
+    "transforms": (
+        f'{HEAD}<rect width="5" height="5" transform="{"scale(1)" * 101}"/></svg>',
+        "transforms of one element",
+    ),
+    "elements": (f"{HEAD}{'<g/>' * 400_001}</svg>", "elements or more"),
+    "groups": (f"{HEAD}{'<g>' * 200}{'</g>' * 200}</svg>", "groups in one another"),
+}
+WKT = {
+    "deep collections": (
+        "GEOMETRYCOLLECTION(" * 50_000 + "POINT(1 1)" + ")" * 50_000,
+        "50001 parentheses in one another",
+    ),
+    "deep and open": ("(" * 50_000, "50000 parentheses in one another"),
+    "points": ("LINESTRING(" + "1 1," * (MOST_POINTS + 1) + "2 2)", "points or more"),
+}
+
+
+def repeated(block: Callable[[ezdxf.layouts.BlockLayout], object], **grid: object) -> ezdxf.document.Drawing:
+    document = ezdxf.new(setup=False, units=4)
+    block(document.blocks.new("A"))
+    document.modelspace().add_blockref("A", (0, 0), dxfattribs=grid)
+    return document
+
+
+def blocks_of_blocks() -> ezdxf.document.Drawing:
+    """Ten copies of ten copies ..., of a block with nothing in it."""
+    document = ezdxf.new(setup=False, units=4)
+    document.blocks.new("B0")
+    for i in range(1, 12):
+        block = document.blocks.new(f"B{i}")
+        for _ in range(10):
+            block.add_blockref(f"B{i - 1}", (0, 0))
+    document.modelspace().add_blockref("B11", (0, 0))
+    return document
+
+
+def wave(count: int) -> list[tuple[float, float]]:
+    return [(i * 0.001, math.sin(i)) for i in range(count)]
+
+
+def hatched(count: int) -> ezdxf.document.Drawing:
+    document = ezdxf.new(setup=False, units=4)
+    document.modelspace().add_hatch().paths.add_edge_path().add_spline(fit_points=wave(count))
+    return document
+
+
+DXF = {
+    "a spline through points": (lambda: repeated(lambda b: b.add_spline(wave(1001))), "1001 points that a spline goes through"),
+    "a hatch's spline": (lambda: hatched(1001), "1001 points that a spline goes through"),
+    "a helix": (lambda: repeated(lambda b: b.add_helix(2, 1, 3000)), "points or more"),
+    "copies": (lambda: repeated(lambda b: b.add_line((0, 0), (1, 1)), row_count=300, column_count=300, row_spacing=2, column_spacing=2), "180001 entities, repeated"),
+    "copies of copies of nothing": (blocks_of_blocks, "entities, repeated blocks counted"),
+    "copies of a spline": (
+        lambda: repeated(lambda b: b.add_open_spline(wave(3000)), row_count=10, column_count=10, row_spacing=2, column_spacing=2), "points or more"
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SVG)
+def test_a_large_svg_is_refused_by_its_limit(name: str, tmp_path: Path) -> None:
+    text, limit = SVG[name]
+    path = tmp_path / "a.svg"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(FormatError, match=rf"a\.svg has \d+ {limit}; the limit is \d+; give a simpler drawing"):
+        read_drawing(path)
+
+
+@pytest.mark.parametrize("name", WKT)
+def test_a_deep_or_long_wkt_is_refused_by_its_limit(name: str, tmp_path: Path) -> None:
+    """GEOS overflows its stack at a depth of some ten thousand: in a process of its own, should it be asked."""
+    text, limit = WKT[name]
+    path = tmp_path / "a.wkt"
+    path.write_text(text, encoding="utf-8")
+    code = f"from infill.formats.drawings import read_drawing; read_drawing({str(path)!r})"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=False)
+    assert done.returncode == 1
+    assert f"{limit}; the limit is" in done.stderr.splitlines()[-1]
+
+
+@pytest.mark.parametrize("name", DXF)
+def test_a_large_dxf_is_refused_by_its_limit(name: str, tmp_path: Path) -> None:
+    make, limit = DXF[name]
+    path = tmp_path / "a.dxf"
+    make().saveas(path)
+    with pytest.raises(FormatError, match=rf"a\.dxf has .*{limit}.*; the limit is \d+; give a simpler drawing"):
+        read_drawing(path)
+
+
+def test_a_block_in_itself_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "a.dxf"
+    repeated(lambda block: block.add_blockref("A", (1, 1))).saveas(path)
+    with pytest.raises(FormatError, match=r"its block 'A' contains itself"):
+        read_drawing(path)
+
+
+def test_what_is_below_the_limits_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.dxf"
+    repeated(
+        lambda block: block.add_spline(wave(200)), row_count=3, column_count=3, row_spacing=9, column_spacing=9
+    ).saveas(path)
+    assert len(read_drawing(path).lines) == 9
+    wkt = tmp_path / "a.wkt"
+    wkt.write_text("GEOMETRYCOLLECTION(" * 10 + "LINESTRING (0 0, 4 3)" + ")" * 10)
+    assert len(read_drawing(wkt).lines) == 1
+    svg = tmp_path / "a.svg"
+    svg.write_text(nested('<path d=" M0 0 h4 v3 "/>', 10, 3))
+    assert len(read_drawing(svg).lines) == 100
+
+
+@pytest.mark.parametrize("unit", ["99", "-1", "25"])
+def test_an_unknown_unit_says_what_to_do(unit: str, tmp_path: Path) -> None:
+    path = tmp_path / "a.dxf"
+    document = ezdxf.new(setup=False)
+    document.header["$INSUNITS"] = int(unit)
+    document.modelspace().add_line((0, 0), (9, 9))
+    document.saveas(path)
+    with pytest.raises(
+        FormatError, match=rf"states the unit {unit} \(\$INSUNITS\).*set the drawing's units to millimetres"
+    ):
+        read_drawing(path)
+    document.header["$INSUNITS"] = 4  # the remedy
+    document.saveas(path)
+    assert read_drawing(path).bounds == pytest.approx((0, 0, 9, 9))
+
+
+def test_lines_that_vanish_in_a_small_tile_are_an_error_of_ours() -> None:
+    with pytest.raises(
+        GeometryError, match=r"every line of the drawing is shorter than 0\.113 mm in tiles of 1 × 1 mm"
+    ):
+        borders([np.array([[0.0, 0.0], [0.01, 0.0]])], (1.0, 1.0), line_width=0.45)
+
+
+@pytest.mark.parametrize("far", [1e10, 1e300])
+@pytest.mark.parametrize("words", [[], ["--shell", "2"]])
+def test_a_point_that_is_too_far_is_named(far: float, words: list[str], tmp_path: Path) -> None:
+    points = np.random.default_rng(1).normal(size=(200, 3))
+    points[7, 1] = far
+    path = tmp_path / "p.npy"
+    np.save(path, points)
+    one_line_error(
+        run("smooth", path, "--as", "points", "--units", "mm", "--voxel", "0.5", *words, "-o", tmp_path / "a.stl"),
+        re.escape(f"a point lies at {far:g} mm; the limit is 1e+09 mm"),
+    )
+    assert sorted(tmp_path.iterdir()) == [path]
