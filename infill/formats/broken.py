@@ -97,10 +97,19 @@ def is_ours(error: BaseException) -> bool:
 
 def one_line(error: Exception) -> str:
     """Return the text of an error on one line, truncated if too long."""
-    words = " ".join(str(error).split())
+    words = printable(" ".join(str(error).split()))
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return words if len(words) <= 200 else words[:200] + "…"
+
+
+def printable(text: str) -> str:
+    r"""Return a text with whatever a terminal would not show, or would obey, written as an escape.
+
+    >>> printable("a\x1b[2Jb")
+    'a\\x1b[2Jb'
+    """
+    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401
