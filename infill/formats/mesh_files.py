@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import readable
-from infill.formats.foreign import read_by_trimesh
+from infill.formats.broken import readable, told_broken
+from infill.formats.off import read_off
 from infill.formats.gltf import read_glb, write_glb, write_glb_parts
 from infill.formats.obj import read_obj, write_obj
 from infill.formats.parts import Part
@@ -106,7 +106,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     """
     source = readable(path, READERS, "a mesh format")
     try:
-        vertices, faces = READERS[source.suffix.lower()](source)
+        with told_broken(source, "is broken", "export the mesh again"):
+            vertices, faces = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if len(faces) == 0:
@@ -134,6 +135,6 @@ READERS: dict[str, Callable[[Path], tuple[NDArray[np.floating], NDArray[np.integ
     ".3mf": read_3mf,
     ".obj": read_obj,
     ".ply": read_ply,
-    ".off": read_by_trimesh,
+    ".off": read_off,
     ".glb": read_glb,
 }

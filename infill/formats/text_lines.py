@@ -31,7 +31,7 @@ def plain_text(path: Path) -> bytes:
         If it is binary.
     """
     data = path.read_bytes()
-    wide = _wide_encoding(data[:HEAD])
+    wide = wide_encoding(data)
     if wide:
         data = data.decode(wide, errors="replace").encode()
     data = data.removeprefix(codecs.BOM_UTF8)
@@ -40,8 +40,9 @@ def plain_text(path: Path) -> bytes:
     return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n\n\n"
 
 
-def _wide_encoding(head: bytes) -> str:
+def wide_encoding(data: bytes) -> str:
     """Return the encoding of a text of two bytes a character, by its mark or by its zeros; empty if it is not one."""
+    head = data[:HEAD]
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "utf-16"
     if len(head) == HEAD and head[1] == head[3] == 0 < min(head[0], head[2]):
@@ -191,25 +192,28 @@ class Lines:
         for first, words in zip(self.first[rows].tolist(), self.words[rows].tolist(), strict=True):
             for number in range(first + skip, first + words):
                 word = self.word(number)
-                digits = word.partition(b"/")[0] if slashes else word
-                if not _is_number(digits, whole=whole):
-                    return self.error(number, _complaint(word, whole=whole))
-        return self.error(int(self.first[rows[0]]), "holds a number that cannot be read")
+                if complaint := number_complaint(word.partition(b"/")[0] if slashes else word, whole=whole):
+                    return self.error(number, complaint)
+        return self.error(int(self.first[rows[0]]), "a number that cannot be read")
 
     def error(self, number: int, complaint: str, advice: str = "export the mesh again") -> FormatError:
         """Return the error that says what is wrong with a word, and in which line."""
         return FormatError(f"{self.path}, line {self.line(number)}: {complaint}; {advice}")
 
 
-def _is_number(word: bytes, *, whole: bool) -> bool:
+def number_complaint(word: bytes, *, whole: bool = False) -> str:
+    """Return what is wrong with a word that should be a number; empty if nothing is.
+
+    >>> number_complaint(b"1e-3"), number_complaint(b"1,5")
+    ('', "'1,5' has a decimal comma, and numbers in such a file have a decimal point")
+    """
     try:
-        int(word) if whole else float(word)
+        _ = int(word) if whole else float(word)
     except ValueError:
-        return False
-    return b"_" not in word
-
-
-def _complaint(word: bytes, *, whole: bool) -> str:
+        pass
+    else:
+        if b"_" not in word:
+            return ""
     shown = printable(word.decode("utf-8", errors="replace"))
     if not whole and re.fullmatch(rb"[-+]?\d+,\d*(e[-+]?\d+)?", word, re.IGNORECASE):
         return f"{shown!r} has a decimal comma, and numbers in such a file have a decimal point"

@@ -55,6 +55,49 @@ def split_polygons(vertices: NDArray[np.floating], corners: NDArray[np.integer],
     return faces
 
 
+def split_strips(corners: NDArray[np.integer], counts: NDArray[np.integer]) -> Integers:
+    """Split triangle strips into triangles, (T, 3), every other one turned; those with two equal corners are left out.
+
+    Parameters
+    ----------
+    corners : (C,) int
+        The vertices of all strips, one strip after another; -1 ends a strip before its end.
+    counts : (S,) int
+        How many corners each strip has.
+
+    Notes
+    -----
+    Programs repeat corners to join two strips: triangles with two equal corners are no part of the surface.
+
+    >>> split_strips(np.array([0, 1, 2, 3, -1, 3, 2, 4]), np.array([8])).tolist()
+    [[0, 1, 2], [2, 1, 3], [3, 2, 4]]
+    """
+    corners = corners.astype(np.int64, copy=False)
+    begins = np.cumsum(counts) - counts
+    starts = np.zeros(len(corners), dtype=bool)
+    starts[begins[counts > 0]] = True
+    starts[1:] |= corners[:-1] == -1
+    first = np.maximum.accumulate(np.where(starts, np.arange(len(corners)), 0))
+    if len(corners) < CORNERS:
+        return np.empty((0, CORNERS), dtype=np.int64)
+    triangles = np.stack([corners[:-2], corners[1:-1], corners[2:]], axis=1)
+    along = first[:-2] == first[2:]
+    turned = (np.arange(len(triangles)) - first[:-2]) % 2 == 1
+    triangles[turned] = triangles[turned][:, [1, 0, 2]]
+    different = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1) & (triangles != -1).all(axis=1)
+    return triangles[along & different]
+
+
+def split_fan(corners: NDArray[np.integer]) -> Integers:
+    """Split a triangle fan (C,) into triangles (T, 3) that share its first corner.
+
+    >>> split_fan(np.array([5, 0, 1, 2])).tolist()
+    [[5, 0, 1], [5, 1, 2]]
+    """
+    hub = np.full(max(len(corners) - 2, 0), corners[0] if len(corners) else 0)
+    return np.stack([hub, corners[1:-1], corners[2:]], axis=1).astype(np.int64)
+
+
 def _split_alike(vertices: NDArray[np.floating], rings: NDArray[np.integer]) -> Integers:
     """Split polygons (m, n) of as many corners; return the triangles of each, (m, n - 2, 3)."""
     rings = rings.astype(np.int64, copy=False)
