@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def check(
     meshes: Annotated[
-        list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb.")
+        list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb .gltf.")
     ],
     slicer: Annotated[
         Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,

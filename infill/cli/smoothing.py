@@ -29,7 +29,7 @@ def smooth(
         Path,
         typer.Argument(
             metavar="INPUT",
-            help="Mesh (.stl .3mf .obj .ply .off .glb), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
+            help="Mesh (.stl .3mf .obj .ply .off .glb .gltf), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
             "folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
         ),
     ],

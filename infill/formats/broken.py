@@ -42,6 +42,7 @@ BROKEN = (
 )
 # Of these, the errors our own code raises for such files: values that are not finite numbers, and truncated files.
 BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
+LONGEST_WORD = 60  # characters of a word of a file in a message
 COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
@@ -110,6 +111,16 @@ def printable(text: str) -> str:
     'a\\x1b[2Jb'
     """
     return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
+
+
+def quoted(text: str | bytes) -> str:
+    """Return a word of a file between quotation marks, as a message can hold it.
+
+    >>> quoted(b"1,5")
+    "'1,5'"
+    """
+    shown = printable(text.decode("utf-8", errors="replace") if isinstance(text, bytes) else text)
+    return f"'{shown}'" if len(shown) <= LONGEST_WORD else f"'{shown[:LONGEST_WORD]}…'"
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.broken import readable, told_broken
 from infill.formats.off import read_off
-from infill.formats.gltf import read_glb, write_glb, write_glb_parts
+from infill.formats.gltf import write_glb, write_glb_parts
+from infill.formats.gltf_reader import read_glb, read_gltf
 from infill.formats.obj import read_obj, write_obj
 from infill.formats.parts import Part
 from infill.formats.ply import read_ply, write_ply
@@ -92,7 +93,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Parameters
     ----------
     path : str or Path
-        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF states its unit and glTF is in metres: these are
+        .stl (binary or text), .3mf, .obj, .ply, .off, .glb or .gltf. 3MF states its unit and glTF is in metres: these are
         converted to millimetres. The others state no unit and are taken as they are.
 
     Returns
@@ -137,4 +138,5 @@ READERS: dict[str, Callable[[Path], tuple[NDArray[np.floating], NDArray[np.integ
     ".ply": read_ply,
     ".off": read_off,
     ".glb": read_glb,
+    ".gltf": read_gltf,
 }

@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import printable
+from infill.formats.broken import quoted
 from infill.formats.rows import write_rows
-from infill.formats.text_lines import Lines, plain_text, without_breaks, without_comments
+from infill.formats.text_lines import Lines, are_blank, plain_text, without_breaks, without_comments
 from infill.surface import Surface
 from infill.surfaces.polygons import CORNERS, split_polygons
 from infill.version import __version__
 
-BLANK = 32
 SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces, which are no polygons
 # A statement of the format, or of a program that adds its own to it: at least a letter or two.
 STATEMENT = re.compile(rb"[a-z][a-z0-9_]+|[goslp]", re.IGNORECASE)
@@ -42,9 +41,10 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     if len(lines) == 0:
         raise FormatError(f"{path} holds no vertices; export the mesh again")
     one, two, three = (lines.keys(place) for place in range(3))
-    is_vertex = (one == ord("v")) & (two <= BLANK)
-    is_face = (one == ord("f")) & ((two <= BLANK) | ((two == ord("o")) & (three <= BLANK)))
-    of_vertices = (one == ord("v")) & ((two == ord("n")) | (two == ord("t"))) & (three <= BLANK)
+    one_letter, two_letters = are_blank(two), are_blank(three)
+    is_vertex = (one == ord("v")) & one_letter
+    is_face = (one == ord("f")) & (one_letter | ((two == ord("o")) & two_letters))
+    of_vertices = (one == ord("v")) & ((two == ord("n")) | (two == ord("t"))) & two_letters
     _check_statements(lines, np.flatnonzero(~(is_vertex | is_face | of_vertices)))
     vertex_rows, face_rows = np.flatnonzero(is_vertex), np.flatnonzero(is_face)
     vertices = _vertices(lines, vertex_rows)
@@ -57,13 +57,13 @@ def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
     for number in lines.first[rows].tolist():
         word = lines.word(number)
         if word.lower() in SURFACES:
-            shown = word.decode()
-            raise lines.error(number, f"{shown!r} is a free-form surface", "convert it to polygons before the export")
+            raise lines.error(
+                number, f"{quoted(word)} is a free-form surface", "convert it to polygons before the export"
+            )
         if word.lower() == b"call":
             raise lines.error(number, "'call' takes in another file", "export everything into one file")
         if not STATEMENT.fullmatch(word):
-            shown = printable(word.decode("utf-8", errors="replace"))
-            raise lines.error(number, f"{shown!r} begins no line of an OBJ file")
+            raise lines.error(number, f"{quoted(word)} begins no line of an OBJ file")
 
 
 def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:

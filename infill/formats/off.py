@@ -14,7 +14,7 @@ from infill.formats.text_lines import Lines, number_complaint, plain_text, witho
 from infill.surfaces.polygons import split_polygons
 
 # Texture coordinates, colours, normals, a fourth coordinate, and any number of coordinates, which come next.
-KEYWORD = re.compile(rb"\s*((?:ST|st)?C?N?(4)?(n)?OFF)(?![A-Za-z])", re.IGNORECASE)
+KEYWORD = re.compile(rb"\s*((?:ST)?C?N?4?n?OFF)(?![A-Za-z])", re.IGNORECASE)
 
 
 def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -31,7 +31,7 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     original = plain_text(path)
     text = without_comments(original)
     keyword = KEYWORD.match(text)
-    if keyword and (keyword[2] or (keyword[3] and keyword[3] == b"n")):
+    if keyword and (b"4" in keyword[1] or keyword[1].endswith(b"nOFF")):
         raise FormatError(f"{path} has vertices in more than three dimensions; export it in three")
     if keyword:  # the counts may stand on its line, and even without a blank between
         text = b" " * keyword.end() + text[keyword.end() :]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import printable
+from infill.formats.broken import quoted
 from infill.formats.text_lines import number_complaint
 from infill.surface import Surface
 from infill.surfaces.polygons import CORNERS, split_polygons, split_strips
@@ -161,8 +161,9 @@ def _header(path: Path, data: bytes) -> tuple[str, list[Element], int]:
             case ["comment" | "obj_info", *_] | []:
                 pass
             case _:
-                shown = printable(" ".join(words))[:80]
-                raise FormatError(f"{path} has a header with the line {shown!r}, which PLY does not know; export it again")
+                raise FormatError(
+                    f"{path} has a header with the line {quoted(' '.join(words))}, which PLY does not know; export it again"
+                )
     raise FormatError(f"{path} has a header that is cut off; export the mesh again")
 
 
@@ -197,7 +198,7 @@ def _whole(path: Path, values: NDArray[Any]) -> NDArray[np.int64]:
 
 def _cut_off(path: Path, element: Element) -> FormatError:
     return FormatError(
-        f"{path} is cut off: it announces {element.rows} of {printable(element.name)!r} and holds fewer; "
+        f"{path} is cut off: it announces {element.rows} of {quoted(element.name)} and holds fewer; "
         "export the mesh again"
     )
 
@@ -349,8 +350,13 @@ def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tup
 def _words_as_numbers(data: bytes) -> NDArray[np.float64]:
     """Return the numbers of a text up to the first word that is not one."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", DeprecationWarning)
-        return np.fromstring(data, dtype=np.float64, sep=" ")
+        warnings.simplefilter("error", DeprecationWarning)
+        try:
+            return np.fromstring(data, dtype=np.float64, sep=" ")
+        except (DeprecationWarning, ValueError):  # words behind the numbers, or between them
+            words = data.split()
+    wrong = next((place for place, word in enumerate(words) if number_complaint(word)), len(words))
+    return np.array(words[:wrong], dtype="S").astype(np.float64) if wrong else np.empty(0)
 
 
 def _check_width(path: Path, data: bytes, elements: list[Element]) -> None:
@@ -362,7 +368,7 @@ def _check_width(path: Path, data: bytes, elements: list[Element]) -> None:
     found = len(first[0].split()) if first else 0
     if found > len(element.properties) and data.count(b"\n") + data.count(b"\r") > element.rows:
         raise FormatError(
-            f"{path} announces {len(element.properties)} numbers for each {printable(element.name)!r} and its first row "
+            f"{path} announces {len(element.properties)} numbers for each {quoted(element.name)} and its first row "
             f"has {found}; export the mesh again"
         )
 

@@ -44,7 +44,9 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     if count and len(data) >= HEAD + count * RECORD.itemsize:
         _check_rest(path, count, len(data) - HEAD - count * RECORD.itemsize)
         corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
-    elif data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" or wide_encoding(data):
+    elif wide_encoding(data) or (
+        data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data
+    ):
         corners = _text_corners(path, plain_text(path))
     elif len(data) == HEAD and not count:
         corners = np.empty((0, 3, 3), dtype=np.float32)

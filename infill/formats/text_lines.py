@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import printable
+from infill.formats.broken import quoted
 
 Integers = NDArray[np.int64]
-BLANK, NEWLINE = 32, 10
+TAB, NEWLINE, RETURN, BLANK = 9, 10, 13, 32
 COMMENT = re.compile(rb"#[^\n]*")
 CONTINUED = re.compile(rb"\\[ \t]*\n")
 HEAD = 4  # bytes that tell an encoding
@@ -66,9 +66,15 @@ def _as_blanks(found: re.Match[bytes]) -> bytes:
     return b" " * len(found[0])
 
 
+def are_blank(values: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Return which bytes separate words: a blank, a tab, and the ends of lines and pages."""
+    found: NDArray[np.bool_] = (values - np.uint8(TAB) <= np.uint8(RETURN - TAB)) | (values == BLANK)
+    return found
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lines:
-    """The lines of a text that hold a word; words are separated by blanks and control characters.
+    """The lines of a text that hold a word.
 
     Parameters
     ----------
@@ -90,7 +96,7 @@ class Lines:
     @cached_property
     def begins(self) -> Integers:
         """Where each word begins, (W,)."""
-        blank = self.bytes_of <= BLANK
+        blank = are_blank(self.bytes_of)
         begins = ~blank
         begins[1:] &= blank[:-1]
         return np.flatnonzero(begins)
@@ -120,7 +126,7 @@ class Lines:
         return len(self.words)
 
     def keys(self, place: int) -> NDArray[np.uint8]:
-        """Return a byte of the first word of each line, in lower case; 32 and less are blank."""
+        """Return a byte of the first word of each line, in lower case; see `are_blank`."""
         found = self.bytes_of[np.minimum(self.begins[self.first] + place, len(self.bytes_of) - 1)]
         return np.where((found >= ord("A")) & (found <= ord("Z")), found + 32, found).astype(np.uint8)
 
@@ -133,7 +139,9 @@ class Lines:
         """Return the number of the line in which a word stands, as an editor counts."""
         return self.original.count(b"\n", 0, int(self.begins[number])) + 1
 
-    def numbers(self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool = False) -> NDArray[np.generic]:
+    def numbers(
+        self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool = False
+    ) -> NDArray[np.generic]:
         """Return the numbers on some lines, one line after another, less the first words of each line.
 
         Parameters
@@ -182,7 +190,7 @@ class Lines:
         text = self.bytes_of.copy()
         begins = self.begins[self.first]
         text[begins] = BLANK
-        after = begins[text[begins + 2] <= BLANK] + 1
+        after = begins[are_blank(text[begins + 2])] + 1
         text[after[text[after] != NEWLINE]] = BLANK
         return text.tobytes()
 
@@ -192,7 +200,7 @@ class Lines:
         for first, words in zip(self.first[rows].tolist(), self.words[rows].tolist(), strict=True):
             for number in range(first + skip, first + words):
                 word = self.word(number)
-                if complaint := number_complaint(word.partition(b"/")[0] if slashes else word, whole=whole):
+                if complaint := number_complaint(word.partition(b"/")[0] or word if slashes else word, whole=whole):
                     return self.error(number, complaint)
         return self.error(int(self.first[rows[0]]), "a number that cannot be read")
 
@@ -214,7 +222,6 @@ def number_complaint(word: bytes, *, whole: bool = False) -> str:
     else:
         if b"_" not in word:
             return ""
-    shown = printable(word.decode("utf-8", errors="replace"))
     if not whole and re.fullmatch(rb"[-+]?\d+,\d*(e[-+]?\d+)?", word, re.IGNORECASE):
-        return f"{shown!r} has a decimal comma, and numbers in such a file have a decimal point"
-    return f"{shown!r} is not a {'whole ' if whole else ''}number"
+        return f"{quoted(word)} has a decimal comma, and numbers in such a file have a decimal point"
+    return f"{quoted(word)} is not a {'whole ' if whole else ''}number"

@@ -14,7 +14,9 @@ FLAT = 1e-12  # a triangle of a fan that holds less than this share of its polyg
 CORNERS = 3  # of a triangle
 
 
-def split_polygons(vertices: NDArray[np.floating], corners: NDArray[np.integer], counts: NDArray[np.integer]) -> Integers:
+def split_polygons(
+    vertices: NDArray[np.floating], corners: NDArray[np.integer], counts: NDArray[np.integer]
+) -> Integers:
     """Split polygons into triangles that cover each polygon once; return them, (T, 3), in the order of the polygons.
 
     Parameters
@@ -115,9 +117,7 @@ def _split_alike(vertices: NDArray[np.floating], rings: NDArray[np.integer]) -> 
     turned = rings
     if starts.any():
         turned = np.take_along_axis(rings, (starts[:, None] + np.arange(count)) % count, axis=1)
-    fans = np.stack(
-        [np.broadcast_to(turned[:, :1], (len(rings), count - 2)), turned[:, 1:-1], turned[:, 2:]], axis=2
-    )
+    fans = np.stack([np.broadcast_to(turned[:, :1], (len(rings), count - 2)), turned[:, 1:-1], turned[:, 2:]], axis=2)
     if count > CORNERS + 1:
         for each in left.tolist():
             clipped = _clip_ears(np.asarray(vertices[rings[each]], dtype=np.float64))
