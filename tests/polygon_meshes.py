@@ -56,4 +56,7 @@ SOLIDS = {
 
 
 def two_boxes(*, apart: float = 50) -> list[Solid]:
-    return [BOX, Solid(vertices=BOX.vertices + [apart, 0, 0], polygons=BOX.polygons, volume=BOX.volume, area=BOX.area)]
+    return [
+        BOX,
+        Solid(vertices=BOX.vertices + np.array([apart, 0, 0]), polygons=BOX.polygons, volume=BOX.volume, area=BOX.area),
+    ]

@@ -130,10 +130,9 @@ def test_corners_counted_backwards_by_turns(form: str, behind: bool, tmp_path: P
 def test_one_face_between_every_two_vertices(tmp_path: Path) -> None:
     """Backwards and forwards by turns, in one line even; as an independent count has it."""
     rng = np.random.default_rng(3)
-    text, expected, count = [], [], 0
-    for _ in range(200):
+    text, expected = [], []
+    for count in range(1, 201):
         text.append("v " + " ".join(f"{x:.3f}" for x in rng.normal(size=3)))
-        count += 1
         if count > 3:
             corners = rng.choice(count, 3, replace=False)
             expected.append(corners)

@@ -343,7 +343,7 @@ def binary_stl(triangles: np.ndarray, *, announced: int | None = None) -> bytes:
 
 
 CORNERS = trimesh.creation.box((20, 30, 40)).triangles
-APART = CORNERS + [50, 0, 0]
+APART = CORNERS + np.array([50, 0, 0])
 STLS = {
     "two solids": stl(CORNERS, name="one vertex 1 2 3") + stl(APART, name="two"),
     "two solids, the first without an end": stl(CORNERS).replace("endsolid a\n", "") + stl(APART),

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import readable, told_broken
-from infill.formats.off import read_off
 from infill.formats.gltf import write_glb, write_glb_parts
 from infill.formats.gltf_reader import read_glb, read_gltf
 from infill.formats.obj import read_obj, write_obj
+from infill.formats.off import read_off
 from infill.formats.parts import Part
 from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
@@ -93,8 +93,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Parameters
     ----------
     path : str or Path
-        .stl (binary or text), .3mf, .obj, .ply, .off, .glb or .gltf. 3MF states its unit and glTF is in metres: these are
-        converted to millimetres. The others state no unit and are taken as they are.
+        .stl (binary or text), .3mf, .obj, .ply, .off, .glb or .gltf. 3MF states its unit and glTF is in metres: these
+        are converted to millimetres. The others state no unit and are taken as they are.
 
     Returns
     -------

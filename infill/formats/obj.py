@@ -87,8 +87,8 @@ def _corners(
     counts = lines.words[rows] - 1
     short = np.flatnonzero(counts < CORNERS)
     if len(short):
-        found = int(counts[short[0]])
-        raise lines.error(int(lines.first[rows[short[0]]]), f"a face of {found} corner(s), not three or more")
+        there = int(counts[short[0]])
+        raise lines.error(int(lines.first[rows[short[0]]]), f"a face of {there} corner(s), not three or more")
     corners = lines.numbers(rows, 1, np.int64, slashes=True).astype(np.int64, copy=False)
     total = len(vertex_rows)
     if len(corners) and (corners.min() < 1 or corners.max() > total):

@@ -15,7 +15,7 @@ from infill.errors import FormatError
 from infill.formats.broken import quoted
 from infill.formats.text_lines import number_complaint
 from infill.surface import Surface
-from infill.surfaces.polygons import CORNERS, split_polygons, split_strips
+from infill.surfaces.polygons import split_polygons, split_strips
 from infill.version import __version__
 
 FACE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])
@@ -117,10 +117,10 @@ def read_ply(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     if vertices is None:
         raise FormatError(f"{path} holds no vertices; export the mesh again")
     triangles = [np.empty((0, 3), dtype=np.int64)]
-    for corners, counts in faces:
-        require_corners(path, corners, len(vertices))
-        triangles.append(split_polygons(vertices, corners, counts))
-    triangles += [split_strips(corners, counts) for corners, counts in strips]
+    for flat, counts in faces:
+        require_corners(path, flat, len(vertices))
+        triangles.append(split_polygons(vertices, flat, counts))
+    triangles += [split_strips(flat, counts) for flat, counts in strips]
     return vertices, np.concatenate(triangles)
 
 
@@ -161,8 +161,9 @@ def _header(path: Path, data: bytes) -> tuple[str, list[Element], int]:
             case ["comment" | "obj_info", *_] | []:
                 pass
             case _:
+                shown = quoted(" ".join(words))
                 raise FormatError(
-                    f"{path} has a header with the line {quoted(' '.join(words))}, which PLY does not know; export it again"
+                    f"{path} has a header with the line {shown}, which PLY does not know; export it again"
                 )
     raise FormatError(f"{path} has a header that is cut off; export the mesh again")
 
@@ -232,7 +233,7 @@ def _plain_rows(data: bytes, place: int, order: str, element: Element) -> Column
 
 
 def _rows_alike(data: bytes, place: int, order: str, element: Element) -> tuple[Columns, int] | None:
-    """Return the numbers of rows whose lists are all as long as those of the first, and their end; None if they differ."""
+    """Return the numbers of rows whose lists are as long as those of the first, and their end; None if they differ."""
     if element.rows == 0:
         return _no_rows(element), place
     fields: list[tuple[str, Any]] = []

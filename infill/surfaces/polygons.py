@@ -87,7 +87,8 @@ def split_strips(corners: NDArray[np.integer], counts: NDArray[np.integer]) -> I
     turned = (np.arange(len(triangles)) - first[:-2]) % 2 == 1
     triangles[turned] = triangles[turned][:, [1, 0, 2]]
     different = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1) & (triangles != -1).all(axis=1)
-    return triangles[along & different]
+    strip: Integers = triangles[along & different]
+    return strip
 
 
 def split_fan(corners: NDArray[np.integer]) -> Integers:
@@ -127,7 +128,7 @@ def _split_alike(vertices: NDArray[np.floating], rings: NDArray[np.integer]) -> 
 
 
 def _fans_cover(vertices: NDArray[np.floating], rings: Integers) -> NDArray[np.bool_]:
-    """Return for which polygons (m, n) all triangles of the fan from the first corner face as the polygon does, (m,)."""
+    """Return for which polygons (m, n) all triangles of the fan from the first corner face as the polygon does."""
     corners = vertices[rings] - vertices[rings[:, :1]]
     x, y, z = np.moveaxis(corners[:, 1:], 2, 0)
     normals = np.stack(
@@ -144,7 +145,7 @@ def _fans_cover(vertices: NDArray[np.floating], rings: Integers) -> NDArray[np.b
 
 
 def _clip_ears(ring: Floats) -> Integers | None:
-    """Split a polygon (n, 3) in the coordinate plane in which it is largest; return (n - 2, 3), None if it has no area."""
+    """Split a polygon (n, 3) in the coordinate plane in which it is largest; return None if it has no area."""
     from manifold3d import triangulate
 
     corners = ring - ring[0]
