@@ -183,6 +183,7 @@ WRONG = {
         "'surf' is a free-form surface",
     ),
     "another file": ("call other.obj\n" + TEXT, "'call' takes in another file"),
+    "a word that ran into its number": (TEXT + "f1 2 3\n", "line 15: 'f1' begins no line"),
     "a line of numbers": (TEXT + "1 2 3\n", "line 15: '1' begins no line of an OBJ file"),
     "a line that is damaged": (TEXT + "\x1b]0;mine\x07v 1 2 3\n", r"line 15: '\\x1b\]0;mine.*' begins no line"),
     "continued lines count": ("v 0 \\\n 0 \\\n 0\nv 1 x 0", "line 4: 'x' is not a number"),

@@ -153,6 +153,13 @@ def test_text_with_odd_blanks(tmp_path: Path) -> None:
         assert_is(write(tmp_path, text), HALVED)
 
 
+def test_text_that_is_not_in_lines(tmp_path: Path) -> None:
+    """All in one, or a number in each: where lines say nothing, numbers are counted."""
+    head, mark, body = ply("ascii", [points(HALVED), faces(HALVED)]).partition(b"end_header\n")
+    assert_is(write(tmp_path, head + mark + body.replace(b"\n", b" ")), HALVED)
+    assert_is(write(tmp_path, head + mark + body.replace(b" ", b"\n")), HALVED)
+
+
 @every_form
 def test_strips(form: str, tmp_path: Path) -> None:
     """As the Stanford archive has them: one list, whose strips end with -1."""
@@ -212,7 +219,7 @@ WRONG = {
     "no end of the header": (PLAIN.partition("end_header")[0], "header that is cut off"),
     "two of a name": (PLAIN.replace("float y", "float x"), "two elements or properties have one name"),
     "no z": (PLAIN.replace("float z", "float w"), "vertices without x, y and z"),
-    "no list": (PLAIN.replace("list uchar int vertex_indices", "int a"), "face without a list vertex_indices"),
+    "no list": (BINARY.replace(b"list uchar int vertex_indices", b"int a"), "face without a list vertex_indices"),
     "a list of other things": (
         PLAIN.replace("int vertex_indices", "float texcoord"),
         "face without a list vertex_indices",
@@ -230,7 +237,9 @@ WRONG = {
     "a list of all": (PLAIN.replace("4 3 2 1 0", "99999999 3 2 1 0"), "cut off|fewer"),
     "a decimal comma": (PLAIN.replace("20 30 40", "20,5 30 40"), "'20,5' has a decimal comma"),
     "a word": (PLAIN.replace("20 30 40", "20 x 40"), "'x' is not a number"),
-    "more columns than announced": (PLAIN.replace("0 0 0\n", "0 0 0 255\n", 1), "its first row has 4"),
+    "more columns than announced": (PLAIN.replace("0 0 0\n", "0 0 0 255\n", 1), "announces 3 number.s. or lists for each 'vertex', and row 1 does not begin or end"),
+    "two rows in one line": (PLAIN.replace("20 0 0\n", "20 0 0 ", 1), "row 2 does not begin or end with a line"),
+    "two rows run together": (PLAIN.replace("20 0 0\n", "20 0 0", 1), "row 2 does not begin or end with a line"),
     "no vertices": (
         "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n3 0 1 2\n",
         "holds no vertices",

@@ -18,8 +18,8 @@ from infill.surfaces.polygons import CORNERS, split_polygons
 from infill.version import __version__
 
 SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces, which are no polygons
-# A statement of the format, or of a program that adds its own to it: at least a letter or two.
-STATEMENT = re.compile(rb"[a-z][a-z0-9_]+|[goslp]", re.IGNORECASE)
+# A statement of the format, or of a program that adds its own to it: two letters or more.
+STATEMENT = re.compile(rb"[a-z][a-z_]\w*|[goslp]", re.IGNORECASE)
 
 
 def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

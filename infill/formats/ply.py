@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import quoted
-from infill.formats.text_lines import number_complaint
+from infill.formats.text_lines import Lines, number_complaint
 from infill.surface import Surface
 from infill.surfaces.polygons import split_polygons, split_strips
 from infill.version import __version__
@@ -328,9 +328,9 @@ def _length(data: bytes, place: int, count: np.dtype[Any]) -> int:
 
 
 def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tuple[Element, Columns]]:
-    """Yield each element with the numbers of its rows; line ends count as blanks."""
+    """Yield each element with the numbers of its rows."""
     values = _words_as_numbers(data)
-    _check_width(path, data, elements)
+    line_starts = _line_starts(path, data, sum(element.rows for element in elements))
     place = 0
     for element in elements:
         smallest = len(element.properties)
@@ -338,14 +338,31 @@ def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tup
             raise _too_few(path, data, element)
         if any(each.count for each in element.properties):
             try:
-                columns, place = _text_lists(path, values, place, element)
+                columns, starts = _text_lists(path, values, place, element)
             except EOFError:
                 raise _too_few(path, data, element) from None
         else:
             table = values[place : place + element.rows * smallest].reshape(element.rows, smallest)
             columns = {each.name: table[:, i] for i, each in enumerate(element.properties)}
-            place += element.rows * smallest
+            starts = place + np.arange(min(element.rows, len(values)) + 1) * smallest
+        if line_starts is not None and smallest and not line_starts[starts].all():
+            row = int(np.argmin(line_starts[starts]))
+            raise FormatError(
+                f"{path} announces {smallest} number(s) or lists for each {quoted(element.name)}, and row {row} does not "
+                "begin or end with a line; export the mesh again"
+            )
+        place = int(starts[-1])
         yield element, columns
+
+
+def _line_starts(path: Path, data: bytes, rows: int) -> NDArray[np.bool_] | None:
+    """Return which words begin a line, and that what follows the last one does; None for a text that is not in lines."""
+    lines = Lines(path=path, original=data, text=data.replace(b"\r", b"\n") + b"\n")
+    if 2 * len(lines) < rows:
+        return None
+    found = np.zeros(len(lines.begins) + 1, dtype=bool)
+    found[lines.first] = found[-1] = True
+    return found
 
 
 def _words_as_numbers(data: bytes) -> NDArray[np.float64]:
@@ -360,20 +377,6 @@ def _words_as_numbers(data: bytes) -> NDArray[np.float64]:
     return np.array(words[:wrong], dtype="S").astype(np.float64) if wrong else np.empty(0)
 
 
-def _check_width(path: Path, data: bytes, elements: list[Element]) -> None:
-    """Raise FormatError if the first row has more numbers than the header says: all that follow would be shifted."""
-    element = next((each for each in elements if each.rows), None)
-    if element is None or any(each.count for each in element.properties):
-        return
-    first = data.lstrip()[:HEAD].splitlines()[:1]
-    found = len(first[0].split()) if first else 0
-    if found > len(element.properties) and data.count(b"\n") + data.count(b"\r") > element.rows:
-        raise FormatError(
-            f"{path} announces {len(element.properties)} numbers for each {quoted(element.name)} and its first row "
-            f"has {found}; export the mesh again"
-        )
-
-
 def _too_few(path: Path, data: bytes, element: Element) -> FormatError:
     """Return the error about numbers that end too early: at a word that is none, or at the end of the file."""
     for word in data.split():
@@ -382,7 +385,10 @@ def _too_few(path: Path, data: bytes, element: Element) -> FormatError:
     return _cut_off(path, element)
 
 
-def _text_lists(path: Path, values: NDArray[np.float64], place: int, element: Element) -> tuple[Columns, int]:
+def _text_lists(
+    path: Path, values: NDArray[np.float64], place: int, element: Element
+) -> tuple[Columns, NDArray[np.int64]]:
+    """Return the numbers of rows with lists, and which word each begins with, and what follows the last one."""
     first = [each for each in element.properties if each.count]
     if len(first) == len(element.properties) == 1 and element.rows:  # as most files are
         count = values[place]
@@ -393,9 +399,10 @@ def _text_lists(path: Path, values: NDArray[np.float64], place: int, element: El
                 name = element.properties[0].name
                 table = rows.reshape(element.rows, width)
                 found = {name: table[:, 1:].ravel(), f"{name}#": np.full(element.rows, int(count))}
-                return found, place + width * element.rows
+                return found, place + width * np.arange(element.rows + 1)
     begins: list[list[int]] = [[] for _ in element.properties]
     lengths: list[list[int]] = [[] for _ in element.properties]
+    starts = [place]
     end = len(values)
     for _ in range(element.rows):
         for i, each in enumerate(element.properties):
@@ -413,6 +420,7 @@ def _text_lists(path: Path, values: NDArray[np.float64], place: int, element: El
             place += number
         if place > end:
             raise EOFError
+        starts.append(place)
     columns: Columns = {}
     for begin, length, each in zip(begins, lengths, element.properties, strict=True):
         counts = np.array(length, dtype=np.int64) if each.count else np.ones(element.rows, dtype=np.int64)
@@ -420,7 +428,7 @@ def _text_lists(path: Path, values: NDArray[np.float64], place: int, element: El
         columns[each.name] = values[first_of + np.arange(len(first_of))]
         if each.count:
             columns[f"{each.name}#"] = counts
-    return columns, place
+    return columns, np.array(starts, dtype=np.int64)
 
 
 def write_ply(surface: Surface, file: BinaryIO) -> None:

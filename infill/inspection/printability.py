@@ -101,6 +101,8 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         raise FormatError("the mesh has no triangle of three different corners; export it again")
     surface = Surface(vertices=read.vertices, faces=read.faces[~collapsed])
     flat = _flat(surface)
+    if flat.all():
+        raise FormatError("the mesh has no triangle with an area; export it again")
     where = merged(surface.vertices, surface.faces[~flat])
     duplicate = len(where.faces) - len(np.unique(np.sort(where.faces, axis=1), axis=0))
     crossings = self_intersections(where.vertices, where.faces)
