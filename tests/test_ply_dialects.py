@@ -237,7 +237,10 @@ WRONG = {
     "a list of all": (PLAIN.replace("4 3 2 1 0", "99999999 3 2 1 0"), "cut off|fewer"),
     "a decimal comma": (PLAIN.replace("20 30 40", "20,5 30 40"), "'20,5' has a decimal comma"),
     "a word": (PLAIN.replace("20 30 40", "20 x 40"), "'x' is not a number"),
-    "more columns than announced": (PLAIN.replace("0 0 0\n", "0 0 0 255\n", 1), "announces 3 number.s. or lists for each 'vertex', and row 1 does not begin or end"),
+    "more columns than announced": (
+        PLAIN.replace("0 0 0\n", "0 0 0 255\n", 1),
+        "announces 3 number.s. or lists for each 'vertex', and row 1 does not begin or end",
+    ),
     "two rows in one line": (PLAIN.replace("20 0 0\n", "20 0 0 ", 1), "row 2 does not begin or end with a line"),
     "two rows run together": (PLAIN.replace("20 0 0\n", "20 0 0", 1), "row 2 does not begin or end with a line"),
     "no vertices": (

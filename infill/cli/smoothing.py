@@ -449,6 +449,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
     }
+    if now["cavities"]:
+        rows["sealed voids"] = f"{now['cavities']}, in which resin and powder stay"
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
         moved = report["distance"]
         rows["distance"] = (
