@@ -382,6 +382,12 @@ def test_a_binary_stl_with_bytes_behind(tmp_path: Path) -> None:
         assert read_mesh(write(tmp_path, binary_stl(CORNERS) + more, "part.stl")).closed
 
 
+@pytest.mark.parametrize("more", [binary_stl(APART), stl(APART).encode()])
+def test_a_binary_stl_with_another_behind(more: bytes, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="holds a second STL behind its 12 triangles; export each into a file"):
+        read_mesh(write(tmp_path, binary_stl(CORNERS) + more, "part.stl"))
+
+
 @pytest.mark.parametrize("announced", [1, 11, 13, 4_000_000_000])
 def test_a_binary_stl_that_announces_another_number(announced: int, tmp_path: Path) -> None:
     with pytest.raises(

@@ -97,6 +97,27 @@ def test_what_has_no_inside_still_keeps_its_edges(ring: list[tuple[float, float,
     }
 
 
+TETRAHEDRON = np.array([[0.0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]])
+
+
+@pytest.mark.parametrize("turn", range(4))
+def test_two_faces_of_a_tetrahedron_as_one_quadrilateral(turn: int) -> None:
+    """It is not flat: one of its diagonals is an edge of the others, which must not have four faces."""
+    polygons = [list(np.roll([0, 1, 3, 2], turn)), [1, 2, 3], [0, 2, 1]]
+    surface = split(Solid(vertices=TETRAHEDRON, polygons=polygons, volume=0, area=0))
+    assert surface.closed
+    assert surface.volume == pytest.approx(9**3 / 6, rel=1e-12)
+
+
+@pytest.mark.parametrize(("one", "other"), [(k, j) for k in range(4) for j in range(4)])
+def test_two_quadrilaterals_around_a_vertex_of_two_edges(one: int, other: int) -> None:
+    """They share three corners; cut off by both, the middle one would leave an edge with four faces."""
+    vertices = np.array([[0.0, 0, 0], [4, 4, 1], [8, 0, 0], [4, -4, 0], [4, 0, 6]])
+    polygons = [list(np.roll([0, 1, 2, 3], one)), list(np.roll([2, 1, 0, 4], other)), [0, 3, 4], [3, 2, 4]]
+    surface = split(Solid(vertices=vertices, polygons=polygons, volume=0, area=0))
+    assert surface.closed
+
+
 def test_polygons_of_two_corners_are_left_out() -> None:
     corners, counts = np.array([0, 1, 0, 1, 2, 2]), np.array([2, 3, 1])
     assert split_polygons(np.eye(3), corners, counts).tolist() == [[0, 1, 2]]

@@ -348,15 +348,15 @@ def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tup
         if line_starts is not None and smallest and not line_starts[starts].all():
             row = int(np.argmin(line_starts[starts]))
             raise FormatError(
-                f"{path} announces {smallest} number(s) or lists for each {quoted(element.name)}, and row {row} does not "
-                "begin or end with a line; export the mesh again"
+                f"{path} announces {smallest} number(s) or lists for each {quoted(element.name)}, and row {row} does "
+                "not begin or end with a line; export the mesh again"
             )
         place = int(starts[-1])
         yield element, columns
 
 
 def _line_starts(path: Path, data: bytes, rows: int) -> NDArray[np.bool_] | None:
-    """Return which words begin a line, and that what follows the last one does; None for a text that is not in lines."""
+    """Return which words begin a line, what follows the last one included; None for a text that is not in lines."""
     lines = Lines(path=path, original=data, text=data.replace(b"\r", b"\n") + b"\n")
     if 2 * len(lines) < rows:
         return None

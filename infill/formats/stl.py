@@ -42,7 +42,7 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     data = path.read_bytes()
     count = int.from_bytes(data[80:HEAD], "little")
     if count and len(data) >= HEAD + count * RECORD.itemsize:
-        _check_rest(path, count, len(data) - HEAD - count * RECORD.itemsize)
+        _check_rest(path, count, data[HEAD + count * RECORD.itemsize :])
         corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
     elif wide_encoding(data) or (
         data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data
@@ -58,9 +58,12 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     return corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3)
 
 
-def _check_rest(path: Path, count: int, rest: int) -> None:
+def _check_rest(path: Path, count: int, rest: bytes) -> None:
     """Raise FormatError if what follows the triangles is more triangles; some programs add bytes of their own."""
-    more, left = divmod(rest, RECORD.itemsize)
+    more, left = divmod(len(rest), RECORD.itemsize)
+    announced = int.from_bytes(rest[80:HEAD], "little")
+    if b"facet" in rest or (announced and len(rest) == HEAD + announced * RECORD.itemsize):
+        raise FormatError(f"{path} holds a second STL behind its {count} triangles; export each into a file of its own")
     if more and not left:
         raise FormatError(
             f"{path} announces {count} triangles and holds {count + more}: part of it would be left out; "

@@ -37,7 +37,8 @@ class Inspection:
     problems, warnings : tuple of str
         Why it is not printable, and what slicers cope with but other programs may not; one phrase each.
     triangles, components, degenerate, duplicate : int
-        Components are connected surfaces: a solid with a sealed void has two. Degenerate triangles have no area; duplicates have the same three corners as another triangle.
+        Components are connected surfaces: a solid with a sealed void has two. Degenerate triangles have no area;
+        duplicates have the same three corners as another triangle.
     closed, outward : bool
         Closed: every edge has two faces, with consistent orientation. Outward: every component faces outwards, except
         those inside another, which are its cavities and face inwards.

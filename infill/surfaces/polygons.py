@@ -54,7 +54,58 @@ def split_polygons(
             rings = corners[begins[some, None] + np.arange(count)]
             triangles = rings[:, None] if count == CORNERS else _split_alike(vertices, rings)
             faces[places[some, None] + np.arange(count - 2)] = triangles
+    if (counts > CORNERS).any():
+        _part_diagonals(vertices, corners, counts, faces)
     return faces
+
+
+def _part_diagonals(
+    vertices: NDArray[np.floating], corners: NDArray[np.integer], counts: NDArray[np.integer], faces: Integers
+) -> None:
+    """Turn fans whose diagonals are edges too, or diagonals of others: such an edge would have four faces.
+
+    So it is where polygons share corners that are no neighbours in one of them: two faces of a tetrahedron as one
+    quadrilateral beside the other two, or the polygons around a vertex that has two edges.
+    """
+    begins = np.cumsum(counts) - counts
+    places = np.cumsum(np.maximum(counts - 2, 0)) - np.maximum(counts - 2, 0)
+    inner = np.maximum(counts - CORNERS, 0)
+    first = np.cumsum(inner) - inner
+    owner = np.repeat(np.arange(len(counts)), inner)
+    triangle = places[owner] + np.arange(len(owner)) - first[owner]  # the last one of a fan has no diagonal of its own
+    diagonals = _pair_numbers(faces[triangle, 0], faces[triangle, 2])
+    after = np.arange(1, len(corners) + 1)
+    after[(begins + counts - 1)[counts > 0]] = begins[counts > 0]
+    edges = np.sort(_pair_numbers(corners, corners[after]))
+    uses = np.sort(diagonals)
+    where = np.minimum(np.searchsorted(edges, uses), len(edges) - 1)
+    wrong = np.union1d(uses[1:][uses[1:] == uses[:-1]], uses[edges[where] == uses])
+    if len(wrong) == 0:
+        return
+    turned: set[int] = set()  # diagonals since then
+
+    def is_free(pairs: Integers, polygon: int) -> bool:
+        low, high = np.searchsorted(edges, pairs), np.searchsorted(edges, pairs, side="right")
+        own = diagonals[first[polygon] : first[polygon] + inner[polygon]]
+        used = np.searchsorted(uses, pairs, side="right") - np.searchsorted(uses, pairs) - np.isin(pairs, own)
+        return bool((low == high).all() and (used == 0).all()) and turned.isdisjoint(pairs.tolist())
+
+    for polygon in np.unique(owner[np.isin(diagonals, wrong)]).tolist():
+        count = int(counts[polygon])
+        ring = corners[begins[polygon] : begins[polygon] + count].astype(np.int64)
+        fans = [np.roll(ring, -start) for start in range(count)]
+        free = (fan for fan in fans if is_free(_pair_numbers(fan[:1].repeat(count - CORNERS), fan[2:-1]), polygon))
+        chosen = next((fan for fan in free if _fans_cover(vertices, fan[None])[0]), None)
+        if chosen is not None:
+            faces[places[polygon] : places[polygon] + count - 2] = split_fan(chosen)
+            turned.update(_pair_numbers(chosen[:1].repeat(count - CORNERS), chosen[2:-1]).tolist())
+
+
+def _pair_numbers(one: NDArray[np.integer], other: NDArray[np.integer]) -> Integers:
+    """Return a number for each pair of vertices, whichever comes first."""
+    low, high = np.minimum(one, other).astype(np.int64), np.maximum(one, other).astype(np.int64)
+    numbers: Integers = (low << 32) + high
+    return numbers
 
 
 def split_strips(corners: NDArray[np.integer], counts: NDArray[np.integer]) -> Integers:
