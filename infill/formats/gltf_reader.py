@@ -295,11 +295,11 @@ def _read(gltf: Gltf) -> tuple[Floats, Integers]:
         vertices.append(points)
         faces.append(triangles + count)
         count += len(points)
-    return np.concatenate(vertices) / MILLIMETRE, np.concatenate(faces)
+    return np.concatenate(vertices), np.concatenate(faces)
 
 
 def _placed(gltf: Gltf) -> Iterator[tuple[Floats, Integers]]:
-    """Yield the vertices, m, and triangles of every mesh in each of its places."""
+    """Yield the vertices, mm, and triangles of every mesh in each of its places."""
     places = _places(gltf)
     need = 0
     for index, node in places.items():
@@ -322,8 +322,10 @@ def _placed(gltf: Gltf) -> Iterator[tuple[Floats, Integers]]:
                         f"node {index} has a transform that flattens its mesh", "give it a thickness, or leave it out"
                     )
                 mirrored = np.linalg.det(linear) < 0 if bent is None else bent
+                # A scale of a thousandth becomes 1, exactly: what is written in mm is read to the last bit.
+                linear, shift = linear / MILLIMETRE, matrix[:3, 3] / MILLIMETRE
                 # A mirrored part would face inwards: its corners are taken in reverse order.
-                yield points @ linear.T + matrix[:3, 3], triangles[:, ::-1] if mirrored else triangles
+                yield points @ linear.T + shift, triangles[:, ::-1] if mirrored else triangles
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
