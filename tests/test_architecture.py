@@ -39,6 +39,7 @@ KEPT = {
     "numba": "infill.kernels",
     "llvmlite": "infill.kernels",
     "SimpleITK": "infill.formats.medical",
+    "DracoPy": "infill.formats.draco",
     "typer": "infill.cli",
     "rich": "infill.cli",
 }

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def check(
     meshes: Annotated[
-        list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb.")
+        list[Path], typer.Argument(metavar="MESH...", help="Meshes to look at: .stl .3mf .obj .ply .off .glb .gltf.")
     ],
     slicer: Annotated[
         Literal["prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"] | None,
@@ -133,11 +133,18 @@ def _described(found: Inspection, name: str) -> str:
         "manifold3d": found.manifold,
         "self-intersections": str(found.self_intersections),
         "components": str(found.components),
+        "sealed voids": _sealed(found.sealed_voids),
         "triangles": f"{found.triangles:,}, {found.degenerate} degenerate, {found.duplicate} duplicate",
         "volume, area": f"{found.volume:.6g}, {found.area:.6g}",
         "extents": " x ".join(f"{length:.4g}" for length in found.extents),
     }
     return table(rows, title=name)
+
+
+def _sealed(voids: int | None) -> str:
+    if voids is None:
+        return "unknown: the mesh is not closed"
+    return f"{voids}, in which resin and powder stay" if voids else "none"
 
 
 def _yes(holds: bool) -> str:

@@ -23,7 +23,8 @@ FILES, PATTERN, SOLID, RUN = "Files", "Pattern", "Solid", "Run"
 def fill(
     context: typer.Context,
     part: Annotated[
-        Path, typer.Argument(metavar="PART", help="Mesh to fill (.stl .3mf .obj .ply .off .glb): closed, or nearly.")
+        Path,
+        typer.Argument(metavar="PART", help="Mesh to fill (.stl .3mf .obj .ply .off .glb .gltf): closed, or nearly."),
     ],
     output: Annotated[
         list[Path] | None,

@@ -29,7 +29,7 @@ def smooth(
         Path,
         typer.Argument(
             metavar="INPUT",
-            help="Mesh (.stl .3mf .obj .ply .off .glb), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
+            help="Mesh (.stl .3mf .obj .ply .off .glb .gltf), volume (.npy .npz .tif .nrrd .nii .mha .mgz .vtk .vti, a "
             "folder of DICOM or slices) or points (.xyz .csv .txt .npy .ply).",
         ),
     ],
@@ -449,6 +449,8 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
         "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
         f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
     }
+    if now["cavities"]:
+        rows["sealed voids"] = f"{now['cavities']}, in which resin and powder stay"
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
         moved = report["distance"]
         rows["distance"] = (

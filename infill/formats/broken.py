@@ -42,6 +42,7 @@ BROKEN = (
 )
 # Of these, the errors our own code raises for such files: values that are not finite numbers, and truncated files.
 BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
+LONGEST_WORD = 60  # characters of a word of a file in a message
 COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
@@ -97,10 +98,29 @@ def is_ours(error: BaseException) -> bool:
 
 def one_line(error: Exception) -> str:
     """Return the text of an error on one line, truncated if too long."""
-    words = " ".join(str(error).split())
+    words = printable(" ".join(str(error).split()))
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return words if len(words) <= 200 else words[:200] + "…"
+
+
+def printable(text: str) -> str:
+    r"""Return a text with whatever a terminal would not show, or would obey, written as an escape.
+
+    >>> printable("a\x1b[2Jb")
+    'a\\x1b[2Jb'
+    """
+    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
+
+
+def quoted(text: str | bytes) -> str:
+    """Return a word of a file between quotation marks, as a message can hold it.
+
+    >>> quoted(b"1,5")
+    "'1,5'"
+    """
+    shown = printable(text.decode("utf-8", errors="replace") if isinstance(text, bytes) else text)
+    return f"'{shown}'" if len(shown) <= LONGEST_WORD else f"'{shown[:LONGEST_WORD]}…'"
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401

@@ -1,4 +1,4 @@
-"""Binary glTF 2.0: a JSON chunk that describes meshes, and a chunk of their numbers.
+"""Write binary glTF 2.0: a JSON chunk that describes meshes, and a chunk of their numbers.
 
 glTF is in metres. Vertices are written in millimetres, which 32 bits preserve as in all other formats, and a node
 scaled by 1/1000 converts them to metres.
@@ -9,14 +9,9 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, BinaryIO
 
-import numpy as np
-from numpy.typing import NDArray
-
 from infill.errors import FormatError
-from infill.formats.broken import told_broken
 from infill.formats.label_tables import Colour
 from infill.formats.parts import Part, plain
 from infill.surface import Surface
@@ -25,26 +20,6 @@ from infill.version import __version__
 FLOAT, UNSIGNED, VERTICES, INDICES = 5126, 5125, 34962, 34963
 MILLIMETRE = 0.001  # of a metre
 LARGEST = 2**32 - 1  # bytes, which is what the sizes in it can say
-
-
-def read_glb(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
-    """Return vertices in mm and faces, with every mesh in each of its places in the scene."""
-    import trimesh
-
-    with told_broken(path, "is broken", "export the mesh again"):
-        scene = trimesh.load_scene(path, process=False)
-        parts = [(scene.geometry[name], place) for place, name in map(scene.graph.get, scene.graph.nodes_geometry)]
-    vertices, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)]
-    count = 0
-    for mesh, place in parts:
-        if not isinstance(mesh, trimesh.Trimesh):  # points or lines
-            continue
-        matrix = np.asarray(place, dtype=np.float64)[:3] / MILLIMETRE
-        vertices.append(np.asarray(mesh.vertices, dtype=np.float64) @ matrix[:, :3].T + matrix[:, 3])
-        # A mirrored part would face inwards: its corners are taken in reverse order.
-        faces.append(np.asarray(mesh.faces)[:, :: -1 if np.linalg.det(matrix[:, :3]) < 0 else 1] + count)
-        count += len(mesh.vertices)
-    return np.concatenate(vertices), np.concatenate(faces)
 
 
 def write_glb(surface: Surface, file: BinaryIO) -> None:

@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import readable
-from infill.formats.foreign import read_by_trimesh
-from infill.formats.gltf import read_glb, write_glb, write_glb_parts
+from infill.formats.broken import readable, told_broken
+from infill.formats.gltf import write_glb, write_glb_parts
+from infill.formats.gltf_reader import read_glb, read_gltf
 from infill.formats.obj import read_obj, write_obj
+from infill.formats.off import read_off
 from infill.formats.parts import Part
 from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
@@ -92,8 +93,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Parameters
     ----------
     path : str or Path
-        .stl (binary or text), .3mf, .obj, .ply, .off or .glb. 3MF states its unit and glTF is in metres: these are
-        converted to millimetres. The others state no unit and are taken as they are.
+        .stl (binary or text), .3mf, .obj, .ply, .off, .glb or .gltf. 3MF states its unit and glTF is in metres: these
+        are converted to millimetres. The others state no unit and are taken as they are.
 
     Returns
     -------
@@ -106,7 +107,8 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     """
     source = readable(path, READERS, "a mesh format")
     try:
-        vertices, faces = READERS[source.suffix.lower()](source)
+        with told_broken(source, "is broken", "export the mesh again"):
+            vertices, faces = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if len(faces) == 0:
@@ -134,6 +136,7 @@ READERS: dict[str, Callable[[Path], tuple[NDArray[np.floating], NDArray[np.integ
     ".3mf": read_3mf,
     ".obj": read_obj,
     ".ply": read_ply,
-    ".off": read_by_trimesh,
+    ".off": read_off,
     ".glb": read_glb,
+    ".gltf": read_gltf,
 }

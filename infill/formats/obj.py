@@ -2,14 +2,108 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import BinaryIO
 
-from infill.formats.foreign import read_by_trimesh
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.broken import quoted
 from infill.formats.rows import write_rows
+from infill.formats.text_lines import Lines, are_blank, plain_text, without_breaks, without_comments
 from infill.surface import Surface
+from infill.surfaces.polygons import CORNERS, split_polygons
 from infill.version import __version__
 
-read_obj = read_by_trimesh
+SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces, which are no polygons
+# A statement of the format, or of a program that adds its own to it: two letters or more.
+STATEMENT = re.compile(rb"[a-z][a-z_]\w*|[goslp]", re.IGNORECASE)
+
+
+def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return vertices and triangles; polygons are split.
+
+    Parameters
+    ----------
+    path : Path
+        Lines, points, curves, normals, colours and names are left out. A negative corner -k is the k-th vertex before
+        the line in which it stands.
+
+    Raises
+    ------
+    FormatError
+        For free-form surfaces, a line that cannot be read, and a corner that does not exist.
+    """
+    original = plain_text(path)
+    lines = Lines(path=path, original=original, text=without_breaks(without_comments(original)))
+    if len(lines) == 0:
+        raise FormatError(f"{path} holds no vertices; export the mesh again")
+    one, two, three = (lines.keys(place) for place in range(3))
+    one_letter, two_letters = are_blank(two), are_blank(three)
+    is_vertex = (one == ord("v")) & one_letter
+    is_face = (one == ord("f")) & (one_letter | ((two == ord("o")) & two_letters))
+    of_vertices = (one == ord("v")) & ((two == ord("n")) | (two == ord("t"))) & two_letters
+    _check_statements(lines, np.flatnonzero(~(is_vertex | is_face | of_vertices)))
+    vertex_rows, face_rows = np.flatnonzero(is_vertex), np.flatnonzero(is_face)
+    vertices = _vertices(lines, vertex_rows)
+    corners, counts = _corners(lines, vertex_rows, face_rows)
+    return vertices, split_polygons(vertices, corners, counts)
+
+
+def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
+    """Raise FormatError for what would be left out in silence, and for lines that are none of the format."""
+    for number in lines.first[rows].tolist():
+        word = lines.word(number)
+        if word.lower() in SURFACES:
+            raise lines.error(
+                number, f"{quoted(word)} is a free-form surface", "convert it to polygons before the export"
+            )
+        if word.lower() == b"call":
+            raise lines.error(number, "'call' takes in another file", "export everything into one file")
+        if not STATEMENT.fullmatch(word):
+            raise lines.error(number, f"{quoted(word)} begins no line of an OBJ file")
+
+
+def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return x, y and z of all vertices, (V, 3); weights and colours are left out."""
+    numbers = lines.words[rows] - 1
+    short = np.flatnonzero(numbers < 3)
+    if len(short):
+        found = int(numbers[short[0]])
+        raise lines.error(int(lines.first[rows[short[0]]]), f"a vertex of {found} number(s), not three or more")
+    values = lines.numbers(rows, 1, np.float64).astype(np.float64, copy=False)
+    if len(numbers) and (numbers == numbers[0]).all():
+        return values.reshape(-1, int(numbers[0]))[:, :3].copy()
+    begins = np.cumsum(numbers) - numbers
+    return np.asarray(values[begins[:, None] + np.arange(3)])
+
+
+def _corners(
+    lines: Lines, vertex_rows: NDArray[np.int64], rows: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the corners of all polygons counted from 0, (C,), and how many each has, (P,)."""
+    counts = lines.words[rows] - 1
+    short = np.flatnonzero(counts < CORNERS)
+    if len(short):
+        there = int(counts[short[0]])
+        raise lines.error(int(lines.first[rows[short[0]]]), f"a face of {there} corner(s), not three or more")
+    corners = lines.numbers(rows, 1, np.int64, slashes=True).astype(np.int64, copy=False)
+    total = len(vertex_rows)
+    if len(corners) and (corners.min() < 1 or corners.max() > total):
+        before = np.repeat(np.searchsorted(vertex_rows, rows), counts)
+        found = np.where(corners < 0, corners + before, corners - 1)
+        wrong = np.flatnonzero((corners == 0) | (found < 0) | (found >= total))
+        if len(wrong):
+            row = int(np.searchsorted(np.cumsum(counts), wrong[0], side="right"))
+            corner = int(corners[wrong[0]])
+            reason = f"corner {corner} does not exist: the file holds {total} vertices"
+            if corner < 0:
+                reason = f"corner {corner} does not exist: {int(before[wrong[0]])} vertices stand before this line"
+            raise lines.error(int(lines.first[rows[row]]), reason)
+        return found, counts
+    return corners - 1, counts
 
 
 def write_obj(surface: Surface, file: BinaryIO) -> None:

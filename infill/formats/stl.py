@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.rows import AT_ONCE
+from infill.formats.text_lines import plain_text, wide_encoding
 from infill.kernels.compiling import told_of_compiling
 from infill.kernels.threads import in_threads, thread_count
 from infill.surface import Surface
@@ -25,18 +26,28 @@ FACET = ("facet normal {0} {0} {0}\n outer loop\n" + 3 * "  vertex {0} {0} {0}\n
     "%.9g"
 )
 NUMBER = rb"\s+([^\s]+)"
+LOOP_WORD = re.compile(rb"[\r\n]\s*outer\s+loop\b", re.IGNORECASE)
 VERTEX = re.compile(rb"[\r\n]\s*vertex" + 3 * NUMBER, re.IGNORECASE)
 VERTEX_WORD = re.compile(rb"[\r\n]\s*vertex\b", re.IGNORECASE)
 
 
 def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
-    """Return vertices, three for each triangle, and faces."""
+    """Return vertices, three for each triangle, and faces.
+
+    Raises
+    ------
+    FormatError
+        If a binary file does not hold what it announces, or text is not in triangles.
+    """
     data = path.read_bytes()
     count = int.from_bytes(data[80:HEAD], "little")
-    if count and len(data) >= HEAD + count * RECORD.itemsize:  # some programs add bytes at the end
+    if count and len(data) >= HEAD + count * RECORD.itemsize:
+        _check_rest(path, count, data[HEAD + count * RECORD.itemsize :])
         corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
-    elif data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid":
-        corners = _text_corners(path, data)
+    elif wide_encoding(data) or (
+        data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data
+    ):
+        corners = _text_corners(path, plain_text(path))
     elif len(data) == HEAD and not count:
         corners = np.empty((0, 3, 3), dtype=np.float32)
     else:
@@ -47,11 +58,30 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     return corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3)
 
 
-def _text_corners(path: Path, data: bytes) -> NDArray[np.floating]:
-    found = VERTEX.findall(data)
+def _check_rest(path: Path, count: int, rest: bytes) -> None:
+    """Raise FormatError if what follows the triangles is more triangles; some programs add bytes of their own."""
+    more, left = divmod(len(rest), RECORD.itemsize)
+    announced = int.from_bytes(rest[80:HEAD], "little")
+    if b"facet" in rest or (announced and len(rest) == HEAD + announced * RECORD.itemsize):
+        raise FormatError(f"{path} holds a second STL behind its {count} triangles; export each into a file of its own")
+    if more and not left:
+        raise FormatError(
+            f"{path} announces {count} triangles and holds {count + more}: part of it would be left out; "
+            "export the mesh again"
+        )
+
+
+def _text_corners(path: Path, text: bytes) -> NDArray[np.floating]:
+    text = b"\n" + text
+    found = VERTEX.findall(text)
     broken = FormatError(f"{path} holds a vertex that is not three numbers, or is cut off; export the mesh again")
-    if len(found) != len(VERTEX_WORD.findall(data)) or len(found) % 3:
+    if len(found) != len(VERTEX_WORD.findall(text)) or len(found) % 3:
         raise broken
+    loops = len(LOOP_WORD.findall(text))
+    if loops and 3 * loops != len(found):
+        raise FormatError(
+            f"{path} holds {loops} facets and {len(found)} vertices, not three for each; export the mesh again"
+        )
     try:
         return np.array(found, dtype="S").astype(np.float32).reshape(-1, 3, 3)
     except ValueError as error:

@@ -17,6 +17,7 @@ from infill.surface import Edges, Surface
 from infill.surfaces import solids
 from infill.surfaces.intersections import self_intersections
 from infill.surfaces.merging import closed_or_merged, merged, surface_of
+from infill.surfaces.sealed_voids import count_sealed_voids
 from infill.surfaces.shells import vertex_components
 
 if TYPE_CHECKING:
@@ -36,10 +37,14 @@ class Inspection:
     problems, warnings : tuple of str
         Why it is not printable, and what slicers cope with but other programs may not; one phrase each.
     triangles, components, degenerate, duplicate : int
-        Degenerate triangles have no area; duplicates have the same three corners as another triangle.
+        Components are connected surfaces: a solid with a sealed void has two. Degenerate triangles have no area;
+        duplicates have the same three corners as another triangle.
     closed, outward : bool
         Closed: every edge has two faces, with consistent orientation. Outward: every component faces outwards, except
         those inside another, which are its cavities and face inwards.
+    sealed_voids : int or None
+        Voids that solid encloses, without a way out: resin and powder stay in them. A solid within such a void is no
+        void, and neither is a component within solid that faces outwards. None if the mesh is not closed.
     open_edges : int
         Edges that do not have exactly two faces.
     manifold : str
@@ -59,6 +64,7 @@ class Inspection:
     components: int
     closed: bool
     outward: bool
+    sealed_voids: int | None
     open_edges: int
     manifold: str
     self_intersections: int
@@ -86,8 +92,8 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     Notes
     -----
     Printable means closed, facing outwards, accepted by manifold3d, and without duplicate triangles. Degenerate
-    triangles, parts of a mesh that pass through each other and an unlikely size are warnings: slicers
-    drop the first, print the union of the second, and take the third at face value.
+    triangles, parts of a mesh that pass through each other, sealed voids and an unlikely size are warnings: slicers
+    drop the first, print the union of the second and the third as they are, and take the last at face value.
     """
     stated = False
     if isinstance(mesh, (str, os.PathLike)):
@@ -101,12 +107,15 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         raise FormatError("the mesh has no triangle of three different corners; export it again")
     surface = Surface(vertices=read.vertices, faces=read.faces[~collapsed])
     flat = _flat(surface)
+    if flat.all():
+        raise FormatError("the mesh has no triangle with an area; export it again")
     where = merged(surface.vertices, surface.faces[~flat])
     duplicate = len(where.faces) - len(np.unique(np.sort(where.faces, axis=1), axis=0))
     crossings = self_intersections(where.vertices, where.faces)
     open_edges = int((Edges.of(surface.faces).faces != 2).sum())
     names, components = vertex_components(surface.faces, len(surface.vertices))
     outward = _outward(surface, names[surface.faces[:, 0]])
+    sealed = count_sealed_voids(surface) if surface.closed else None
     status = solids.status(surface, single=True)
     degenerate = int(collapsed.sum() + flat.sum())
     bounds = surface.bounds
@@ -122,6 +131,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     warnings = {
         f"{crossings} pair(s) of triangles pass through each other": crossings,
         f"{degenerate} triangle(s) have no area": degenerate,
+        f"{sealed} sealed void(s): resin and powder stay in them": sealed,
         f"the size suggests that the unit is {unit}, not mm": unit != "mm",
     }
     return Inspection(
@@ -132,6 +142,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         components=components,
         closed=surface.closed,
         outward=outward,
+        sealed_voids=sealed,
         open_edges=open_edges,
         manifold=status,
         self_intersections=crossings,

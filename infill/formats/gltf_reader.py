@@ -1,0 +1,549 @@
+"""Read glTF 2.0, as one binary file or as JSON with its numbers in other files: every mesh in each of its places."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import re
+import struct
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NoReturn
+from urllib.parse import unquote
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.broken import printable
+from infill.formats.draco import unpack_draco
+from infill.machine import require_memory
+from infill.surfaces.polygons import split_fan, split_strips
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Item = dict[str, Any]
+
+MAGIC, JSON_CHUNK, BINARY_CHUNK = b"glTF", 0x4E4F534A, 0x004E4942
+MILLIMETRE = 0.001  # of a metre
+KINDS = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+TRIANGLES, STRIP, FAN = 4, 5, 6
+MOST_MODES = 7
+DRACO, INSTANCES = "KHR_draco_mesh_compression", "EXT_mesh_gpu_instancing"
+MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+READ = {"KHR_mesh_quantization", DRACO, INSTANCES}
+# Extensions that say how a part looks, sounds or moves, or what it is, and not where its surface lies.
+LOOKS = re.compile(
+    r"KHR_(materials|texture|lights|xmp|animation|techniques|audio|environment)\w*"
+    r"|EXT_(texture|lights|materials|structural_metadata|feature_metadata|mesh_features|instance_features)\w*"
+    r"|MSFT_(texture|packing)\w*|(ADOBE|NV)_materials\w*|AGI_(articulations|stk_metadata)|CESIUM_primitive_outline"
+    r"|FB_geometry_metadata|VRM|VRMC_(vrm|materials_mtoon|springBone\w*)"
+)
+FLATTENED = 1e-9  # the shortest over the longest axis of a transform that leaves a solid no thickness
+PER_CORNER = 100  # bytes of memory that a vertex, or a triangle, takes while it is read
+
+
+def read_glb(path: Path) -> tuple[Floats, Integers]:
+    """Return vertices in mm and triangles of a binary file, with every mesh in each of its places in the scene.
+
+    Notes
+    -----
+    The default scene is read, or the first; skins and morph targets as they are at rest. Points and lines are left out.
+
+    Raises
+    ------
+    FormatError
+        If a required extension is not known, a mesh is packed in a way that is not known, or anything is broken.
+    """
+    document, binary = _chunks(path, path.read_bytes())
+    return _read(Gltf(path=path, document=document, binary=binary))
+
+
+def read_gltf(path: Path) -> tuple[Floats, Integers]:
+    """Return vertices in mm and triangles of a JSON file and the files that it names: see `read_glb`."""
+    return _read(Gltf(path=path, document=_document(path, path.read_bytes()), binary=None))
+
+
+def _chunks(path: Path, data: bytes) -> tuple[Item, bytes | None]:
+    """Return the description and the numbers of a binary file."""
+    if data[:4] != MAGIC or len(data) < 12:
+        raise FormatError(f"{path} is broken or not a .glb file (it does not begin with 'glTF'); export the mesh again")
+    version, length = struct.unpack_from("<II", data, 4)
+    if version != 2:
+        raise FormatError(f"{path} is glTF {version}; export it as glTF 2.0")
+    if length > len(data):
+        raise FormatError(f"{path} is cut off: it has {len(data)} bytes of {length}; export the mesh again")
+    document, binary, place = None, None, 12
+    while place + 8 <= length:
+        size, kind = struct.unpack_from("<II", data, place)
+        place += 8
+        if size > length - place:
+            raise FormatError(
+                f"{path} is cut off or broken: a chunk has {length - place} bytes of {size}; export it again"
+            )
+        if kind == JSON_CHUNK and document is None:
+            document = _document(path, data[place : place + size])
+        elif kind == BINARY_CHUNK and binary is None:
+            binary = data[place : place + size]
+        place += size
+    if document is None:
+        raise FormatError(f"{path} is broken: it has no description of its meshes; export the mesh again")
+    return document, binary
+
+
+def _document(path: Path, data: bytes) -> Item:
+    found = json.loads(data.decode("utf-8-sig").rstrip(" \0"))
+    if not isinstance(found, dict):
+        raise FormatError(f"{path} is broken or not a glTF file; export the mesh again")
+    version = found.get("asset", {}).get("version") if isinstance(found.get("asset"), dict) else None
+    if not isinstance(version, str) or not version.startswith("2."):
+        raise FormatError(f"{path} does not say that it is glTF 2; export it as glTF 2.0")
+    return found
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Gltf:
+    """A description and its numbers, whose items are checked as they are asked for.
+
+    Parameters
+    ----------
+    path : Path
+    document : dict
+    binary : bytes, optional
+        The numbers in the file itself.
+    """
+
+    path: Path
+    document: Item
+    binary: bytes | None
+    buffers: dict[int, bytes] = field(default_factory=dict)
+
+    def fail(self, complaint: str, advice: str = "export the mesh again") -> NoReturn:
+        """Raise FormatError."""
+        raise FormatError(f"{self.path}: {complaint}; {advice}")
+
+    def items(self, name: str) -> list[Any]:
+        """Return all items of a kind, such as "nodes"."""
+        found = self.document.get(name, [])
+        if not isinstance(found, list):
+            self.fail(f"its {name} are no list")
+        return found
+
+    def item(self, name: str, index: object) -> Item:
+        """Return an item by its number."""
+        every = self.items(name)
+        if type(index) is not int or not 0 <= index < len(every) or not isinstance(every[index], dict):
+            self.fail(f"it refers to number {_shown(index)} of its {name}, and has {len(every)}")
+        found: Item = every[index]
+        return found
+
+    def whole(self, holder: Item, key: str, default: int | None = None) -> int:
+        """Return a whole number that is not negative."""
+        found = holder.get(key, default)
+        if type(found) is not int or found < 0:
+            self.fail(f"{key} is {_shown(found)}, not a whole number")
+        return found
+
+    def numbers(self, holder: Item, key: str, count: int, default: list[float]) -> Floats:
+        """Return finite numbers."""
+        found = holder.get(key, default)
+        fine = isinstance(found, list) and len(found) == count and all(type(each) in (int, float) for each in found)
+        if not fine or not all(abs(each) < 1e300 for each in found):
+            self.fail(f"a node has a {key} that is not {count} numbers: {_shown(found)}")
+        return np.array(found, dtype=np.float64)
+
+    def part(self, holder: Item, key: str) -> Item:
+        """Return an object inside another, empty if it is not there."""
+        found = holder.get(key, {})
+        if not isinstance(found, dict):
+            self.fail(f"{key} is {_shown(found)}, not an object")
+        return found
+
+    def extension(self, holder: Item, name: str) -> Item | None:
+        """Return what an extension adds, or None."""
+        every = self.part(holder, "extensions")
+        return self.part(every, name) if name in every else None
+
+    # --- numbers -----------------------------------------------------------------------------------------
+
+    def buffer(self, index: object) -> bytes:
+        """Return all bytes of a buffer."""
+        described = self.item("buffers", index)
+        assert isinstance(index, int)
+        if index not in self.buffers:
+            size = self.whole(described, "byteLength")
+            data = self._bytes_of(index, described.get("uri"))
+            if len(data) < size:
+                self.fail(f"buffer {index} is cut off: it has {len(data)} bytes of {size}")
+            self.buffers[index] = data[:size]
+        return self.buffers[index]
+
+    def _bytes_of(self, index: int, uri: object) -> bytes:
+        if uri is None:
+            if index or self.binary is None:
+                self.fail(f"buffer {index} has no data")
+            return self.binary
+        if not isinstance(uri, str):
+            self.fail(f"buffer {index} has the address {_shown(uri)}")
+        if uri.startswith("data:"):
+            head, _, packed = uri.partition(",")
+            if not head.endswith(";base64"):
+                self.fail(f"buffer {index} is not in base64")
+            return base64.b64decode(packed, validate=True)
+        name = unquote(uri)
+        place = Path(name)
+        if re.match(r"[a-zA-Z][\w+.-]+:|[/\\]", name) or ".." in re.split(r"[/\\]", name) or place.is_absolute():
+            self.fail(f"its numbers lie in {_shown(uri)}, outside its folder", "export it as .glb")
+        other = self.path.parent / place
+        if not other.is_file():
+            self.fail(
+                f"its numbers lie in {_shown(name)} and that is not there", "keep both files together, or export a .glb"
+            )
+        return other.read_bytes()
+
+    def view(self, index: object) -> tuple[bytes, int]:
+        """Return the bytes of a part of a buffer, and how far apart its elements are, 0 if one follows the other."""
+        described = self.item("bufferViews", index)
+        for name in MESHOPT:
+            packed = self.extension(described, name)
+            if packed is not None and not self._has_fallback(described, name):
+                self.fail(f"it is packed by {name}, which is not known here", "export it without compression")
+        data = self.buffer(described.get("buffer"))
+        begin, size = self.whole(described, "byteOffset", 0), self.whole(described, "byteLength")
+        if begin + size > len(data):
+            self.fail(f"buffer view {index} ends {begin + size - len(data)} bytes beyond its buffer")
+        return data[begin : begin + size], self.whole(described, "byteStride", 0)
+
+    def _has_fallback(self, described: Item, name: str) -> bool:
+        """Return whether the same numbers are there unpacked too."""
+        buffer = self.item("buffers", described.get("buffer"))
+        return name not in self.items("extensionsRequired") and self.extension(buffer, name) is None
+
+    def accessor(self, index: object, shape: str) -> NDArray[Any]:
+        """Return numbers (count, n): as they are, or as fractions if they are normalised integers."""
+        described = self.item("accessors", index)
+        if described.get("type") != shape:
+            self.fail(f"accessor {index} is {_shown(described.get('type'))}, not {shape}")
+        kind = self._kind(described)
+        count, width = self.whole(described, "count"), WIDTHS[shape]
+        if "bufferView" in described:
+            data, stride = self.view(described["bufferView"])
+            found = self._elements(data, self.whole(described, "byteOffset", 0), stride, kind, count, width, index)
+        else:
+            require_memory(count * width * kind.itemsize, None, f"{self.path} may be broken; export the mesh again")
+            found = np.zeros((count, width), dtype=kind)
+        if "sparse" in described:
+            found = self._filled_in(found, self.part(described, "sparse"), index)
+        if described.get("normalized", False) and kind.kind in "iu":
+            return np.maximum(found / np.float64(np.iinfo(kind).max), -1.0)
+        return found
+
+    def _kind(self, described: Item) -> np.dtype[Any]:
+        kind = described.get("componentType")
+        if type(kind) is not int or kind not in KINDS:
+            self.fail(f"a component type is {_shown(kind)}, not one of {', '.join(map(str, KINDS))}")
+        return np.dtype(KINDS[kind])
+
+    def _elements(
+        self, data: bytes, begin: int, stride: int, kind: np.dtype[Any], count: int, width: int, index: object
+    ) -> NDArray[Any]:
+        """Return numbers (count, width) that lie a stride apart."""
+        size = width * kind.itemsize
+        stride = stride or size
+        if stride < size:
+            self.fail(f"accessor {index} has elements of {size} bytes, {stride} bytes apart")
+        if count and begin + (count - 1) * stride + size > len(data):
+            missing = begin + (count - 1) * stride + size - len(data)
+            self.fail(f"accessor {index} ends {missing} bytes beyond its buffer view")
+        if count == 0:
+            return np.empty((0, width), dtype=kind)
+        return np.ndarray((count, width), dtype=kind, buffer=data, offset=begin, strides=(stride, kind.itemsize)).copy()
+
+    def _filled_in(self, found: NDArray[Any], sparse: Item, index: object) -> NDArray[Any]:
+        """Return numbers with those in their places that a sparse accessor gives."""
+        count, where, what = self.whole(sparse, "count"), self.part(sparse, "indices"), self.part(sparse, "values")
+        data, stride = self.view(where.get("bufferView"))
+        places = self._elements(data, self.whole(where, "byteOffset", 0), stride, self._kind(where), count, 1, index)[
+            :, 0
+        ]
+        data, stride = self.view(what.get("bufferView"))
+        begin = self.whole(what, "byteOffset", 0)
+        values = self._elements(data, begin, stride, found.dtype, count, found.shape[1], index)
+        if places.dtype.kind != "u" or (count and int(places.max()) >= len(found)):
+            self.fail(f"accessor {index} replaces elements that it does not have")
+        found[places.astype(np.int64)] = values
+        return found
+
+
+def _shown(value: object) -> str:
+    text = printable(json.dumps(value, ensure_ascii=False, default=str))
+    return text if len(text) <= 60 else text[:60] + "…"
+
+
+# --- the scene -------------------------------------------------------------------------------------------
+
+
+def _read(gltf: Gltf) -> tuple[Floats, Integers]:
+    for name in gltf.items("extensionsRequired"):
+        if not isinstance(name, str) or not (name in READ or name in MESHOPT or LOOKS.fullmatch(name)):
+            gltf.fail(f"it requires the extension {_shown(name)}, which is not known here", "export it without that")
+    vertices, faces, count = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int64)], 0
+    for points, triangles in _placed(gltf):
+        vertices.append(points)
+        faces.append(triangles + count)
+        count += len(points)
+    return np.concatenate(vertices), np.concatenate(faces)
+
+
+def _placed(gltf: Gltf) -> Iterator[tuple[Floats, Integers]]:
+    """Yield the vertices, mm, and triangles of every mesh in each of its places."""
+    places = _places(gltf)
+    need = 0
+    for index, node in places.items():
+        if "mesh" not in node.item:
+            continue
+        matrices = _instances(gltf, node)
+        for points, triangles, bent in _primitives(gltf, node.item, places):
+            copies = [np.eye(4)] if bent is not None else matrices
+            need += len(copies) * PER_CORNER * (len(points) + len(triangles))
+            require_memory(need, None, f"{gltf.path} places its meshes too often; export the mesh again")
+            for matrix in copies:
+                if not np.isfinite(matrix).all():
+                    gltf.fail(f"node {index} is placed at infinity")
+                linear = matrix[:3, :3]
+                axes = np.linalg.svd(linear, compute_uv=False)
+                if axes[0] == 0:  # whoever scales by nothing hides it
+                    continue
+                if axes[2] <= FLATTENED * axes[0]:
+                    gltf.fail(
+                        f"node {index} has a transform that flattens its mesh", "give it a thickness, or leave it out"
+                    )
+                mirrored = np.linalg.det(linear) < 0 if bent is None else bent
+                # A scale of a thousandth becomes 1, exactly: what is written in mm is read to the last bit.
+                linear, shift = linear / MILLIMETRE, matrix[:3, 3] / MILLIMETRE
+                # A mirrored part would face inwards: its corners are taken in reverse order.
+                yield points @ linear.T + shift, triangles[:, ::-1] if mirrored else triangles
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Node:
+    """A node in its place.
+
+    Parameters
+    ----------
+    item : dict
+    matrix : (4, 4) float64
+        From its own coordinates to those of the scene.
+    """
+
+    item: Item
+    matrix: Floats
+
+
+def _places(gltf: Gltf) -> dict[int, Node]:
+    """Return the nodes of the scene by their number."""
+    nodes = gltf.items("nodes")
+    found: dict[int, Node] = {}
+    waiting = [(index, np.eye(4)) for index in reversed(_roots(gltf))]
+    while waiting:
+        index, parent = waiting.pop()
+        node = gltf.item("nodes", index)
+        if index in found:
+            gltf.fail(f"node {index} stands in the scene twice")
+        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is told where it matters
+            matrix = parent @ _local(gltf, node)
+        found[index] = Node(item=node, matrix=matrix)
+        children = node.get("children", [])
+        if not isinstance(children, list) or len(children) > len(nodes):
+            gltf.fail(f"node {index} has children that are no list of nodes")
+        waiting += [(child, matrix) for child in reversed(children)]
+    return found
+
+
+def _roots(gltf: Gltf) -> list[Any]:
+    """Return the numbers of the nodes at the top of the default scene, or of those that are in no other node."""
+    if gltf.items("scenes"):
+        found = gltf.item("scenes", gltf.document.get("scene", 0)).get("nodes", [])
+        if not isinstance(found, list):
+            gltf.fail("its scene is no list of nodes")
+        return found
+    nodes = [node for node in gltf.items("nodes") if isinstance(node, dict)]
+    lists = [node["children"] for node in nodes if isinstance(node.get("children"), list)]
+    held = {child for some in lists for child in some if type(child) is int}
+    return [index for index in range(len(gltf.items("nodes"))) if index not in held]
+
+
+def _local(gltf: Gltf, node: Item) -> Floats:
+    """Return the transform of a node, from its own coordinates to those of the node that it is in."""
+    if "matrix" in node:
+        matrix = gltf.numbers(node, "matrix", 16, []).reshape(4, 4).T  # column after column
+        if not np.array_equal(matrix[3], [0, 0, 0, 1]):
+            gltf.fail("a node has a matrix that is no affine transform: its last row is not 0 0 0 1")
+        return matrix
+    moved = gltf.numbers(node, "translation", 3, [0, 0, 0])
+    turned = gltf.numbers(node, "rotation", 4, [0, 0, 0, 1])
+    scaled = gltf.numbers(node, "scale", 3, [1, 1, 1])
+    return _transform(gltf, moved, turned, scaled)
+
+
+def _transform(gltf: Gltf, moved: Floats, turned: Floats, scaled: Floats) -> Floats:
+    length = math.sqrt(float(turned @ turned))
+    if not 0 < length < math.inf:
+        gltf.fail("a node has a rotation by nothing: 0 0 0 0")
+    x, y, z, w = turned / length
+    rotation = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation * scaled
+    matrix[:3, 3] = moved
+    return matrix
+
+
+def _instances(gltf: Gltf, node: Node) -> list[Floats]:
+    """Return the transforms of all copies of the mesh of a node."""
+    described = gltf.extension(node.item, INSTANCES)
+    if described is None:
+        return [node.matrix]
+    attributes = gltf.part(described, "attributes")
+    given = {
+        name: gltf.accessor(attributes[name], shape).astype(np.float64)
+        for name, shape in (("TRANSLATION", "VEC3"), ("ROTATION", "VEC4"), ("SCALE", "VEC3"))
+        if name in attributes
+    }
+    counts = {len(values) for values in given.values()}
+    if len(counts) != 1:
+        gltf.fail(f"its instances ({INSTANCES}) have no places, or not as many of each kind")
+    count = counts.pop()
+    moved = given.get("TRANSLATION", np.zeros((count, 3)))
+    turned = given.get("ROTATION", np.tile([0.0, 0, 0, 1], (count, 1)))
+    scaled = given.get("SCALE", np.ones((count, 3)))
+    return [node.matrix @ _transform(gltf, moved[i], turned[i], scaled[i]) for i in range(count)]
+
+
+# --- meshes ----------------------------------------------------------------------------------------------
+
+
+def _primitives(gltf: Gltf, node: Item, places: dict[int, Node]) -> Iterator[tuple[Floats, Integers, bool | None]]:
+    """Yield vertices and triangles of a mesh, and, if bones have put it into its place, whether they mirror it."""
+    mesh = gltf.item("meshes", node["mesh"])
+    primitives = mesh.get("primitives")
+    if not isinstance(primitives, list):
+        gltf.fail(f"mesh {node['mesh']} has no primitives")
+    bones = _bones(gltf, node["skin"], places) if "skin" in node else None
+    for primitive in primitives:
+        if not isinstance(primitive, dict):
+            gltf.fail(f"mesh {node['mesh']} has a primitive that is no object")
+        mode = gltf.whole(primitive, "mode", TRIANGLES)
+        if mode >= MOST_MODES:
+            gltf.fail(f"a primitive has the mode {mode}, which glTF does not have")
+        if mode < TRIANGLES:  # points and lines
+            continue
+        points, triangles = _corners(gltf, primitive, mode)
+        if len(triangles) and (triangles.min() < 0 or triangles.max() >= len(points)):
+            gltf.fail(f"mesh {node['mesh']} has triangles with corners that do not exist, of {len(points)}")
+        points = _morphed(gltf, primitive, points, node.get("weights", mesh.get("weights", [])))
+        if bones is None:
+            yield points, triangles, None
+        else:
+            yield (*_bent(gltf, primitive, points, triangles, bones),)
+
+
+def _corners(gltf: Gltf, primitive: Item, mode: int) -> tuple[Floats, Integers]:
+    """Return the vertices and triangles of a primitive."""
+    attributes = gltf.part(primitive, "attributes")
+    packed = gltf.extension(primitive, DRACO)
+    if packed is not None:
+        unpacked = unpack_draco(gltf.view(packed.get("bufferView"))[0])
+        if unpacked is not None:
+            return unpacked
+        described = gltf.item("accessors", attributes.get("POSITION"))
+        if DRACO in gltf.items("extensionsRequired") or "bufferView" not in described:
+            gltf.fail(
+                f"it is packed by {DRACO}", "install DracoPy (pip install DracoPy), or export it without compression"
+            )
+    if "POSITION" not in attributes:
+        gltf.fail("a primitive has no positions")
+    points = gltf.accessor(attributes["POSITION"], "VEC3").astype(np.float64)
+    if "indices" in primitive:
+        found = gltf.accessor(primitive["indices"], "SCALAR")[:, 0]
+        if found.dtype.kind != "u":
+            gltf.fail("the corners of a primitive are not whole numbers")
+        corners = found.astype(np.int64)
+    else:
+        corners = np.arange(len(points))
+    if mode == STRIP:
+        return points, split_strips(corners, np.array([len(corners)]))
+    if mode == FAN:
+        return points, split_fan(corners)
+    if len(corners) % 3:
+        gltf.fail(f"a primitive has {len(corners)} corners, not three for each triangle")
+    return points, corners.reshape(-1, 3)
+
+
+def _morphed(gltf: Gltf, primitive: Item, points: Floats, weights: object) -> Floats:
+    """Return vertices moved by the morph targets, as much as these weigh at rest."""
+    targets = primitive.get("targets", [])
+    if not isinstance(targets, list) or not isinstance(weights, list):
+        gltf.fail("its morph targets or their weights are no list")
+    for target, weight in zip(targets, weights, strict=False):
+        if type(weight) not in (int, float) or not isinstance(target, dict):
+            gltf.fail(f"a morph target has the weight {_shown(weight)}")
+        if weight and "POSITION" in target:
+            moved = gltf.accessor(target["POSITION"], "VEC3").astype(np.float64)
+            if len(moved) != len(points):
+                gltf.fail(f"a morph target moves {len(moved)} vertices of {len(points)}")
+            points = points + weight * moved
+    return points
+
+
+def _bones(gltf: Gltf, index: object, places: dict[int, Node]) -> Floats:
+    """Return the transforms of the joints of a skin at rest, (J, 4, 4)."""
+    skin = gltf.item("skins", index)
+    joints = skin.get("joints")
+    if not isinstance(joints, list) or not all(type(each) is int and each in places for each in joints) or not joints:
+        gltf.fail(f"skin {index} has joints that are not in the scene")
+    found = np.stack([places[each].matrix for each in joints])
+    if "inverseBindMatrices" in skin:
+        inverse = gltf.accessor(skin["inverseBindMatrices"], "MAT4").astype(np.float64)
+        if len(inverse) < len(joints):
+            gltf.fail(f"skin {index} has {len(inverse)} matrices for {len(joints)} joints")
+        found = found @ inverse[: len(joints)].reshape(-1, 4, 4).transpose(0, 2, 1)
+    return np.asarray(found)
+
+
+def _bent(
+    gltf: Gltf, primitive: Item, points: Floats, triangles: Integers, bones: Floats
+) -> tuple[Floats, Integers, bool]:
+    """Return vertices where the joints put them, and whether those mirror them."""
+    attributes = gltf.part(primitive, "attributes")
+    if "JOINTS_0" not in attributes or "WEIGHTS_0" not in attributes:
+        gltf.fail("a mesh with a skin does not say by which joints its vertices are moved")
+    blended, total = np.zeros((len(points), 4, 4)), np.zeros(len(points))
+    for name in sorted(attributes):
+        if not name.startswith("JOINTS_"):
+            continue
+        joints = gltf.accessor(attributes[name], "VEC4")
+        weights = gltf.accessor(attributes.get(f"WEIGHTS_{name[7:]}"), "VEC4").astype(np.float64)
+        if (
+            joints.dtype.kind != "u"
+            or not len(joints) == len(points) == len(weights)
+            or int(joints.max(initial=0)) >= len(bones)
+        ):
+            gltf.fail("a mesh with a skin names joints that do not exist")
+        for joint, weight in zip(joints.T.astype(np.int64), weights.T, strict=True):
+            blended += weight[:, None, None] * bones[joint]
+            total += weight
+    if not (np.isfinite(total) & (total > 0)).all():
+        gltf.fail("a mesh with a skin has vertices that no joint moves")
+    blended /= total[:, None, None]
+    moved = np.einsum("nij,nj->ni", blended[:, :3, :3], points) + blended[:, :3, 3]
+    mirrored = bool((np.linalg.det(blended[:, :3, :3]) < 0).mean() > 0.5) if len(points) else False
+    return moved, triangles, mirrored

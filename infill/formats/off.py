@@ -1,0 +1,114 @@
+"""OFF of Geomview: text, without a unit."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.ply import require_corners
+from infill.formats.text_lines import Lines, number_complaint, plain_text, without_comments
+from infill.surfaces.polygons import split_polygons
+
+# Texture coordinates, colours, normals, a fourth coordinate, and any number of coordinates, which come next.
+KEYWORD = re.compile(rb"\s*((?:ST)?C?N?4?n?OFF)(?![A-Za-z])", re.IGNORECASE)
+
+
+def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return vertices and triangles; polygons are split, and normals, colours and texture coordinates left out.
+
+    Raises
+    ------
+    FormatError
+        If it is binary, or the numbers that it announces are not there.
+    """
+    original = path.read_bytes()
+    if re.match(rb"\s*\w*OFF[ \t]+BINARY", original, re.IGNORECASE):
+        raise FormatError(f"{path} is a binary OFF file; export it as text, or as .ply")
+    original = plain_text(path)
+    text = without_comments(original)
+    keyword = KEYWORD.match(text)
+    if keyword and (b"4" in keyword[1] or keyword[1].endswith(b"nOFF")):
+        raise FormatError(f"{path} has vertices in more than three dimensions; export it in three")
+    if keyword:  # the counts may stand on its line, and even without a blank between
+        text = b" " * keyword.end() + text[keyword.end() :]
+    lines = Lines(path=path, original=original, text=text)
+    announced = 2 if len(lines) and lines.words[0] == 2 else 3  # some programs leave out how many edges there are
+    numbers = [_count(lines, number) for number in range(min(announced, len(lines.begins)))]
+    if len(numbers) < 2:
+        raise FormatError(f"{path} does not say how many vertices and faces it has; export the mesh again")
+    vertices, faces = numbers[:2]
+    head = int(np.searchsorted(np.cumsum(lines.words), len(numbers)))  # of the lines with a word
+    if lines.words[0] > 3 or len(lines) < head + 1 + vertices + faces:
+        return _read_words(lines, numbers)
+    rows = np.arange(head + 1, head + 1 + vertices + faces)
+    return _read_lines(lines, rows[:vertices], rows[vertices:])
+
+
+def _count(lines: Lines, number: int) -> int:
+    word = lines.word(number)
+    if not word.isdigit() or len(word) > 12:
+        raise lines.error(number, number_complaint(word, whole=True) or f"{word.decode()!r} is no count of anything")
+    return int(word)
+
+
+def _read_lines(
+    lines: Lines, vertex_rows: NDArray[np.int64], face_rows: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Read a vertex or a face from each line; what stands behind its numbers is left out."""
+    width = lines.words[vertex_rows]
+    short = np.flatnonzero(width < 3)
+    if len(short):
+        found = int(width[short[0]])
+        raise lines.error(int(lines.first[vertex_rows[short[0]]]), f"a vertex of {found} number(s), not three or more")
+    values = lines.numbers(vertex_rows, 0, np.float64).astype(np.float64, copy=False)
+    begins = np.cumsum(width) - width
+    vertices = values[begins[:, None] + np.arange(3)]
+    width = lines.words[face_rows]
+    found_faces = lines.numbers(face_rows, 0, np.float64)  # colours may be fractions
+    begins = np.cumsum(width) - width
+    counts = _whole(lines, face_rows, found_faces[begins])
+    short = np.flatnonzero((counts < 0) | (counts > width - 1))
+    if len(short):
+        said, there = int(counts[short[0]]), int(width[short[0]]) - 1
+        raise lines.error(int(lines.first[face_rows[short[0]]]), f"a face of {said} corners with {there} number(s)")
+    place = np.repeat(begins + 1 - (np.cumsum(counts) - counts), counts)
+    corners = _whole(lines, np.repeat(face_rows, counts), found_faces[place + np.arange(len(place))])
+    require_corners(lines.path, corners, len(vertices))
+    return vertices, split_polygons(vertices, corners, counts)
+
+
+def _whole(lines: Lines, rows: NDArray[np.int64], values: NDArray[np.generic]) -> NDArray[np.int64]:
+    numbers = values.astype(np.float64)
+    wrong = np.flatnonzero(~((np.abs(numbers) < 2**53) & (numbers == np.floor(numbers))))
+    if len(wrong):
+        raise lines.error(int(lines.first[rows[wrong[0]]]), f"{numbers[wrong[0]]:g} is not a whole number")
+    return numbers.astype(np.int64)
+
+
+def _read_words(lines: Lines, head: list[int]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Read a file that is not in lines: three numbers a vertex, and nothing behind the corners of a face."""
+    vertices, faces = head[:2]
+    values = lines.numbers(np.arange(len(lines)), 0, np.float64).astype(np.float64, copy=False)[len(head) :]
+    if len(values) < 3 * vertices + faces:
+        raise FormatError(
+            f"{lines.path} is cut off: it announces {vertices} vertices and {faces} faces and holds fewer; "
+            "export the mesh again"
+        )
+    points, left = values[: 3 * vertices].reshape(-1, 3), values[3 * vertices :]
+    place, counts, corners = 0, [], []
+    for _ in range(faces):
+        count = left[place] if place < len(left) else -1
+        if not 0 <= count <= len(left) - place - 1 or count != int(count):
+            raise FormatError(f"{lines.path} has faces that are cut off or not in lines; export the mesh again")
+        counts.append(int(count))
+        corners.append(left[place + 1 : place + 1 + int(count)])
+        place += 1 + int(count)
+    flat = np.concatenate(corners) if corners else np.empty(0)
+    if place != len(left) or not (flat == np.floor(flat)).all():
+        raise FormatError(f"{lines.path} has faces that are not in lines; export the mesh again, a face in each line")
+    require_corners(lines.path, flat.astype(np.int64), vertices)
+    return points, split_polygons(points, flat.astype(np.int64), np.array(counts, dtype=np.int64))

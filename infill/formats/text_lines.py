@@ -1,0 +1,227 @@
+"""Text of a file in any of its dialects: encodings, line ends, comments, and the numbers on its lines."""
+
+from __future__ import annotations
+
+import codecs
+import re
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.formats.broken import quoted
+
+Integers = NDArray[np.int64]
+TAB, NEWLINE, RETURN, BLANK = 9, 10, 13, 32
+COMMENT = re.compile(rb"#[^\n]*")
+CONTINUED = re.compile(rb"\\[ \t]*\n")
+HEAD = 4  # bytes that tell an encoding
+
+
+def plain_text(path: Path) -> bytes:
+    """Read a text file; return it in an encoding that holds ASCII as such, with a line feed after each line.
+
+    Raises
+    ------
+    FormatError
+        If it is binary.
+    """
+    data = path.read_bytes()
+    wide = wide_encoding(data)
+    if wide:
+        data = data.decode(wide, errors="replace").encode()
+    data = data.removeprefix(codecs.BOM_UTF8)
+    if b"\0" in data:
+        raise FormatError(f"{path} holds bytes that no text has; export the mesh again as text")
+    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n") + b"\n\n\n"
+
+
+def wide_encoding(data: bytes) -> str:
+    """Return the encoding of a text of two bytes a character, by its mark or by its zeros; empty if it is not one."""
+    head = data[:HEAD]
+    if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "utf-16"
+    if len(head) == HEAD and head[1] == head[3] == 0 < min(head[0], head[2]):
+        return "utf-16-le"
+    if len(head) == HEAD and head[0] == head[2] == 0 < min(head[1], head[3]):
+        return "utf-16-be"
+    return ""
+
+
+def without_comments(text: bytes) -> bytes:
+    """Replace comments, from a # to the end of its line, by as many blanks: what follows stays in its place."""
+    return COMMENT.sub(_as_blanks, text) if b"#" in text else text
+
+
+def without_breaks(text: bytes) -> bytes:
+    """Replace a backslash at the end of a line, and the line feed after it, by as many blanks."""
+    return CONTINUED.sub(_as_blanks, text) if b"\\" in text else text
+
+
+def _as_blanks(found: re.Match[bytes]) -> bytes:
+    return b" " * len(found[0])
+
+
+def are_blank(values: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """Return which bytes separate words: a blank, a tab, and the ends of lines and pages."""
+    found: NDArray[np.bool_] = (values - np.uint8(TAB) <= np.uint8(RETURN - TAB)) | (values == BLANK)
+    return found
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Lines:
+    """The lines of a text that hold a word.
+
+    Parameters
+    ----------
+    path : Path
+        For messages.
+    original, text : bytes
+        As it is in the file, with all of its line ends, and as it is read; of equal length.
+    """
+
+    path: Path
+    original: bytes
+    text: bytes
+
+    @cached_property
+    def bytes_of(self) -> NDArray[np.uint8]:
+        """The text as numbers."""
+        return np.frombuffer(self.text, dtype=np.uint8)
+
+    @cached_property
+    def begins(self) -> Integers:
+        """Where each word begins, (W,)."""
+        blank = are_blank(self.bytes_of)
+        begins = ~blank
+        begins[1:] &= blank[:-1]
+        return np.flatnonzero(begins)
+
+    @cached_property
+    def _rows(self) -> tuple[Integers, Integers, Integers, Integers]:
+        """First word, number of words, first byte and end of each line that holds a word."""
+        ends = np.flatnonzero(self.bytes_of == NEWLINE) + 1
+        starts = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
+        first = np.searchsorted(self.begins, starts)
+        words = np.diff(first, append=len(self.begins))
+        kept = words > 0
+        return first[kept], words[kept], starts[kept], ends[kept]
+
+    @property
+    def first(self) -> Integers:
+        """First word of each line, (L,)."""
+        return self._rows[0]
+
+    @property
+    def words(self) -> Integers:
+        """How many words each line has, (L,)."""
+        return self._rows[1]
+
+    def __len__(self) -> int:
+        """Return how many lines hold a word."""
+        return len(self.words)
+
+    def keys(self, place: int) -> NDArray[np.uint8]:
+        """Return a byte of the first word of each line, in lower case; see `are_blank`."""
+        found = self.bytes_of[np.minimum(self.begins[self.first] + place, len(self.bytes_of) - 1)]
+        return np.where((found >= ord("A")) & (found <= ord("Z")), found + 32, found).astype(np.uint8)
+
+    def word(self, number: int) -> bytes:
+        """Return a word."""
+        begin = int(self.begins[number])
+        return self.text[begin : begin + 80].split(None, 1)[0]
+
+    def line(self, number: int) -> int:
+        """Return the number of the line in which a word stands, as an editor counts."""
+        return self.original.count(b"\n", 0, int(self.begins[number])) + 1
+
+    def numbers(
+        self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool = False
+    ) -> NDArray[np.generic]:
+        """Return the numbers on some lines, one line after another, less the first words of each line.
+
+        Parameters
+        ----------
+        rows : (R,) int64
+            Rising.
+        skip : int
+            How many words of each line are no numbers: none, or one of at most two letters.
+        dtype : type
+            float64 or int64.
+        slashes : bool
+            Whether a slash ends a number: the rest of its word is left out.
+
+        Raises
+        ------
+        FormatError
+            If one of the words is not a number; the first one is named with its line.
+        """
+        words = int((self.words[rows] - skip).sum())
+        if words == 0:
+            return np.empty(0, dtype=dtype)
+        text = self._text_of(rows, skip)
+        if slashes and b"/" in text:
+            text = re.sub(rb"/\S*", b"", text)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", DeprecationWarning)
+            try:
+                found: NDArray[np.generic] = np.fromstring(text, dtype=dtype, sep=" ")
+            except (DeprecationWarning, ValueError):
+                found = np.empty(0, dtype=dtype)
+        if len(found) != words:
+            raise self._wrong_number(rows, skip, dtype, slashes=slashes)
+        return found
+
+    def _text_of(self, rows: Integers, skip: int) -> bytes:
+        """Return the text of some lines, less their first words."""
+        text = self._less_keywords if skip else self.text
+        _, _, starts, ends = self._rows
+        breaks = np.flatnonzero(np.diff(rows) > 1)  # lines one after another are taken at once
+        low, high = rows[np.concatenate([[0], breaks + 1])], rows[np.append(breaks, len(rows) - 1)]
+        return b"".join([text[a:b] for a, b in zip(starts[low].tolist(), ends[high].tolist(), strict=True)])
+
+    @cached_property
+    def _less_keywords(self) -> bytes:
+        """The text with blanks for the first word of each line, if that has one letter or two."""
+        text = self.bytes_of.copy()
+        begins = self.begins[self.first]
+        text[begins] = BLANK
+        after = begins[are_blank(text[begins + 2])] + 1
+        text[after[text[after] != NEWLINE]] = BLANK
+        return text.tobytes()
+
+    def _wrong_number(self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool) -> FormatError:
+        """Return the error about the first word that is not a number."""
+        whole = issubclass(dtype, np.integer)
+        for first, words in zip(self.first[rows].tolist(), self.words[rows].tolist(), strict=True):
+            for number in range(first + skip, first + words):
+                word = self.word(number)
+                if complaint := number_complaint(word.partition(b"/")[0] or word if slashes else word, whole=whole):
+                    return self.error(number, complaint)
+        return self.error(int(self.first[rows[0]]), "a number that cannot be read")
+
+    def error(self, number: int, complaint: str, advice: str = "export the mesh again") -> FormatError:
+        """Return the error that says what is wrong with a word, and in which line."""
+        return FormatError(f"{self.path}, line {self.line(number)}: {complaint}; {advice}")
+
+
+def number_complaint(word: bytes, *, whole: bool = False) -> str:
+    """Return what is wrong with a word that should be a number; empty if nothing is.
+
+    >>> number_complaint(b"1e-3"), number_complaint(b"1,5")
+    ('', "'1,5' has a decimal comma, and numbers in such a file have a decimal point")
+    """
+    try:
+        _ = int(word) if whole else float(word)
+    except ValueError:
+        pass
+    else:
+        if b"_" not in word:
+            return ""
+    if not whole and re.fullmatch(rb"[-+]?\d+,\d*(e[-+]?\d+)?", word, re.IGNORECASE):
+        return f"{quoted(word)} has a decimal comma, and numbers in such a file have a decimal point"
+    return f"{quoted(word)} is not a {'whole ' if whole else ''}number"
