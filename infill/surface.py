@@ -67,11 +67,14 @@ class Surface:
     faces : (F, 3) int, counter-clockwise seen from outside
     space : str
         Name of the coordinate system, if it has one: "LPS" for medical images.
+    notes : tuple of str
+        Of the reader of its file: what it left out or changed, one phrase each.
     """
 
     vertices: NDArray[np.floating]
     faces: NDArray[np.integer]
     space: str = ""
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def closed(self) -> bool:

@@ -84,8 +84,8 @@ def vti_file(folder: Path) -> Path:
 # A file, what reads it, and a helper of ours that it calls on the way.
 READERS: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object], str]] = {
     "stl": (mesh(".stl", ascii=True), read_mesh, "infill.formats.stl._text_corners"),
-    "3mf": (mesh(".3mf"), read_mesh, "infill.formats.threemf._start_part"),
-    "3mf, placed": (mesh(".3mf"), read_mesh, "infill.formats.threemf._transform"),
+    "3mf": (mesh(".3mf"), read_mesh, "infill.formats.threemf_reading.start_part"),
+    "3mf, placed": (mesh(".3mf"), read_mesh, "infill.formats.threemf_reading._transform"),
     "points": (text, read_points, "infill.formats.point_files._parted_by"),
     "ply points": (mesh(".ply"), read_points, "infill.formats.point_files._ply_rows"),
     "npz": (field(".npz"), read_volume, "infill.formats.arrays._axes"),

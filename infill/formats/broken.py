@@ -100,7 +100,18 @@ def one_line(error: Exception) -> str:
     words = " ".join(str(error).split())
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
-    return words if len(words) <= 200 else words[:200] + "…"
+    return printable(words, 200)
+
+
+def printable(text: str, most: int = 60) -> str:
+    r"""Return a text from a file as a message can show it: on one line, without control characters, and not long.
+
+    >>> printable("a\x1b[2J\nb\u202e")
+    'a\\x1b[2J b\\u202e'
+    """
+    words = " ".join(text[: most + 200].split())
+    shown = "".join(each if each.isprintable() else ascii(each)[1:-1] for each in words)
+    return shown if len(shown) <= most else shown[:most] + "…"
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401
