@@ -317,7 +317,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
         if not surfaces:
             if notes:
                 raise FormatError(
-                    f"{path} holds no part: {'; '.join(notes[:3])}; make it a part in the slicer, or export an STL of it"
+                    f"{path} holds no part: {'; '.join(notes[:3])}; make it a part in the slicer, or export an STL"
                 )
             return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), ()
         starts = np.cumsum([0, *(len(each.vertices) for each in surfaces[:-1])])
