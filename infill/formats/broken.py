@@ -18,6 +18,7 @@ from xml.etree import ElementTree
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterError
+from infill.formats.printable import printable
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"
@@ -101,17 +102,6 @@ def one_line(error: Exception) -> str:
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return printable(words, 200)
-
-
-def printable(text: str, most: int = 60) -> str:
-    r"""Return a text from a file as a message can show it: on one line, without control characters, and not long.
-
-    >>> printable("a\x1b[2J\nb\u202e")
-    'a\\x1b[2J b\\u202e'
-    """
-    words = " ".join(text[: most + 200].split())
-    shown = "".join(each if each.isprintable() else ascii(each)[1:-1] for each in words)
-    return shown if len(shown) <= most else shown[:most] + "…"
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401

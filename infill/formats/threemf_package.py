@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError
-from infill.formats.broken import printable, told_broken
+from infill.formats.broken import told_broken
+from infill.formats.printable import printable
 from infill.machine import require_memory
 
 AGAIN = "export the mesh again"
@@ -214,8 +215,8 @@ def _parsed(pieces: Iterable[bytes], path: Path) -> Model:
 
 
 def _check_encoding(text: bytes) -> None:
-    """Raise ValueError for a document in an encoding other than those of texts."""
-    found = DECLARED_ENCODING.search(text[:400])
+    """Raise ValueError for a document that declares, in any encoding, one other than those of texts."""
+    found = DECLARED_ENCODING.search(text[: max(0, text.find(b">"))].replace(b"\0", b""))
     if found is None:
         return
     name = found[1].decode("ascii", "replace")

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import printable, told_broken
+from infill.formats.broken import told_broken
+from infill.formats.printable import printable
 from infill.formats.threemf_extensions import check_required, is_harmless, name_of
 from infill.formats.threemf_package import (
     AGAIN,
@@ -190,9 +191,7 @@ class _Reading:
         assert mesh is not None
         if mesh.fault:
             raise FormatError(f"{self.path} has {mesh.fault}; {AGAIN}")
-        self.rows += len(mesh.faces) + len(mesh.vertices)
-        if self.rows > MOST_PLACED_ROWS:
-            raise FormatError(f"{self.path} places more than {MOST_PLACED_ROWS:,} triangles and vertices; {AGAIN}")
+        self._count(len(mesh.faces) + len(mesh.vertices))
         role, said = self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
         if said and printable(said):
             name = f"object {printable(number)} {printable(said)!r}"
@@ -218,15 +217,23 @@ class _Reading:
                     f"{name}, which has {len(faces):,} from 0 on; {AGAIN}"
                 )
             covered[slice(*span)] = True
+            self._count(span[1] - span[0])
             called = f"volume {printable(volume.name)!r}" if printable(volume.name) else "a volume"
             called = f"{called} of {name}"
             if volume.role in (PART, NEGATIVE):
-                surface = Surface(vertices=vertices, faces=faces[slice(*span)])
+                used, corners = np.unique(faces[slice(*span)], return_inverse=True)
+                surface = Surface(vertices=vertices[used], faces=corners.reshape(-1, 3))
                 yield Placed(surface=surface, role=volume.role, name=called, scope=scope)
             else:
                 self.note(f"{called} is a {volume.role}, no part: it is left out")
         if not covered.all():
             self.note(f"{int((~covered).sum()):,} triangle(s) of {name} are in none of its volumes: they are left out")
+
+    def _count(self, rows: int) -> None:
+        """Count triangles and vertices that are placed, or raise FormatError."""
+        self.rows += rows
+        if self.rows > MOST_PLACED_ROWS:
+            raise FormatError(f"{self.path} places more than {MOST_PLACED_ROWS:,} triangles and vertices; {AGAIN}")
 
     def _note_extensions(self, model: Model, each: ElementTree.Element, name: str) -> None:
         """Note what describes the shape of an object in a way that is not read."""
@@ -240,16 +247,19 @@ class _Reading:
 
     def without_negatives(self, volumes: Sequence[Placed]) -> Iterator[Surface]:
         """Yield the parts of what is built, without the negative volumes that come after them."""
-        boxes = [each.surface.vertices[np.unique(each.surface.faces)] for each in volumes]
-        low, high = [each.min(axis=0) for each in boxes], [each.max(axis=0) for each in boxes]
+        negatives = [number for number, each in enumerate(volumes) if each.role == NEGATIVE]
+        if not negatives:
+            yield from (each.surface for each in volumes)
+            return
+        low, high = zip(*(each.surface.bounds for each in volumes), strict=True)
         used = set()
         for number, part in enumerate(volumes):
             if part.role != PART:
                 continue
             cutters = [
                 other
-                for other in range(number + 1, len(volumes))
-                if volumes[other].role == NEGATIVE
+                for other in negatives
+                if other > number
                 and volumes[other].scope in (0, part.scope)
                 and (low[other] < high[number]).all()
                 and (low[number] < high[other]).all()

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError
-from infill.formats.broken import printable
 from infill.formats.modules import names_code
+from infill.formats.printable import printable
 
 FILES = ("pattern", "by", "labels")  # options whose value may be the name of a file
 ELSEWHERE = re.compile(r"[\\/]{2}|[A-Za-z]:|~")  # another machine, another drive, another home

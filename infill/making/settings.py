@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 from infill.errors import ParameterError, UsageError
 from infill.formats.assignments import SET, gathered, table_of
+from infill.formats.printable import shown
 from infill.formats.toml import read_toml, toml_rows
 from patterns import PATTERNS, Pattern, parameter_values
 
@@ -160,7 +161,7 @@ def parse_size(size: object) -> tuple[float, float]:
     except (TypeError, ValueError):
         lengths = []
     if len(lengths) not in (1, 2):
-        raise UsageError(f"size is {size!r}; give millimetres as 60x40, or 60 for a square")
+        raise UsageError(f"size is {shown(size)}; give millimetres as 60x40, or 60 for a square")
     return lengths[0], lengths[-1]
 
 
@@ -173,7 +174,7 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     else:
         wanted, fits = "a number", _is_number(value)
     if not fits:
-        raise UsageError(f"{name} is {value!r}; it must be {wanted}")
+        raise UsageError(f"{name} is {shown(value)}; it must be {wanted}")
     return value
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from infill.formats.broken import printable
+from infill.formats.printable import printable
 from infill.surface import Edges, Surface
 
 LONGEST = 1000  # signs of a sentence or a value

@@ -8,7 +8,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from infill.errors import FormatError
-from infill.formats.broken import printable, readable, told_broken
+from infill.formats.broken import readable, told_broken
+from infill.formats.printable import printable
 from infill.formats.threemf_extensions import Extension, is_harmless, name_of, required
 from infill.formats.threemf_package import (
     Model,
