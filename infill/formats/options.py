@@ -11,6 +11,7 @@ from infill.errors import ParameterError, UsageError
 from infill.formats.printable import shown
 from patterns.given import nearest
 
+LONGEST_WORD = 1000  # signs of a name, also of a file
 LARGEST_WHOLE = 2**53  # as floating-point numbers count without gaps
 Reader = Callable[[str, object], Any]
 
@@ -19,6 +20,8 @@ def parse_word(name: str, value: object) -> str:
     """Return a word, or raise UsageError."""
     if not isinstance(value, str) or not value.strip():
         raise UsageError(f"{name} is {shown(value)}; it must be a word")
+    if len(value) > LONGEST_WORD:
+        raise ParameterError(f"{name} is {shown(value)}, of {len(value):,} signs; give a name")
     return value
 
 

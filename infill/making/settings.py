@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 from infill.errors import ParameterError, UsageError
 from infill.formats.assignments import SET, gathered, table_of
+from infill.formats.options import LONGEST_WORD
 from infill.formats.printable import shown
 from infill.formats.toml import read_toml, toml_rows
 from patterns import PATTERNS, Pattern, parameter_values
@@ -170,7 +171,7 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     if name == "size":
         return parse_size(value)
     if isinstance(default, str) or name in ("pattern", "surface"):
-        wanted, fits = "a word", isinstance(value, str)
+        wanted, fits = "a word", isinstance(value, str) and len(value) <= LONGEST_WORD
     else:
         wanted, fits = "a number", _is_number(value)
     if not fits:
