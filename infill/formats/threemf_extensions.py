@@ -54,7 +54,7 @@ class Extension:
     def __str__(self) -> str:
         """Return how a message names it."""
         words = name_of(self.namespace) if self.namespace else "which it does not declare"
-        return f"{printable(self.prefix)!r} ({words})"
+        return f"'{printable(self.prefix)}' ({words})"
 
 
 def is_harmless(namespace: str) -> bool:

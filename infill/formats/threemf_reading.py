@@ -167,10 +167,13 @@ class _Reading:
         if self.placements > MOST_PLACED:
             raise FormatError(f"{self.path} places its objects more than {MOST_PLACED:,} times; {AGAIN}")
         model, chain = self.model(part), (*above, key)
+        own, unit = model.root.get("unit"), self.model(self.main).root.get("unit", "millimeter")
+        if own is not None and own != unit:  # programs differ in which of them counts
+            self.note(f"{printable(part)} is in {printable(own)}, and read in {unit}, as what is built says")
         if (said := each.get("name")) and printable(said):
-            name = f"{name} {printable(said)!r}"
+            name = f"{name} '{printable(said)}'"
         if not is_part_type(each.get("type")):
-            self.note(f"{name} is of type {printable(each.get('type', ''))!r}, no part: it is left out")
+            self.note(f"{name} is of type '{printable(each.get('type', ''))}', no part: it is left out")
             return
         if (role := cura_role(settings_of(each, model.core, model.spaces))) != PART:
             self.note(f"{name} is a {role}, no part: it is left out")
@@ -194,7 +197,7 @@ class _Reading:
         self._count(len(mesh.faces) + len(mesh.vertices))
         role, said = self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
         if said and printable(said):
-            name = f"object {printable(number)} {printable(said)!r}"
+            name = f"object {printable(number)} '{printable(said)}'"
         if role not in (PART, NEGATIVE):
             self.note(f"{name} is a {role}, no part: it is left out")
             return
@@ -218,7 +221,7 @@ class _Reading:
                 )
             covered[slice(*span)] = True
             self._count(span[1] - span[0])
-            called = f"volume {printable(volume.name)!r}" if printable(volume.name) else "a volume"
+            called = f"volume '{printable(volume.name)}'" if printable(volume.name) else "a volume"
             called = f"{called} of {name}"
             if volume.role in (PART, NEGATIVE):
                 used, corners = np.unique(faces[slice(*span)], return_inverse=True)
@@ -311,7 +314,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
             raise FormatError(f"{path} has nothing to build in it; {AGAIN}")
         unit = main.root.get("unit", "millimeter").strip().lower()
         if unit not in UNITS:
-            raise FormatError(f"{path} is in {printable(unit)!r}, and 3MF knows {', '.join(UNITS)}; {AGAIN}")
+            raise FormatError(f"{path} is in '{printable(unit)}', and 3MF knows {', '.join(UNITS)}; {AGAIN}")
         surfaces: list[Surface] = []
         with told_broken(path, "holds a number that is not one", AGAIN):
             for item in main.items:

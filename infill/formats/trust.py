@@ -44,12 +44,12 @@ def check_trusted(options: Mapping[str, Any], source: Path, *, trust: bool = Fal
         word = name.replace("_", "-")
         if code and names_code(text):
             raise FormatError(
-                f"{source} asks to run code: {word} = {printable(text)!r}; look at that code, then give --trust, or "
+                f"{source} asks to run code: {word} = '{printable(text)}'; look at that code, then give --trust, or "
                 f"type --{word} yourself"
             )
         if name in FILES and _leads_elsewhere(text, source):
             raise FormatError(
-                f"{source} asks to read a file from elsewhere: {word} = {printable(text)!r}; give --trust, or type "
+                f"{source} asks to read a file from elsewhere: {word} = '{printable(text)}'; give --trust, or type "
                 f"--{word} yourself"
             )
 
