@@ -85,6 +85,11 @@ class Surface:
         return bool((back == ahead + 1).all() and not (ahead & 1).any() and (ahead[1:] != ahead[:-1]).all())
 
     @cached_property
+    def edges(self) -> Edges | None:
+        """Its edges; None if it has no faces."""
+        return Edges.of(self.faces) if len(self.faces) else None
+
+    @cached_property
     def _volume_and_area(self) -> tuple[float, float]:
         # Relative to the mean vertex, so that no digits are lost far from the origin.
         vertices = self.vertices - self.vertices.mean(axis=0, dtype=np.float64)

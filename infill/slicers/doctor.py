@@ -125,12 +125,13 @@ def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
                 f"it requires the extension {extension}, which slicers do not know: they leave out what it describes"
             )
     for item in package.items:
-        if item.key not in package.bodies:
-            yield as_problem(f"it builds an object {item.key} that it does not hold")
-            continue
         if not item.prints:
             yield as_warning(f"object {item.key} is not to be printed")
-        yield from _of_tree(package, item.key, slicer)
+    for key in dict.fromkeys(item.key for item in package.items):
+        if key in package.bodies:
+            yield from _of_tree(package, key, slicer)
+        else:
+            yield as_problem(f"it builds an object {key} that it does not hold")
     made_for = [name for name, config in CONFIGS.items() if package.has(config)]
     if any(key.startswith(f"{{{cura.NAMESPACE}}}") for body in package.bodies.values() for key in body.settings):
         made_for.append("cura")
@@ -145,7 +146,7 @@ def _of_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]:
     """Say what is wrong with an object that is built, and with what it consists of."""
     tree = package.tree(key)
     for each in tree.missing:
-        yield as_problem(f"object {key} consists of {each}, which the model does not hold, or which holds itself")
+        yield as_problem(f"object {key} consists of {each}, which is not there, holds itself, or lies too deep")
     if not tree.whole:
         yield as_problem(f"object {key} consists of more objects or triangles than a slicer can take")
     for leaf in tree.leaves:

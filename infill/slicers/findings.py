@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from infill.formats.printable import printable
-from infill.surface import Edges, Surface
+from infill.surface import Surface
 
 LONGEST = 1000  # signs of a sentence or a value
 
@@ -91,7 +91,7 @@ class PrintedVolume:
     @classmethod
     def of(cls, name: str, mesh: Surface, role: str, settings: Mapping[str, str]) -> PrintedVolume:
         """Return the volume of a mesh."""
-        edges = Edges.of(mesh.faces) if len(mesh.faces) else None
+        edges = mesh.edges
         return cls(
             name=printable(name),
             role=printable(role),

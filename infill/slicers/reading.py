@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -26,8 +26,8 @@ from infill.surface import Surface
 __all__ = ["RELATIONS", "Body", "Item", "Leaf", "Package", "key_of", "read_package", "rows_of"]
 
 AGAIN = "write the file again"
-MOST_NESTED = 50  # components in one another
-MOST_PLACED, MOST_TRIANGLES = 100_000, 20_000_000  # of what one item builds
+MOST_NESTED = 20  # components in one another
+MOST_PLACED, MOST_TRIANGLES = 20_000, 20_000_000  # of what is built
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -128,12 +128,15 @@ class Tree:
         How many objects are above the lowest one.
     whole : bool
         False if there was more than anything should be asked to print.
+    visits : int
+        How many objects were looked at.
     """
 
     leaves: tuple[Leaf, ...]
     missing: tuple[str, ...]
     deepest: int
     whole: bool
+    visits: int
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -171,6 +174,7 @@ class Package:
     bodies: Mapping[str, Body]
     twice: tuple[str, ...]
     items: tuple[Item, ...]
+    trees: dict[str, Tree] = field(default_factory=dict, repr=False)  # those that were asked for
 
     def has(self, name: str) -> bool:
         """Return whether there is a file of this name; capitals and small letters are the same."""
@@ -184,10 +188,15 @@ class Package:
             return parsed_xml(self.texts[part_key(name)])
 
     def tree(self, key: str) -> Tree:
-        """Return what an object consists of."""
+        """Return what an object consists of; of all objects together, no more than is allowed."""
+        if key not in self.trees:
+            self.trees[key] = self._tree(key, sum(each.visits for each in self.trees.values()))
+        return self.trees[key]
+
+    def _tree(self, key: str, before: int) -> Tree:
         leaves: list[Leaf] = []
         missing: dict[str, None] = {}
-        visits = triangles = deepest = 0
+        visits, triangles, deepest = before, 0, 0
 
         def visit(key: str, above: tuple[str, ...]) -> None:
             nonlocal visits, triangles, deepest
@@ -207,7 +216,7 @@ class Package:
 
         visit(key, ())
         whole = visits <= MOST_PLACED and triangles <= MOST_TRIANGLES
-        return Tree(leaves=tuple(leaves), missing=tuple(missing), deepest=deepest, whole=whole)
+        return Tree(leaves=tuple(leaves), missing=tuple(missing), deepest=deepest, whole=whole, visits=visits - before)
 
 
 def read_package(path: Path) -> Package:
@@ -223,6 +232,8 @@ def read_package(path: Path) -> Package:
         others = [name for name in sorted(parts) if name.endswith(".model") and name != main]
         models = {name: read_model(package, parts[name], source) for name in (main, *others)}
     model = models[main]
+    if (built := sum(1 for _ in model.items)) > MOST_PLACED:
+        raise FormatError(f"{source} builds {built:,} objects, more than {MOST_PLACED:,}; build fewer")
     bodies: dict[str, Body] = {}
     twice = []
     for name, each_model in models.items():

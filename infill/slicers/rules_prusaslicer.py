@@ -158,7 +158,7 @@ def _opens(package: Package) -> Iterator[Finding]:
     for number in package.twice:
         yield as_problem(f"there are two objects {number}: {closed}")
     reached: set[str] = set()
-    for item in package.items:
+    for item in {each.key: each for each in package.items}.values():
         tree = package.tree(item.key)
         reached.update(leaf.key for leaf in tree.leaves if not leaf.covered)
         body = package.bodies.get(item.key)
