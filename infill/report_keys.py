@@ -248,6 +248,7 @@ class Input(TypedDict):
     slices: NotRequired[int]
     coarse: NotRequired[bool]
     several: NotRequired[bool]
+    notes: NotRequired[list[str]]
     grey: NotRequired[bool]
     segmentation: NotRequired[SegmentationKeys]
     repairs: NotRequired[RepairKeys]
@@ -459,6 +460,7 @@ class ComponentsReport(TypedDict):
     components: list[ComponentKeys]
     failed: list[FailedComponent]
     sheets: int
+    notes: list[str]
     seconds: ComponentSeconds
 
 
@@ -493,6 +495,7 @@ class FillPart(TypedDict):
     components: int
     turned: int
     holes: int
+    notes: list[str]
 
 
 class ClosedVoid(TypedDict):

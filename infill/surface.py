@@ -67,11 +67,14 @@ class Surface:
     faces : (F, 3) int, counter-clockwise seen from outside
     space : str
         Name of the coordinate system, if it has one: "LPS" for medical images.
+    notes : tuple of str
+        Of the reader of its file: what it left out or changed, one phrase each.
     """
 
     vertices: NDArray[np.floating]
     faces: NDArray[np.integer]
     space: str = ""
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def closed(self) -> bool:
@@ -80,6 +83,11 @@ class Surface:
             return False
         ahead, back = _sides(self.faces).reshape(-1, 2).T
         return bool((back == ahead + 1).all() and not (ahead & 1).any() and (ahead[1:] != ahead[:-1]).all())
+
+    @cached_property
+    def edges(self) -> Edges | None:
+        """Its edges; None if it has no faces."""
+        return Edges.of(self.faces) if len(self.faces) else None
 
     @cached_property
     def _volume_and_area(self) -> tuple[float, float]:

@@ -17,6 +17,7 @@ from patterns.errors import PatternError, PatternUsageError
 
 Unit = Literal["mm", "deg", ""]
 UNITS = get_args(Unit)
+LONGEST_SHOWN = 60  # signs of a value in a message
 SHOWN_UNITS = {"mm": " mm", "deg": " degrees", "": ""}
 
 
@@ -213,7 +214,10 @@ def _number(value: object, described: Parameter) -> float | None:
     """Return a number as a plain int or float, or None if the parameter cannot have it."""
     if isinstance(value, bool) or not isinstance(value, Real):
         return None
-    number = float(value)
+    try:
+        number = float(value)
+    except OverflowError:  # a whole number of more digits than any limit has
+        return None
     if not math.isfinite(number) or not described.low <= number <= described.high:
         return None
     if described.whole:
@@ -224,6 +228,10 @@ def _number(value: object, described: Parameter) -> float | None:
 def shown(value: object, described: Parameter) -> str:
     """Return a value as users enter it, with its unit: several numbers separated by commas."""
     several = value if isinstance(value, (tuple, list)) else (value,)
-    if not several or not all(isinstance(each, Real) and not isinstance(each, bool) for each in several):
-        return repr(value)
-    return ",".join(f"{float(each):.10g}" for each in several) + SHOWN_UNITS[described.unit]
+    try:
+        if several and all(isinstance(each, Real) and not isinstance(each, bool) for each in several):
+            return ",".join(f"{float(each):.10g}" for each in several) + SHOWN_UNITS[described.unit]
+        said = repr(value)
+    except (OverflowError, ValueError):
+        return "a number of hundreds of digits"
+    return said if len(said) <= LONGEST_SHOWN else said[:LONGEST_SHOWN] + "…"

@@ -57,6 +57,14 @@ def fill(
             metavar="FILE", help="TOML file to write all options to, for --config; - for stdout.", rich_help_panel=FILES
         ),
     ] = None,
+    trust: Annotated[
+        bool,
+        typer.Option(
+            "--trust",
+            help="Let the config file name code to run, and files outside of its folder.",
+            rich_help_panel=FILES,
+        ),
+    ] = False,
     ascii_stl: Annotated[bool, typer.Option("--ascii", help="Write STL as text.", rich_help_panel=FILES)] = False,
     force: Annotated[bool, typer.Option("--force", help="Overwrite existing files.", rich_help_panel=FILES)] = False,
     units: Annotated[
@@ -318,6 +326,7 @@ def fill(
         {name: value for name, value in flags.items() if is_typed(context, name)},
         assigned or [],
         config,
+        trust=trust,
     )
     writers = {path: _writer(path, settings, ascii_stl=ascii_stl) for path in outputs}
     if preview is not None:

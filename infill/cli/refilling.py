@@ -116,6 +116,10 @@ def refill(
             rich_help_panel=FILES,
         ),
     ] = None,
+    trust: Annotated[
+        bool,
+        typer.Option("--trust", help="Let the config file name files outside of its folder.", rich_help_panel=FILES),
+    ] = False,
     preview: Annotated[
         Path | None,
         typer.Option(
@@ -153,7 +157,7 @@ def refill(
             from infill.filling.refilling import refill as refilled
             from infill.filling.settings import resolve
 
-            asked = resolve(flags, config, assigned or [])
+            asked = resolve(flags, config, assigned or [], trust=trust)
             number = 0
             before: dict[str, LayerSpeeds] = {}
             if preview is not None:

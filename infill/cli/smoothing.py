@@ -56,6 +56,10 @@ def smooth(
         Path | None,
         typer.Option(metavar="FILE", help="TOML file of options; flags override it.", rich_help_panel=FILES),
     ] = None,
+    trust: Annotated[
+        bool,
+        typer.Option("--trust", help="Let the config file name files outside of its folder.", rich_help_panel=FILES),
+    ] = False,
     save_config: Annotated[
         Path | None,
         typer.Option(
@@ -333,7 +337,7 @@ def smooth(
         "allow_broken": allow_broken,
         "strict": strict,
     }
-    settings = resolve({name: value for name, value in flags.items() if is_typed(context, name)}, config)
+    settings = resolve({name: value for name, value in flags.items() if is_typed(context, name)}, config, trust=trust)
     settings.check()
     options: Options = {
         **settings.options,

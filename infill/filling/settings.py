@@ -21,11 +21,14 @@ from typing import Any
 from infill.errors import UsageError
 from infill.filling.request import AUTO, KEEP, SAME
 from infill.formats.options import parse_number, parse_share, parse_word
+from infill.formats.printable import shown
 
 ENDLESS = 10**9  # layers
 
 
-def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = ()) -> dict[str, Any]:
+def resolve(
+    flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = (), *, trust: bool = False
+) -> dict[str, Any]:
     """Return the arguments of `refill`, angles in degrees: the command line takes precedence over the file.
 
     Parameters
@@ -36,13 +39,15 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
         A TOML file.
     assigned : sequence of str
         Parameters of the pattern as ``name=value``, angles in degrees.
+    trust : bool
+        Whether the file may name files from elsewhere: see `infill.formats.trust`.
 
     Raises
     ------
     ParameterError
         If a name is unknown, a parameter is given twice, or a value cannot be read.
     FormatError
-        If the file is missing or not TOML.
+        If the file is missing or not TOML, or asks for what it is not trusted with.
     """
     given = {name: value for name, value in flags.items() if value is not None}
     if config is None and not assigned:
@@ -50,8 +55,13 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     from infill.filling.placement import unplaced
     from infill.formats.assignments import gathered, table_of
     from infill.formats.toml import read_toml
+    from infill.formats.trust import check_trusted
 
     filed = read_toml(config, example='pattern = "gyroid"') if config else {}
+    if config:
+        check_trusted(
+            {name: value for name, value in filed.items() if name not in given}, config, trust=trust, code=False
+        )
     table = table_of(filed)
     kind = unplaced(parse_word("pattern", given.get("pattern", filed.get("pattern", KEEP))))
     own = gathered(kind, READERS, flags=given, assigned=assigned, filed=filed, table=table)
@@ -77,7 +87,7 @@ def parse_radius(name: str, value: object) -> str | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise UsageError(f"{name} is {value!r}; give auto, or a number in mm") from None
+        raise UsageError(f"{name} is {shown(value)}; give auto, or a number in mm") from None
 
 
 def parse_share_or_same(name: str, value: object) -> str | float:
@@ -101,7 +111,7 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
         return numbers[0], numbers[-1]
     found = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
     if not found:
-        raise UsageError(f"{name} is {value!r}; give a range such as 5-20, or 5-")
+        raise UsageError(f"{name} is {shown(value)}; give a range such as 5-20, or 5-")
     first = int(found[1])
     return first, int(found[3]) if found[3] else ENDLESS if found[2] else first
 

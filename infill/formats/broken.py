@@ -18,6 +18,7 @@ from xml.etree import ElementTree
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterError
+from infill.formats.printable import printable
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"
@@ -101,7 +102,7 @@ def one_line(error: Exception) -> str:
     words = printable(" ".join(str(error).split()))
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
-    return words if len(words) <= 200 else words[:200] + "…"
+    return printable(words, 200)
 
 
 def printable(text: str) -> str:

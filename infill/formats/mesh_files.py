@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -19,13 +21,16 @@ from infill.formats.off import read_off
 from infill.formats.parts import Part
 from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
-from infill.formats.threemf import read_3mf, write_3mf, write_3mf_parts
+from infill.formats.threemf import write_3mf, write_3mf_parts
+from infill.formats.threemf_reading import read_3mf
 from infill.formats.whole_files import whole_file
 from infill.surface import Surface
 from infill.surfaces.merging import closed_or_merged, surface_of
 
 if TYPE_CHECKING:
     import trimesh
+
+LOG = logging.getLogger("infill")
 
 
 def save(mesh: trimesh.Trimesh | Surface, path: str | os.PathLike[str], *, ascii: bool = False) -> Path:  # noqa: A002
@@ -99,16 +104,22 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Returns
     -------
     Surface
+        With `notes` on what of a 3MF is left out of it, such as the modifiers of a slicer.
 
     Raises
     ------
     FormatError
-        If there is no such file, its suffix is unknown, or it holds no triangles or broken ones.
+        If there is no such file, its suffix is unknown, it requires an extension that is not read, or it holds no
+        triangles or broken ones.
+
+    Notes
+    -----
+    What is left out is logged as a warning too, to the log "infill".
     """
     source = readable(path, READERS, "a mesh format")
     try:
         with told_broken(source, "is broken", "export the mesh again"):
-            vertices, faces = READERS[source.suffix.lower()](source)
+            vertices, faces, *more = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if len(faces) == 0:
@@ -117,7 +128,11 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
         raise FormatError(f"{source} holds coordinates that are not numbers; export the mesh again")
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
-    return closed_or_merged(vertices, faces)
+    mesh = closed_or_merged(vertices, faces)
+    notes = tuple(more[0]) if more else ()
+    for note in notes:
+        LOG.warning("%s: %s", source, note)
+    return replace(mesh, notes=notes) if notes else mesh
 
 
 WRITERS: dict[str, Callable[[Surface, BinaryIO], None]] = {
@@ -131,7 +146,11 @@ PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
     ".3mf": write_3mf_parts,
     ".glb": write_glb_parts,
 }
-READERS: dict[str, Callable[[Path], tuple[NDArray[np.floating], NDArray[np.integer]]]] = {
+# Vertices and faces; some add what there is to note of the file.
+Read = (
+    tuple[NDArray[np.floating], NDArray[np.integer]] | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
+)
+READERS: dict[str, Callable[[Path], Read]] = {
     ".stl": read_stl,
     ".3mf": read_3mf,
     ".obj": read_obj,

@@ -10,6 +10,15 @@ from infill.formats.broken import readable, told_broken
 MARK = ".py:"
 
 
+def names_code(text: str) -> bool:
+    """Return whether a text is ``module.py:name``, for which a file is run.
+
+    >>> names_code("mine.py:waves"), names_code("gyroid")
+    (True, False)
+    """
+    return MARK in text
+
+
 def object_in(text: str) -> object:
     """Return what ``module.py:name`` stands for; the file is run for it.
 

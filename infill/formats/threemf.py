@@ -1,4 +1,4 @@
-"""3MF: zipped XML that states its unit; core specification only."""
+"""Writes 3MF, zipped XML that states its unit: core specification only. `threemf_reading` reads it."""
 
 from __future__ import annotations
 
@@ -8,21 +8,17 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, BinaryIO
-from xml.etree import ElementTree
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import told_broken
 from infill.formats.parts import Part, hexadecimal, plain
 from infill.formats.rows import write_rows
+from infill.formats.threemf_package import opened, part_key, parts_of_package, unpacked
 from infill.surface import Surface
 from infill.version import __version__
 
-UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
-IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
-AGAIN = "export the mesh again"
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 MODEL = "3D/3dmodel.model"
 MODEL_RELATION = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
@@ -32,9 +28,6 @@ TYPES = {
     "model": "application/vnd.ms-package.3dmanufacturing-3dmodel+xml",
 }
 SETTINGS = "Metadata/phasefill.toml"  # what we attach: the options that make it again
-MOST_PLACED = 100_000  # objects: components of components may say any number in a few lines
-LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
-MOST_BYTES = 4 << 30  # of a package, unpacked: a zip of some megabytes may unpack to terabytes
 APPLICATION = f"phasefill-{__version__}"
 
 
@@ -59,119 +52,12 @@ class Attached:
     relation: str = ""
 
 
-def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
-    """Read the build of a 3MF: objects, components and their transforms; core specification."""
-    with told_broken(path, "is not a 3MF file", AGAIN), zipfile.ZipFile(path) as package:
-        models = [name for name in package.namelist() if name.lower().endswith(".model")]
-        roots = {f"/{name}": parsed_xml(unpacked(package, name, path)) for name in models}
-        start = _start_part(package, path)
-    built = [part for part, each in roots.items() if each.find("{*}build/{*}item") is not None]
-    main = start if start in roots else next(iter(built), "")
-    root = roots.get(main)
-    if root is None or root.find("{*}build") is None:
-        raise FormatError(f"{path} has nothing to build in it; {AGAIN}")
-    objects = {
-        (part, each.get("id")): each
-        for part, model in roots.items()
-        for each in model.findall("{*}resources/{*}object")
-    }
-    vertices: list[NDArray[np.floating]] = []
-    faces: list[NDArray[np.integer]] = []
-
-    left = MOST_PLACED
-
-    def place(part: str, number: str | None, outer: NDArray[np.floating], depth: int = 0) -> None:
-        nonlocal left
-        left -= 1
-        each = objects.get((part, number))
-        if each is None or depth > 20:
-            raise FormatError(f"{path} refers to an object {number} that it does not hold; {AGAIN}")
-        if left < 0:
-            raise FormatError(f"{path} places its objects more than {MOST_PLACED:,} times; {AGAIN}")
-        corners = [
-            [float(v.get(axis, "nan")) for axis in "xyz"] for v in each.iterfind("{*}mesh/{*}vertices/{*}vertex")
-        ]
-        triangles = [
-            [int(t.get(corner, -1)) for corner in ("v1", "v2", "v3")]
-            for t in each.iterfind("{*}mesh/{*}triangles/{*}triangle")
-        ]
-        if triangles:
-            if max(map(max, triangles)) >= len(corners) or min(map(min, triangles)) < 0:
-                raise FormatError(f"{path} has triangles with corners that do not exist; {AGAIN}")
-            # A mirrored part would face inwards: its corners are taken in reverse order.
-            ordered = np.array(triangles)[:, :: -1 if np.linalg.det(outer[:3]) < 0 else 1]
-            faces.append(ordered + sum(len(some) for some in vertices))
-            vertices.append(np.array(corners) @ outer[:3] + outer[3])
-        for component in each.iterfind("{*}components/{*}component"):
-            inner = _transform(component.get("transform", IDENTITY))
-            joined = np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]])
-            place(_path(component, part), component.get("objectid"), joined, depth + 1)
-
-    with told_broken(path, "holds a number that is not one", AGAIN):
-        for item in root.iterfind("{*}build/{*}item"):
-            if item.get("printable") == "0":
-                continue
-            place(_path(item, main), item.get("objectid"), _transform(item.get("transform", IDENTITY)))
-    if not faces:
-        return np.empty((0, 3)), np.empty((0, 3), dtype=int)
-    return np.concatenate(vertices) * UNITS.get(root.get("unit", "millimeter"), 1.0), np.concatenate(faces)
-
-
-def unpacked(package: zipfile.ZipFile, name: str, path: Path) -> bytes:
-    """Return a file in a package, or raise FormatError if all of it unpacks to more than memory should be asked for."""
-    packed, whole = path.stat().st_size, sum(each.file_size for each in package.infolist())
-    if whole > min(MOST_BYTES, LARGEST_RATIO * max(packed, SMALL)):
-        raise FormatError(f"{path} would unpack to {whole / 1e6:,.0f} MB, and it has {packed / 1e6:,.1f} MB; {AGAIN}")
-    return package.read(name)  # which reads no more than the sizes above say
-
-
-def parsed_xml(text: bytes) -> ElementTree.Element:
-    """Return the root of a document, or raise ValueError: the specification allows no document type definitions.
-
-    The standard parser fetches nothing from outside; what it returns is only counted and multiplied.
-    """
-    parser = ElementTree.XMLParser(target=_NoEntities())  # noqa: S314
-    try:
-        parser.feed(text)
-        root: ElementTree.Element = parser.close()
-    except ElementTree.ParseError as error:
-        raise ValueError(str(error)) from error
-    return root
-
-
-class _NoEntities(ElementTree.TreeBuilder):
-    """Builds a tree, but not from a text with definitions of its own, which may stand for any length."""
-
-    def doctype(self, name: str, public: str | None, system: str | None) -> None:  # noqa: ARG002 - of the parser
-        """Refuse it."""
-        raise ValueError(f"it defines a document type, {name}")
-
-
 def attached_settings(path: Path) -> str:
     """Return the options that made what is in a 3MF, or raise FormatError if it has none of ours."""
-    with told_broken(path, "is not a 3MF file", AGAIN), zipfile.ZipFile(path) as package:
-        if SETTINGS in package.namelist():
-            return unpacked(package, SETTINGS, path).decode()
+    with opened(path) as package:
+        if part_key(SETTINGS) in parts_of_package(package):
+            return unpacked(package, SETTINGS).decode()
     raise FormatError(f"{path} holds no options of ours; give a project that 'infill fill' wrote, or a TOML file")
-
-
-def _start_part(package: zipfile.ZipFile, path: Path) -> str:
-    """Return the part that the package says to start with, or an empty string."""
-    if "_rels/.rels" not in package.namelist():
-        return ""
-    relations = parsed_xml(unpacked(package, "_rels/.rels", path))
-    targets = [each.get("Target", "") for each in relations if each.get("Type", "").endswith("/3dmodel")]
-    return "/" + targets[0].lstrip("/") if targets else ""
-
-
-def _path(element: ElementTree.Element, part: str) -> str:
-    """Return the part that contains the object of a component or an item."""
-    return next((value for key, value in element.items() if key.endswith("}path")), part)
-
-
-def _transform(text: str) -> NDArray[np.float64]:
-    """Return the 4 x 3 matrix of a 3MF transform: points are rows, multiplied from the left."""
-    return np.array([float(number) for number in text.split()]).reshape(4, 3)
 
 
 def write_3mf(surface: Surface, file: BinaryIO) -> None:

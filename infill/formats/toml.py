@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError, ParameterError
+from infill.formats.broken import one_line
 
 OPTIONS = {"form": "as"}  # what reports call otherwise
 
@@ -34,8 +35,14 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
         raise FormatError(f"there is no config file {path}; check the name") from None
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror}; check the file") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise FormatError(f"{path} is not TOML: {error}; write lines such as {example}") from error
+    except FormatError:
+        raise
+    except RecursionError as error:
+        raise FormatError(
+            f"{path} is not TOML: lists lie too deep in one another; write lines such as {example}"
+        ) from (error)
+    except ValueError as error:  # not TOML, no text, or a number of thousands of digits
+        raise FormatError(f"{path} is not TOML: {one_line(error)}; write lines such as {example}") from error
     return {name.replace("-", "_"): value for name, value in content.items()}
 
 

@@ -35,7 +35,8 @@ class Inspection:
     printable : bool
         True if there are no problems.
     problems, warnings : tuple of str
-        Why it is not printable, and what slicers cope with but other programs may not; one phrase each.
+        Why it is not printable, and what slicers cope with but other programs may not; one phrase each. Warnings begin
+        with what of a 3MF is no part and was left out.
     triangles, components, degenerate, duplicate : int
         Components are connected surfaces: a solid with a sealed void has two. Degenerate triangles have no area;
         duplicates have the same three corners as another triangle.
@@ -98,10 +99,12 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
     stated = False
     if isinstance(mesh, (str, os.PathLike)):
         read = read_mesh(mesh)
+        notes = read.notes
         stated = Path(mesh).suffix.lower() in STATED
     else:
         given = surface_of(mesh)
         read = closed_or_merged(given.vertices, given.faces)
+        notes = given.notes
     collapsed = (read.faces == np.roll(read.faces, 1, axis=1)).any(axis=1)
     if collapsed.all():
         raise FormatError("the mesh has no triangle of three different corners; export it again")
@@ -129,6 +132,7 @@ def check(mesh: str | os.PathLike[str] | trimesh.Trimesh | Surface) -> Inspectio
         f"{duplicate} triangle(s) stand twice": duplicate,
     }
     warnings = {
+        **dict.fromkeys(notes, True),
         f"{crossings} pair(s) of triangles pass through each other": crossings,
         f"{degenerate} triangle(s) have no area": degenerate,
         f"{sealed} sealed void(s): resin and powder stay in them": sealed,

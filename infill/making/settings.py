@@ -20,6 +20,8 @@ from typing import TYPE_CHECKING, Any
 
 from infill.errors import ParameterError, UsageError
 from infill.formats.assignments import SET, gathered, table_of
+from infill.formats.options import LONGEST_WORD, within_floats
+from infill.formats.printable import shown
 from infill.formats.toml import read_toml, toml_rows
 from patterns import PATTERNS, Pattern, parameter_values
 
@@ -157,10 +159,10 @@ def parse_size(size: object) -> tuple[float, float]:
     numbers = list(parts) if isinstance(parts, (list, tuple)) else [parts]
     try:
         lengths = [float(number) for number in numbers]  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         lengths = []
     if len(lengths) not in (1, 2):
-        raise UsageError(f"size is {size!r}; give millimetres as 60x40, or 60 for a square")
+        raise UsageError(f"size is {shown(size)}; give millimetres as 60x40, or 60 for a square")
     return lengths[0], lengths[-1]
 
 
@@ -169,12 +171,12 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     if name == "size":
         return parse_size(value)
     if isinstance(default, str) or name in ("pattern", "surface"):
-        wanted, fits = "a word", isinstance(value, str)
+        wanted, fits = "a word", isinstance(value, str) and len(value) <= LONGEST_WORD
     else:
         wanted, fits = "a number", _is_number(value)
     if not fits:
-        raise UsageError(f"{name} is {value!r}; it must be {wanted}")
-    return value
+        raise UsageError(f"{name} is {shown(value)}; it must be {wanted}")
+    return within_floats(name, value) if wanted == "a number" else value
 
 
 def _is_number(value: object) -> bool:

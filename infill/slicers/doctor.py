@@ -18,7 +18,6 @@ from infill.slicers.rules_cura import volumes_for_cura
 from infill.slicers.rules_prusaslicer import volumes_for_prusaslicer
 
 MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a command line
-KNOWN_EXTENSIONS = {"p", "m"}  # production, materials
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,19 +113,26 @@ def _examined(package: Package, slicer: Slicer) -> Iterator[PrintedVolume | Find
 
 def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
     """Say what holds in every slicer."""
-    if RELATIONS not in package.names:
+    if not package.has(RELATIONS):
         yield as_problem(f"it has no {RELATIONS}, without which newer slicers do not open it")
     if package.unit not in STATED_UNITS:
         yield as_problem(f"its unit is {package.unit!r}, and 3MF knows {', '.join(STATED_UNITS)}")
     elif package.unit != "millimeter":
         yield as_warning(f"its unit is the {package.unit}, and it is scaled to millimetres")
     for extension in package.extensions:
-        if extension not in KNOWN_EXTENSIONS:
-            yield as_problem(f"it requires the extension {extension!r}, which slicers do not know")
-    for number, _ in package.built:
-        if number not in package.bodies:
-            yield as_problem(f"it builds an object {number} that it does not hold")
-    made_for = [name for name, config in CONFIGS.items() if config in package.names]
+        if not extension.known:
+            yield as_problem(
+                f"it requires the extension {extension}, which slicers do not know: they leave out what it describes"
+            )
+    for item in package.items:
+        if not item.prints:
+            yield as_warning(f"object {item.key} is not to be printed")
+    for key in dict.fromkeys(item.key for item in package.items):
+        if key in package.bodies:
+            yield from _of_tree(package, key, slicer)
+        else:
+            yield as_problem(f"it builds an object {key} that it does not hold")
+    made_for = [name for name, config in CONFIGS.items() if package.has(config)]
     if any(key.startswith(f"{{{cura.NAMESPACE}}}") for body in package.bodies.values() for key in body.settings):
         made_for.append("cura")
     if slicer != "plain" and made_for and FAMILY[slicer] not in made_for:
@@ -134,6 +140,27 @@ def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
             f"its settings are for {' and '.join(NAMES[each] for each in made_for)}, and {NAMES[slicer]} does not read "
             f"them; make it again with --for {slicer}"
         )
+
+
+def _of_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]:
+    """Say what is wrong with an object that is built, and with what it consists of."""
+    tree = package.tree(key)
+    for each in tree.missing:
+        yield as_problem(f"object {key} consists of {each}, which is not there, holds itself, or lies too deep")
+    if not tree.whole:
+        yield as_problem(f"object {key} consists of more objects or triangles than a slicer can take")
+    for leaf in tree.leaves:
+        if (other := leaf.other) is not None and slicer != "prusaslicer":  # which has a rule of its own
+            yield as_problem(
+                f"object {other.number} is of type {other.kind!r}, which is no part: slicers leave it out, print it "
+                "or refuse the file"
+            )
+        for body in (*leaf.above, leaf.body):
+            for shape in body.foreign:
+                yield as_problem(f"object {body.number} has {shape}, which slicers leave out")
+    body = package.bodies[key]
+    if not tree.leaves and body.foreign:
+        yield as_problem(f"object {key} has {' and '.join(body.foreign)}, which slicers leave out")
 
 
 def _shape(volume: PrintedVolume) -> Iterator[Finding]:
@@ -150,17 +177,13 @@ def _shape(volume: PrintedVolume) -> Iterator[Finding]:
 
 def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield every object that is built, each for itself."""
-
-    def under(number: str, deep: int = 0) -> Iterator[PrintedVolume]:
-        body = package.bodies.get(number)
-        if body is None or deep > len(package.bodies):
-            return
-        if body.mesh is not None:
-            yield PrintedVolume.of(body.name or f"object {number}", body.mesh, "part", {})
-        for each in body.components:
-            yield from under(each, deep + 1)
-
-    found = [volume for number, _ in package.built for volume in under(number)]
+    found = [
+        PrintedVolume.of(leaf.body.name or f"object {leaf.key}", leaf.body.mesh, "part", {})
+        for item in package.items
+        if item.prints
+        for leaf in package.tree(item.key).leaves
+        if leaf.other is None and leaf.body.mesh is not None
+    ]
     yield from found
     if len(found) > 1:
         yield as_warning(

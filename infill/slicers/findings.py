@@ -6,7 +6,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from infill.surface import Edges, Surface
+from infill.formats.printable import printable
+from infill.surface import Surface
+
+LONGEST = 1000  # signs of a sentence or a value
 
 # Settings by which walls of volumes differ: a modifier with one of them gets walls of its own around all it has.
 WALL_KEYS = {
@@ -88,15 +91,15 @@ class PrintedVolume:
     @classmethod
     def of(cls, name: str, mesh: Surface, role: str, settings: Mapping[str, str]) -> PrintedVolume:
         """Return the volume of a mesh."""
-        edges = Edges.of(mesh.faces) if len(mesh.faces) else None
+        edges = mesh.edges
         return cls(
-            name=name,
-            role=role,
+            name=printable(name),
+            role=printable(role),
             triangles=len(mesh.faces),
             closed=edges is not None and not edges.surplus.any(),
             outward=edges is not None and mesh.volume > 0,
             shared=0 if edges is None else int((edges.faces > 2).sum()),
-            settings=dict(settings),
+            settings={printable(key): printable(value, LONGEST) for key, value in settings.items()},
         )
 
     @property
@@ -107,12 +110,12 @@ class PrintedVolume:
 
 def as_problem(text: str) -> Finding:
     """Return what a slicer loses or refuses."""
-    return Finding(kind=Kind.PROBLEM, text=text)
+    return Finding(kind=Kind.PROBLEM, text=printable(text, LONGEST))
 
 
 def as_warning(text: str) -> Finding:
     """Return what may surprise."""
-    return Finding(kind=Kind.WARNING, text=text)
+    return Finding(kind=Kind.WARNING, text=printable(text, LONGEST))
 
 
 def of_filling(name: str, settings: Mapping[str, str], density: str, known: set[str], slicer: str) -> Iterator[Finding]:
@@ -139,6 +142,10 @@ def in_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
         if volume.role == "modifier":
             yield as_problem(
                 f"{volume.name} comes before {volumes[last].name}, which takes its place: it is lost; put it last"
+            )
+        elif volume.role == "negative":
+            yield as_problem(
+                f"{volume.name} comes before {volumes[last].name}, of which it takes nothing off; put it after it"
             )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.etree import ElementTree
 
+from infill.formats.threemf_roles import BAMBU_ROLES, object_key
 from infill.slicers.bambustudio import CONFIG
 from infill.slicers.findings import (
     WALL_KEYS,
@@ -17,15 +18,9 @@ from infill.slicers.findings import (
     with_walls,
 )
 from infill.slicers.project import NAMES
-from infill.slicers.reading import Body, Package, rows_of
+from infill.slicers.reading import Body, Package, Tree, rows_of
 
-ROLES = {
-    "normal_part": "part",
-    "modifier_part": "modifier",
-    "negative_part": "negative",
-    "support_enforcer": "support enforcer",
-    "support_blocker": "support blocker",
-}
+READ_TYPES = ("model", "other")  # of objects: the second is how modifiers are marked for other programs
 RESERVED = {
     "name",
     "matrix",
@@ -71,8 +66,8 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVo
     """Yield the volumes that one of the two makes of a file, and what it loses."""
     who, application = NAMES[slicer], package.metadata.get("Application", "")
     config = package.xml(CONFIG)
-    told = {} if config is None else {each.get("id", ""): each for each in config.findall("object")}
-    built = {number for number, _ in package.built}
+    told = {} if config is None else {object_key(each.get("id")): each for each in config.findall("object")}
+    built = {item.key for item in package.items}
     if "PrusaSlicer" in application:
         yield as_problem(f"it says that PrusaSlicer wrote it: {who} reads it as such, and drops every setting")
     elif config is not None and not application.startswith(KEPT_FROM[slicer]):
@@ -86,19 +81,16 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVo
     for number in told:
         if number not in built:
             yield as_problem(f"{CONFIG} is about an object {number} that is not built: its settings are lost")
-    for number, _ in package.built:
-        body = package.bodies.get(number)
-        if body is not None:
-            yield from _of_object(package, body, told.get(number), who)
+    for item in package.items:
+        body = package.bodies.get(item.key)
+        if body is not None and item.prints:
+            yield from _of_object(package.tree(item.key), body, told.get(item.key), who)
 
 
-def _of_object(
-    package: Package, body: Body, told: ElementTree.Element | None, who: str
-) -> Iterator[PrintedVolume | Finding]:
+def _of_object(tree: Tree, body: Body, told: ElementTree.Element | None, who: str) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
-    parts = {} if told is None else {each.get("id", ""): each for each in told.findall("part")}
-    members = body.components or (body.number,)
-    held = {package.bodies[key].number for key in members if key in package.bodies}
+    parts = {} if told is None else {object_key(each.get("id")): each for each in told.findall("part")}
+    held = {leaf.body.number for leaf in tree.leaves}
     for number in parts:
         if number not in held:
             yield as_problem(
@@ -106,21 +98,19 @@ def _of_object(
                 "the settings are lost, and what was to be a modifier is printed as a part"
             )
     volumes: list[PrintedVolume] = []
-    for key in members:
-        member = package.bodies.get(key)
-        if member is None or member.mesh is None:
-            if member is None:
-                yield as_problem(f"object {body.number} consists of {key}, which the model does not hold")
+    for leaf in tree.leaves:
+        member, other = leaf.body, leaf.other
+        if member.mesh is None or (other is not None and other.kind not in READ_TYPES):
             continue
         number = member.number
         part = parts.get(number)
         rows = {} if part is None else rows_of(part)
         name = rows.get("name", "") or member.name or f"part {number}"
         kind = "normal_part" if part is None else part.get("subtype", "normal_part")
-        if kind not in ROLES:
-            yield as_problem(f"{name} is a {kind!r}; {who} knows {', '.join(ROLES)}")
+        if kind not in BAMBU_ROLES:
+            yield as_problem(f"{name} is a {kind!r}; {who} knows {', '.join(BAMBU_ROLES)}")
         own = {key: value for key, value in rows.items() if key not in RESERVED}
-        volumes.append(PrintedVolume.of(name, member.mesh, ROLES.get(kind, kind), own))
+        volumes.append(PrintedVolume.of(name, member.mesh, BAMBU_ROLES.get(kind, kind), own))
         yield from of_filling(name, own, "sparse_infill_density", KEYS, who)
     yield from volumes
     yield from in_order(volumes)

@@ -4,20 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from infill.formats.threemf_roles import CURA_ROLES
 from infill.slicers.cura import NAMESPACE
 from infill.slicers.findings import Finding, PrintedVolume, as_problem, as_warning
 from infill.slicers.reading import Body, Package
 
 INSIDE = f"{{{NAMESPACE}}}"
-ROLES = {
-    "infill_mesh": "modifier",
-    "cutting_mesh": "cutting mesh",
-    "support_mesh": "support",
-    "anti_overhang_mesh": "support blocker",
-}
 NONE_OF = ("top_layers", "bottom_layers")
 KEYS = {
-    *ROLES,
+    *CURA_ROLES,
     *NONE_OF,
     "wall_line_count",
     "extruder_nr",
@@ -37,27 +32,22 @@ KEYS = {
 def volumes_for_cura(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes that Cura makes of a file, and what it loses."""
     found: list[tuple[Body, PrintedVolume]] = []
-    for number, _ in package.built:
-        body = package.bodies.get(number)
-        if body is None:
-            continue
-        for each in body.components or (number,):
-            member = package.bodies.get(each)
-            if member is None:
-                yield as_problem(f"object {number} consists of {each}, which the model does not hold")
-            elif member.mesh is not None:
-                name = member.name or f"object {each}"
+    for item in package.items:
+        for leaf in package.tree(item.key).leaves if item.prints else ():
+            member = leaf.body
+            if member.mesh is not None and leaf.other is None:
+                name = member.name or f"object {leaf.key}"
                 own = {
                     key.removeprefix(INSIDE): value for key, value in member.settings.items() if key.startswith(INSIDE)
                 }
-                role = next((role for key, role in ROLES.items() if own.get(key) == "True"), "part")
+                role = next((role for key, role in CURA_ROLES.items() if own.get(key) == "True"), "part")
                 found.append((member, PrintedVolume.of(name, member.mesh, role, own)))
     yield from (volume for _, volume in found)
     for body, volume in found:
         yield from _of_volume(body, volume)
     parts = [volume for _, volume in found if volume.prints]
     modifiers = [volume for _, volume in found if volume.role == "modifier"]
-    if len(found) > 1 and len(package.built) > 1:
+    if len(found) > 1 and len(package.items) > 1:
         yield as_warning("its objects are not in one group: moving one leaves the others where they are")
     for modifier in modifiers:
         for part in parts:
@@ -72,7 +62,7 @@ def _of_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
             yield as_warning(
                 f"{key} of {volume.name} is no setting that Cura is known to read from a file: it is ignored"
             )
-        if key in ROLES and value not in ("True", "False"):
+        if key in CURA_ROLES and value not in ("True", "False"):
             yield as_problem(
                 f"{key} of {volume.name} is {value!r}; Cura reads True or False, and takes others for False"
             )

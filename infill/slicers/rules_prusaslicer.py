@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from xml.etree import ElementTree
 
+from infill.formats.threemf_roles import PRUSA_ROLES, object_key, prusa_role, whole_number
 from infill.slicers.findings import (
     WALL_KEYS,
     Finding,
@@ -22,13 +23,7 @@ from infill.surface import Surface
 
 VERSION = "slic3rpe:Version3mf"
 PROFILE = "Metadata/Slic3r_PE.config"
-ROLES = {
-    "ModelPart": "part",
-    "ParameterModifier": "modifier",
-    "NegativeVolume": "negative",
-    "SupportEnforcer": "support enforcer",
-    "SupportBlocker": "support blocker",
-}
+MOST_NESTED = 10  # objects in one another
 RESERVED = {
     "name",
     "modifier",
@@ -97,43 +92,109 @@ KEYS = WALL_KEYS["PrusaSlicer"] | {
 
 def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes that PrusaSlicer makes of a file, and what it loses."""
-    if PROFILE in package.names:
+    if package.has(PROFILE):
         yield as_warning(f"it holds a print profile, {PROFILE}, which takes the place of the user's own")
     config = package.xml(CONFIG)
-    told = {} if config is None else {each.get("id", ""): each for each in config.findall("object")}
-    for number in told:
+    told: dict[str, ElementTree.Element] = {}
+    for each in [] if config is None else config.findall("object"):
+        if (number := object_key(each.get("id"))) in told:
+            yield as_problem(f"{CONFIG} tells of object {number} twice: the file is not opened")
+        told[number] = each
         if number not in package.bodies:
             yield as_problem(
                 f"{CONFIG} is about an object {number} that the model does not hold: its settings are lost"
             )
-    if config is None and len(package.built) + sum(len(body.components) for body in package.bodies.values()) > 1:
+        elif package.bodies[number].mesh is None:
+            yield as_problem(
+                f"{CONFIG} is about object {number}, which has components and no mesh: its settings are lost, and what "
+                "was to be a modifier is printed as a part"
+            )
+    yield from _opens(package)
+    if config is None and len(package.items) + sum(len(body.components) for body in package.bodies.values()) > 1:
         yield as_warning(f"it has no {CONFIG}: each object is printed for itself, with the settings of the profile")
     versioned = VERSION in package.metadata
-    for number, stays in package.built:
-        body = package.bodies.get(number)
-        if body is None:
+    listed: set[str] = set()
+    for item in package.items:
+        if item.printable and not item.prints:
             continue
-        if body.components:
+        if item.printable and whole_number(item.printable.removeprefix("-")) < 1:
             yield as_problem(
-                f"object {number} has components, of which PrusaSlicer makes objects of their own: no settings of "
-                "volumes, and what they have in common is printed twice"
+                f"object {item.key} says printable={item.printable!r}; PrusaSlicer reads a number, and takes it for 0: "
+                "it is not printed"
             )
-            for each in body.components:
-                if (part := package.bodies.get(each)) is not None and part.mesh is not None:
-                    yield PrintedVolume.of(part.name or f"object {each}", part.mesh, "part", {})
-        elif body.mesh is not None:
-            found = list(_of_object(body, body.mesh, told.get(number)))
+            continue
+        leaves = [leaf for leaf in package.tree(item.key).leaves if leaf.other is None and not leaf.covered]
+        if len(leaves) > 1:
+            yield as_problem(
+                f"object {item.key} has components, of which PrusaSlicer makes objects of their own: no settings of "
+                "volumes that they have in common, and where they overlap is printed twice"
+            )
+        for leaf in leaves:
+            if leaf.body.mesh is None or leaf.key in listed:
+                continue  # another instance
+            listed.add(leaf.key)
+            found = list(_of_object(leaf.body, leaf.body.mesh, told.get(leaf.key)))
             yield from found
-            if not versioned and not stays and sum(isinstance(each, PrintedVolume) for each in found) > 1:
+            moved = not item.stays or leaf.above
+            if not versioned and moved and sum(isinstance(each, PrintedVolume) for each in found) > 1:
                 yield as_problem(
-                    f"it says no {VERSION}, and moves object {number}: only the first volume is moved; say it"
+                    f"it says no {VERSION}, and moves object {leaf.key}: only the first volume is moved; say it"
                 )
+
+
+def is_read(body: Body) -> bool:
+    """Return whether PrusaSlicer reads an object of this type; others are as if they were not there."""
+    return body.kind in ("", "model")
+
+
+def _opens(package: Package) -> Iterator[Finding]:
+    """Say for what PrusaSlicer does not open a file; where its exit status or its message is another's, that too."""
+    closed = "the file is not opened"
+    if package.prefix:
+        yield as_problem(
+            f"its elements are called {package.prefix}:model and so on, and PrusaSlicer reads only names without a "
+            f"prefix: {closed}"
+        )
+    for number in package.twice:
+        yield as_problem(f"there are two objects {number}: {closed}")
+    reached: set[str] = set()
+    for item in {each.key: each for each in package.items}.values():
+        tree = package.tree(item.key)
+        reached.update(leaf.key for leaf in tree.leaves if not leaf.covered)
+        body = package.bodies.get(item.key)
+        if tree.missing and body is not None:
+            yield as_problem(f"object {item.key} consists of {tree.missing[0]}, which is not there: {closed}")
+        if tree.deepest > MOST_NESTED or not tree.whole:
+            yield as_problem(f"object {item.key} has objects in objects, more than {MOST_NESTED} deep: {closed}")
+        others = [each for leaf in tree.leaves for each in (*leaf.above, leaf.body) if not is_read(each)]
+        for other in dict.fromkeys(others):
+            yield as_problem(
+                f"object {other.number} is of type {other.kind!r}, and PrusaSlicer knows only parts, of type 'model': "
+                f"{closed} (it calls that an invalid object id)"
+            )
+        if body is not None and body.mesh is None and not body.components:
+            yield as_problem(f"object {item.key} has no triangles, and is built: {closed}")
+    if not package.items:
+        yield as_problem(f"it builds nothing: {closed}")
+    numbers = list(package.bodies)
+    for place, (key, body) in enumerate(package.bodies.items()):
+        later = set(numbers[place + 1 :]).intersection(body.components)
+        if later and " of /" not in "".join(later):
+            yield as_problem(f"object {key} consists of {', '.join(sorted(later))}, which comes after it: {closed}")
+        if body.mesh is not None and body.components:
+            yield as_problem(
+                f"object {key} has triangles and components, of which PrusaSlicer reads the triangles alone"
+            )
+        if body.mesh is not None and len(body.mesh.faces) and is_read(body) and key not in reached:
+            yield as_problem(f"object {key} is neither built nor in what is built: {closed}")
+    if any(" of /" in key for key in reached):
+        yield as_problem("it has objects in files of their own, which PrusaSlicer reads from 2.9 on and 2.5 does not")
 
 
 def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes of an object."""
     whole = body.name or f"object {body.number}"
-    if told is None or told.find("volume") is None:
+    if told is None:
         yield PrintedVolume.of(whole, mesh, "part", {})
         return
     volumes: list[PrintedVolume] = []
@@ -141,7 +202,7 @@ def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> I
     yield from _metadata(told, "object")
     common = {key: value for key, value in rows_of(told).items() if key not in RESERVED}
     for each in told.findall("volume"):
-        first, last = (_whole(each.get(name)) for name in ("firstid", "lastid"))
+        first, last = (whole_number(each.get(name)) for name in ("firstid", "lastid"))
         rows = rows_of(each)
         name = rows.get("name", "") or f"volume {len(volumes) + 1}"
         yield from _metadata(each, "volume")
@@ -152,12 +213,14 @@ def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> I
             )
             continue
         covered += last - first + 1
-        kind = rows.get("volume_type", "ParameterModifier" if rows.get("modifier") == "1" else "ModelPart")
-        if kind not in ROLES:
-            yield as_problem(f"{name} is a {kind!r}; PrusaSlicer knows {', '.join(ROLES)}")
+        kind = rows.get("volume_type", "ModelPart")
+        if kind not in PRUSA_ROLES and kind != "1":
+            yield as_problem(
+                f"{name} is a {kind!r}, which PrusaSlicer takes for a part; it knows {', '.join(PRUSA_ROLES)}"
+            )
         own = {key: value for key, value in rows.items() if key not in RESERVED}
         part = replace(mesh, faces=mesh.faces[first : last + 1])
-        volumes.append(PrintedVolume.of(name, part, ROLES.get(kind, kind), own))
+        volumes.append(PrintedVolume.of(name, part, prusa_role(each), own))
         yield from of_filling(name, own, "fill_density", KEYS, "PrusaSlicer")
         yield from _at_full_density(name, {**common, **own})
     yield from volumes
@@ -182,7 +245,3 @@ def _metadata(element: ElementTree.Element, kind: str) -> Iterator[Finding]:
     for each in element.findall("metadata"):
         if each.get("type") != kind:
             yield as_problem(f'{CONFIG} has a row {each.get("key")!r} without type="{kind}": the file is not opened')
-
-
-def _whole(text: str | None) -> int:
-    return int(text) if text is not None and text.isascii() and text.isdigit() else -1

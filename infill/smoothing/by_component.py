@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, cast, get_args
 
@@ -132,7 +132,7 @@ def by_components(
         raise GeometryError(f"no component can be smoothed; component_1: {failed['component_1']}")
     return Result(
         surfaces=surfaces,
-        report=_report(request, surfaces, reports, failed, parts.sheets, clock),
+        report=_report(request, surfaces, reports, failed, parts.sheets, surface.notes, clock),
         stages=ComponentStages(given=surface, voxel=size, components=named, failed=failed),
         joins=True,
     )
@@ -157,6 +157,7 @@ def _report(
     reports: Mapping[str, SmoothReport],
     failed: Mapping[str, str],
     sheets: int,
+    notes: Sequence[str],
     clock: Clock,
 ) -> ComponentsReport:
     """Return the report: what there is to say of all components, and the report of each."""
@@ -179,6 +180,7 @@ def _report(
         "components": [{"name": name, "report": report} for name, report in reports.items()],
         "failed": [{"name": name, "error": error} for name, error in failed.items()],
         "sheets": sheets,
+        "notes": list(notes),
         "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
     }
     return cast("ComponentsReport", report)

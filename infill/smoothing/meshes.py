@@ -83,7 +83,12 @@ def _given_mesh(surface: Surface, found: Voxelised, request: Request) -> Given:
         topology = Counts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
     return Given(
         data=replace(found.volume, values=on_profile(distance, interface, threads=request.threads)),
-        facts={"source": "mesh", "repairs": asdict(found.repairs), "several": found.several},
+        facts={
+            "source": "mesh",
+            "repairs": asdict(found.repairs),
+            "several": found.several,
+            "notes": list(surface.notes),
+        },
         reference=found.closed,
         mesh=surface,
         enclosed=held,

@@ -28,6 +28,7 @@ from infill.formats.options import (
     parsed,
 )
 from infill.formats.toml import read_toml, toml_rows
+from infill.formats.trust import check_trusted
 
 if TYPE_CHECKING:
     from infill.smoothing.request import LevelMethod, Method, Options
@@ -158,7 +159,7 @@ class SmoothSettings:
         return "\n".join(["# infill smooth INPUT --config THIS_FILE -o OUT", *toml_rows(plain), ""])
 
 
-def resolve(flags: Mapping[str, Any], config: Path | None = None) -> SmoothSettings:
+def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool = False) -> SmoothSettings:
     """Return the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
@@ -167,6 +168,8 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None) -> SmoothSetti
         What was typed, by its name on the command line; None counts as not given.
     config : Path, optional
         A TOML file.
+    trust : bool
+        Whether the file may name files from elsewhere: see `infill.formats.trust`.
 
     Raises
     ------
@@ -176,7 +179,12 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None) -> SmoothSetti
         If the file is missing or not TOML.
     """
     typed = parsed("smooth", READERS, {name: value for name, value in flags.items() if value is not None})
-    filed = parsed("smooth", READERS, read_toml(config, example="threshold = 226")) if config else {}
+    read = read_toml(config, example="threshold = 226") if config else {}
+    if config:
+        check_trusted(
+            {name: value for name, value in read.items() if name not in typed}, config, trust=trust, code=False
+        )
+    filed = parsed("smooth", READERS, read)
     for rivals in RIVALS:
         if any(typed.get(name, False) is not False for name in rivals):  # what is turned off takes no place
             filed = {name: value for name, value in filed.items() if name not in rivals}

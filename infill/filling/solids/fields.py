@@ -14,7 +14,7 @@ from infill.errors import FormatError, ParameterError, UsageError
 from infill.filling.solids.space import Space
 from infill.formats.bitmaps import read_grey
 from infill.formats.broken import one_line, readable, told_broken
-from infill.formats.modules import MARK, object_in
+from infill.formats.modules import names_code, object_in
 
 Floats = NDArray[np.float64]
 AXES = ("x", "y", "z")
@@ -161,7 +161,7 @@ def field_of(by: object) -> tuple[Field, str]:
         return BelowSkin(), text
     path = Path(text)
     suffix = path.suffix.lower()
-    if MARK in text:
+    if names_code(text):
         return Computed(function=_function(text), name=text), text
     if suffix in PICTURES:
         grey = read_grey(readable(path, PICTURES, "a picture"))

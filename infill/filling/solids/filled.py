@@ -275,6 +275,7 @@ def _result(
             "components": space.repairs.components,
             "turned": space.repairs.turned,
             "holes": space.repairs.holes,
+            "notes": list(given.notes),
         },
         "voids": {
             "count": hollow.count,

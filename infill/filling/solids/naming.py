@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from infill.errors import ParameterError
-from infill.formats.modules import MARK, object_in
+from infill.formats.modules import names_code, object_in
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR, InSpace, no_such
 from patterns.protocol import Pattern, gives
@@ -46,7 +46,7 @@ def kind_of(pattern: object) -> tuple[Kind, str]:
     name = str(pattern)
     if name in CELLULAR:
         return CELLULAR[name], name
-    if MARK in name:
+    if names_code(name):
         return _made(object_in(name), name)
     if Path(name).suffix.lower() in DRAWINGS:
         return _drawing(name), name

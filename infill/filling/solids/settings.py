@@ -24,6 +24,7 @@ from infill.filling.solids.request import TOLERANCE, Request, checked
 from infill.formats.assignments import table_of
 from infill.formats.options import Reader, parse_number, parse_numbers, parse_share, parse_whole, parse_word, parsed
 from infill.formats.toml import options_text, read_toml
+from infill.formats.trust import check_trusted
 
 THIRDS = ("density", "line_width", "cell")  # of which two say the third; the first to go
 
@@ -51,7 +52,9 @@ class FillSettings:
         return options_text(options, "infill fill PART --config THIS_FILE -o OUT")
 
 
-def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path | None = None) -> FillSettings:
+def resolve(
+    flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path | None = None, *, trust: bool = False
+) -> FillSettings:
     """Return the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
@@ -62,16 +65,20 @@ def resolve(flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path
         The pattern's own parameters as ``name=value``.
     config : Path, optional
         A TOML file, or a project.
+    trust : bool
+        Whether the file may name code to run and files from elsewhere: see `infill.formats.trust`.
 
     Raises
     ------
     ParameterError, patterns.PatternError
         If a name is unknown, a value is of the wrong type or out of range, or options contradict each other.
     FormatError
-        If the file is missing or not TOML.
+        If the file is missing or not TOML, or asks for what it is not trusted with.
     """
     typed = parsed("fill", READERS, {name: value for name, value in flags.items() if value is not None})
     read = read_toml(config, example='pattern = "gyroid"') if config else {}
+    if config:
+        check_trusted({name: value for name, value in read.items() if name not in typed}, config, trust=trust)
     table = dict(table_of(read))
     filed = parsed("fill", READERS, read)
     if typed.get("pattern", filed.get("pattern")) != filed.get("pattern"):

@@ -1,0 +1,104 @@
+"""Extensions of 3MF: which of them are read, which hold nothing of the shape, and what the others would be."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from infill.errors import FormatError
+from infill.formats.printable import printable
+from infill.formats.threemf_package import Model
+
+SEPARATE = re.compile(r"[\s,]+")
+# Namespaces, whatever their year, that change nothing of a shape, or of which all that matters is read.
+HARMLESS = re.compile(
+    r"http://schemas\.(?:microsoft\.com|3mf\.io)/3dmanufacturing/(?:core|production|materials?|trianglesets)/\d[\d/]*"
+    r"|http://schemas\.slic3r\.org/.*|http://schemas\.bambulab\.com/.*|http://software\.ultimaker\.com/.*"
+    r"|http://schemas\.(?:orcaslicer|prusa3d)\.com/.*|http://www\.w3\.org/.*"
+)
+SHAPES = {
+    "beamlattice": "beam lattices",
+    "balls": "beam lattices",
+    "boolean": "boolean shapes",
+    "displacement": "displaced surfaces",
+    "implicit": "implicit functions",
+    "volumetric": "volumetric data",
+    "slice": "stacks of slices",
+    "securecontent": "secure content, which is encrypted",
+    "alternatives": "alternative shapes of lower resolution",
+    "mirror": "mirrored meshes",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Extension:
+    """An extension that a reader must know.
+
+    Parameters
+    ----------
+    prefix : str
+        As the file has it.
+    namespace : str
+        Empty if the file does not declare the prefix.
+    """
+
+    prefix: str
+    namespace: str
+
+    @property
+    def known(self) -> bool:
+        """Whether it is read, or holds nothing of the shape."""
+        return is_harmless(self.namespace)
+
+    def __str__(self) -> str:
+        """Return how a message names it."""
+        words = name_of(self.namespace) if self.namespace else "which it does not declare"
+        return f"'{printable(self.prefix)}' ({words})"
+
+
+def is_harmless(namespace: str) -> bool:
+    """Return whether an extension changes nothing of the shape, or is read.
+
+    >>> is_harmless("http://schemas.microsoft.com/3dmanufacturing/production/2015/06")
+    True
+    """
+    return HARMLESS.fullmatch(namespace) is not None
+
+
+def name_of(namespace: str) -> str:
+    """Return what an extension describes, or its namespace.
+
+    >>> name_of("http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02")
+    'beam lattices'
+    """
+    lower = namespace.lower()
+    return next((words for key, words in SHAPES.items() if key in lower), printable(namespace, 80))
+
+
+def required(model: Model) -> Iterator[Extension]:
+    """Yield the extensions that a model requires."""
+    for prefix in dict.fromkeys(SEPARATE.split(model.root.get("requiredextensions", "").strip())):
+        if prefix:
+            yield Extension(prefix=prefix, namespace=namespace_of(prefix, model.spaces))
+
+
+def namespace_of(prefix: str, spaces: Mapping[str, str]) -> str:
+    """Return the namespace of a prefix; some programs write the namespace itself in its place."""
+    return spaces.get(prefix, prefix if prefix.startswith("http") else "")
+
+
+def check_required(model: Model, name: str) -> None:
+    """Raise FormatError, as the core specification wants, if a model requires an extension that is not read.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for the message.
+    """
+    unknown = [each for each in required(model) if not each.known]
+    if unknown:
+        raise FormatError(
+            f"{name} requires the 3MF extension {' and '.join(map(str, unknown))}, which is not read; "
+            "export the part as a mesh of triangles, such as an STL"
+        )

@@ -1,0 +1,318 @@
+"""The package of a 3MF: a zip of XML, opened and parsed within bounds, whoever wrote it."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import zipfile
+from array import array
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from urllib.parse import unquote
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError, InfillError
+from infill.formats.broken import told_broken
+from infill.formats.printable import printable
+from infill.machine import require_memory
+
+AGAIN = "export the mesh again"
+LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
+MOST_BYTES = 4 << 30  # of a package, unpacked: a zip of some megabytes may unpack to terabytes
+HEADER = 30  # bytes of a zip before the name of a file in it
+ENCRYPTED = 0x1  # among the flags of a file in a zip
+PIECE = 1 << 24  # bytes that are parsed at a time
+MEMORY = 4  # bytes for each byte of XML: <vertex/> is the shortest of what becomes three numbers
+MOST_ELEMENTS, DEEPEST = 2_000_000, 100  # besides vertices and triangles
+FARTHEST = 1e15  # in the unit of the file: products of such numbers are finite
+KEYSTORE = "secure/keystore.xml"
+# Encodings that are text: Python has others, which unpack or run through tables of their own.
+ENCODINGS = re.compile(
+    r"utf-?(8|16|16le|16be|16-le|16-be)|(us-)?ascii|iso-?8859-\d+|latin-?1|windows-125\d|cp125\d|koi8-r"
+)
+DECLARED_ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([^\"'>]*)")
+# Namespaces whose elements are kept with all that is in them; of others, the element alone.
+KEPT_NAMESPACES = ("http://schemas.slic3r.org/", "http://software.ultimaker.com/")
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mesh:
+    """The mesh of an object, as its file has it.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+        In the unit of the file.
+    faces : (F, 3) int64
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+
+    @cached_property
+    def fault(self) -> str:
+        """What is wrong with it, or an empty string."""
+        if not (np.abs(self.vertices) <= FARTHEST).all():  # NaN is neither
+            return f"coordinates that are not numbers up to {FARTHEST:g}"
+        if len(self.faces) and (self.faces.min() < 0 or self.faces.max() >= len(self.vertices)):
+            return "triangles with corners that do not exist"
+        return ""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Model:
+    """A parsed file of a package.
+
+    Parameters
+    ----------
+    root : Element
+        Without vertices and triangles.
+    core : str
+        The namespace of the root, in braces; empty for none.
+    spaces : mapping of str to str
+        Namespaces that the root declares, by prefix.
+    meshes : mapping of Element to Mesh
+    """
+
+    root: ElementTree.Element
+    core: str
+    spaces: Mapping[str, str]
+    meshes: Mapping[ElementTree.Element, Mesh]
+
+    def below(self, element: ElementTree.Element, path: str) -> Iterator[ElementTree.Element]:
+        """Yield elements by a path of names of the core specification."""
+        return element.iterfind("/".join(self.core + name for name in path.split("/")))
+
+    @property
+    def objects(self) -> Iterator[ElementTree.Element]:
+        """The objects among its resources."""
+        return self.below(self.root, "resources/object")
+
+    @property
+    def items(self) -> Iterator[ElementTree.Element]:
+        """What it builds."""
+        return self.below(self.root, "build/item")
+
+    def mesh_of(self, each: ElementTree.Element) -> tuple[ElementTree.Element, Mesh] | None:
+        """Return the element of the mesh of an object, and the mesh; None if it has none."""
+        found = each.find(f"{self.core}mesh")
+        return None if found is None else (found, self.meshes[found])
+
+    def foreign(self, element: ElementTree.Element) -> Iterator[tuple[str, str]]:
+        """Yield namespace and name of elements in an element that are those of extensions."""
+        for child in element:
+            space, _, name = child.tag[1:].rpartition("}")
+            if child.tag[:1] == "{" and f"{{{space}}}" != self.core:
+                yield space, name
+
+
+@contextlib.contextmanager
+def opened(path: Path) -> Iterator[zipfile.ZipFile]:
+    """Open a package, or raise FormatError, also for what goes wrong while it is read."""
+    try:
+        file = path.open("rb")
+    except OSError as error:
+        raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
+    with file, told_broken(path, "is not a 3MF file", AGAIN):
+        try:
+            with zipfile.ZipFile(file) as package:
+                _check_entries(package, path)
+                yield package
+        except InfillError:
+            raise
+        except OSError as error:  # a place before the beginning of the file
+            raise FormatError(f"{path} is not a 3MF file ({error.strerror or error}); {AGAIN}") from error
+
+
+def _check_entries(package: zipfile.ZipFile, path: Path) -> None:
+    """Raise FormatError unless a zip holds what a 3MF may, in a size that memory should be asked for."""
+    entries = sorted(package.infolist(), key=lambda each: each.header_offset)
+    packed, whole = path.stat().st_size, sum(each.file_size for each in entries)
+    if whole > min(MOST_BYTES, LARGEST_RATIO * max(packed, SMALL)):
+        raise FormatError(f"{path} would unpack to {whole / 1e6:,.0f} MB, and it has {packed / 1e6:,.1f} MB; {AGAIN}")
+    seen: set[str] = set()
+    end = 0
+    for each in entries:
+        name = printable(each.filename)
+        if (key := part_key(each.filename)) in seen:  # readers do not agree on which of them counts
+            raise FormatError(f"{path} holds {name} twice; {AGAIN}")
+        seen.add(key)
+        if each.flag_bits & ENCRYPTED:
+            raise FormatError(f"{path} is encrypted; unpack it with its password and zip it without one")
+        if each.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise FormatError(
+                f"{path} is compressed by method {each.compress_type}, and 3MF knows only deflate; {AGAIN}"
+            )
+        if each.header_offset < end:
+            raise FormatError(f"{path} holds files that overlap, {name} among them; {AGAIN}")
+        end = each.header_offset + HEADER + len(each.orig_filename) + each.compress_size
+
+
+def part_key(name: str) -> str:
+    """Return by what a file of a package is known: parts are the same whatever the case of their letters.
+
+    >>> part_key("/3D/My%20Part.model")
+    '3d/my part.model'
+    """
+    return unquote(name).replace("\\", "/").lstrip("/").casefold()
+
+
+def parts_of_package(package: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
+    """Return the files of a package by their keys."""
+    return {part_key(each.filename): each for each in package.infolist()}
+
+
+def unpacked(package: zipfile.ZipFile, name: str) -> bytes:
+    """Return a file of a package that has it; `opened` has checked how much that may be."""
+    return package.read(parts_of_package(package)[part_key(name)])
+
+
+def read_model(package: zipfile.ZipFile, info: zipfile.ZipInfo, path: Path) -> Model:
+    """Return a model of a package; raise FormatError for numbers that are none, ValueError if it is no XML."""
+    require_memory(MEMORY * info.file_size, None, f"{path} is large: simplify the mesh, or split it")
+    with package.open(info) as file:
+        pieces = iter(lambda: file.read(PIECE), b"")
+        try:
+            return _parsed(pieces, path)
+        except ValueError as error:
+            if not isinstance(error, InfillError) and KEYSTORE in parts_of_package(package):
+                raise FormatError(
+                    f"{path} has encrypted parts (3MF secure content), which are not read; export it without them"
+                ) from error
+            raise
+
+
+def parsed_xml(text: bytes, path: Path | None = None) -> ElementTree.Element:
+    """Return the root of a document, or raise ValueError: the specification allows no document type definitions.
+
+    The standard parser fetches nothing from outside; what it returns is only counted and multiplied.
+    """
+    return _parsed([text], Path() if path is None else path).root
+
+
+def _parsed(pieces: Iterable[bytes], path: Path) -> Model:
+    target = _Target(path)
+    parser = ElementTree.XMLParser(target=target)  # noqa: S314 - see `parsed_xml`
+    begun = False
+    try:
+        for piece in pieces:
+            if not begun:
+                _check_encoding(piece)
+                begun = True
+            parser.feed(piece)
+        root: ElementTree.Element = parser.close()
+    except (ElementTree.ParseError, LookupError) as error:
+        if isinstance(error, LookupError) and not str(error).startswith("unknown encoding"):
+            raise
+        raise ValueError(str(error)) from error
+    core = root.tag.rpartition("}")[0]
+    return Model(root=root, core=f"{core}}}" if core else "", spaces=target.spaces, meshes=target.meshes)
+
+
+def _check_encoding(text: bytes) -> None:
+    """Raise ValueError for a document that declares, in any encoding, one other than those of texts."""
+    found = DECLARED_ENCODING.search(text[: max(0, text.find(b">"))].replace(b"\0", b""))
+    if found is None:
+        return
+    name = found[1].decode("ascii", "replace")
+    if not ENCODINGS.fullmatch(name.strip().lower()):
+        raise ValueError(f"its encoding is {printable(name)}, and 3MF knows UTF-8 and UTF-16")
+
+
+class _Target:
+    """Builds a tree without vertices and triangles, which it keeps as numbers; no document may define what it means.
+
+    Parameters
+    ----------
+    path : Path
+        For messages.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.spaces: dict[str, str] = {}
+        self.meshes: dict[ElementTree.Element, Mesh] = {}
+        self._path = path
+        self._tree = ElementTree.TreeBuilder()
+        self._core: str | None = None
+        self._mesh: ElementTree.Element | None = None
+        self._vertex = self._triangle = self._name_of_mesh = ""
+        self._points, self._corners = array("d"), array("q")
+        self._count = self._depth = 0
+        self._skipped = 0  # how deep in an element of which only itself is kept
+
+    def doctype(self, name: str, public: str | None, system: str | None) -> None:  # noqa: ARG002 - of the parser
+        """Refuse it."""
+        raise ValueError(f"it defines a document type, {printable(name)}")
+
+    def start_ns(self, prefix: str, uri: str) -> None:
+        """Note the namespaces of the root."""
+        if self._core is None:
+            self.spaces[prefix or ""] = uri
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        """Keep an element, or its numbers."""
+        if self._mesh is not None and not self._skipped:
+            if tag == self._vertex:
+                self._row(self._points, ("x", "y", "z"), attributes, float)
+                return
+            if tag == self._triangle:
+                self._row(self._corners, ("v1", "v2", "v3"), attributes, int)
+                return
+        self._count += 1
+        self._depth += 1
+        if self._count > MOST_ELEMENTS or self._depth > DEEPEST:
+            raise ValueError(f"it has more than {MOST_ELEMENTS:,} elements, or {DEEPEST} in one another")
+        if self._core is None:
+            self._core = tag[: tag.rfind("}") + 1]
+            self._vertex, self._triangle, self._name_of_mesh = (
+                self._core + name for name in ("vertex", "triangle", "mesh")
+            )
+        if self._skipped:
+            self._skipped += 1
+            return
+        element = self._tree.start(tag, attributes)
+        if tag == self._name_of_mesh and self._mesh is None:
+            self._mesh, self._points, self._corners = element, array("d"), array("q")
+        elif not tag.startswith(self._core) and not tag[1:].startswith(KEPT_NAMESPACES):
+            self._skipped = 1
+
+    def _row(
+        self, numbers: array, names: tuple[str, str, str], attributes: dict[str, str], kind: type[float] | type[int]
+    ) -> None:
+        one, two, three = names
+        try:
+            numbers.extend((kind(attributes[one]), kind(attributes[two]), kind(attributes[three])))
+        except (KeyError, ValueError, OverflowError):
+            said = ", ".join(printable(attributes.get(name, "")) or "nothing" for name in names)
+            raise FormatError(f"{self._path} holds a number that is not one, among {said}; {AGAIN}") from None
+
+    def end(self, tag: str) -> None:
+        """Close an element."""
+        if self._mesh is not None and not self._skipped and tag in (self._vertex, self._triangle):
+            return
+        self._depth -= 1
+        if self._skipped > 1:
+            self._skipped -= 1
+            return
+        self._skipped = 0
+        element = self._tree.end(tag)
+        if element is self._mesh:
+            self.meshes[element] = Mesh(
+                vertices=np.frombuffer(self._points, dtype=np.float64).reshape(-1, 3),
+                faces=np.frombuffer(self._corners, dtype=np.int64).reshape(-1, 3),
+            )
+            self._mesh = None
+
+    def data(self, text: str) -> None:
+        """Keep a text, but not what is between vertices."""
+        if self._mesh is None and not self._skipped:
+            self._tree.data(text)
+
+    def close(self) -> ElementTree.Element:
+        """Return the root."""
+        return self._tree.close()
