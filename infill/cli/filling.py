@@ -181,7 +181,24 @@ def fill(
         float | None,
         typer.Option(
             metavar="MM",
-            help="Diameter of a hole down from the lowest place of every void, for powder and resin. (default: none)",
+            help="Diameter of a hole down from the lowest place of every void, for powder and resin; it keeps the wall "
+            "from all sides. (default: none)",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
+    vent: Annotated[
+        bool,
+        typer.Option(
+            "--vent",
+            help="With --drain, also a hole up from the highest place of every void, for air.",
+            rich_help_panel=SOLID,
+        ),
+    ] = False,
+    drain_at: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="X,Y,Z",
+            help="With --drain, a place on the skin for a hole straight in, mm; may be given again.",
             rich_help_panel=SOLID,
         ),
     ] = None,
@@ -305,6 +322,8 @@ def fill(
         "phase": phase,
         "seed": seed,
         "drain": drain,
+        "vent": vent,
+        "drain_at": drain_at,
         "open": open_,
         "smooth_radius": smooth_radius,
         "overlap": overlap,
