@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
@@ -14,6 +15,7 @@ from infill.cli.console import is_typed, log_said, print_json, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.filling.solids.settings import FillSettings
+    from infill.pictures.sections import Cut
     from infill.report_keys import FillReport
     from infill.result import Result
 
@@ -39,7 +41,17 @@ def fill(
     preview: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="Picture to write, cut open through the middle: a .png.", rich_help_panel=FILES
+            metavar="FILE",
+            help="Picture to write, cut open where that shows most of the infill: a .png.",
+            rich_help_panel=FILES,
+        ),
+    ] = None,
+    cut: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="x|y|z=MM",
+            help="Where --preview cuts the part open, such as z=10; may be given again.",
+            rich_help_panel=FILES,
         ),
     ] = None,
     config: Annotated[
@@ -342,6 +354,7 @@ def fill(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
+    cuts = _cuts(cut or [], drawn=preview is not None and not dry_run)
     limit = None if max_memory is None else parse_bytes(max_memory)
     saved: dict[Path, Callable[[BinaryIO], object]] = {}
     if save_config is not None:
@@ -362,6 +375,10 @@ def fill(
             progress("read", 0.0)
         with log_said(shown=not quiet):
             given: Any = read_source(part, kind="mesh", units=settings.units)
+            if cuts:
+                from infill.pictures.sections import check_cuts
+
+                check_cuts(cuts, given.bounds)
             if dry_run:
                 show_plan(planned_fill(given, settings.request, threads=threads), str(part), as_json=as_json)
                 return
@@ -372,12 +389,24 @@ def fill(
             path: partial(write, result, part.stem) for path, write in writers.items()
         }
         if preview is not None:
-            parts[preview] = result.write_picture
+            shown = replace(result, stages=replace(result.stages, cuts=cuts))
+            parts[preview] = shown.write_picture
         files = deliver_all({**parts, **saved})
     if not quiet:
         say(summary(result.report, files, str(part), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": files})
+
+
+def _cuts(given: list[str], *, drawn: bool) -> tuple[Cut, ...]:
+    """Return where a preview is cut open, or raise UsageError."""
+    if given and not drawn:
+        raise typer.BadParameter("--cut says where a preview is cut open; give --preview FILE.png too, or leave it out")
+    if not given:
+        return ()
+    from infill.pictures.sections import parse_cut
+
+    return tuple(parse_cut(each) for each in given)
 
 
 def _writer(

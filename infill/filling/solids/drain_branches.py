@@ -36,6 +36,7 @@ class Branch:
     start, end : (3,) float64, mm
         Of its axis.
     void, into : int
+    diameter : float, mm
     clearance : float
         Least distance of the hole from the skin, mm.
     near : (3,) float64, mm
@@ -48,6 +49,7 @@ class Branch:
     end: Floats
     void: int
     into: int
+    diameter: float
     clearance: float
     near: Floats
     above: float
@@ -132,6 +134,7 @@ def _best(
                     end=reach.at[end],
                     void=each,
                     into=int(reach.void[end]),
+                    diameter=needs.diameter,
                     clearance=clearance,
                     near=near,
                     above=float(reach.above[start]),

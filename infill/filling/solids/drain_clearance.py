@@ -13,7 +13,6 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.solids.drain_columns import Lattice, cross
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
 from infill.surfaces.distance import Tree
@@ -235,16 +234,23 @@ class Skin:
     def _rim(self, at: Floats, faces: Integers, low: float, radius: float) -> Floats | None:
         """Return the heights at which a hole leaves some faces, all around and half way in; None if it runs off them."""
         angle = 2 * np.pi * np.arange(RIM) / RIM
-        circle = np.column_stack([np.cos(angle), np.sin(angle)])
-        mouth = Surface(vertices=self.part.vertices, faces=self.part.faces[faces])
-        heights = []
-        for share in (1.0, 0.5):
-            for place in at + share * radius * circle:
-                found = cross(mouth, Lattice(low=place, step=1.0, shape=(1, 1)))[1]
-                if not len(found):
-                    return None
-                heights.append(found[np.argmin(np.abs(found - low))])
-        return np.array(heights)
+        circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        heights = np.abs((found := _heights(self.corners[faces], at + np.concatenate([circle, circle / 2]))) - low)
+        nearest = np.argmin(np.where(np.isnan(heights), np.inf, heights), axis=0)
+        rim: Floats = found[nearest, np.arange(2 * RIM)]
+        return None if np.isnan(rim).any() else rim
+
+
+def _heights(corners: Floats, places: Floats) -> Floats:
+    """Return the heights at which vertical lines at places (M, 2) cross triangles (F, 3, 3), (F, M); or nan."""
+    x, y = (corners[:, None, :, axis] - places[None, :, None, axis] for axis in (0, 1))
+    after, last = [1, 2, 0], [2, 0, 1]
+    shares = x[:, :, after] * y[:, :, last] - x[:, :, last] * y[:, :, after]
+    area = shares.sum(axis=2)
+    hit = (area != 0) & ((shares * np.sign(area)[:, :, None]) >= 0).all(axis=2)
+    height: Floats = np.full(hit.shape, np.nan)
+    np.divide((shares * corners[:, None, :, 2]).sum(axis=2), area, out=height, where=hit)
+    return height
 
 
 def _components(pairs: Integers, count: int) -> Integers:

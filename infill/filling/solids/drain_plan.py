@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 DOWN = np.eye(3)
 NUDGE = 1e-4, 0.7e-4  # of the diameter: a line through a corner of a face would cross several
 LEVEL = 0.99  # cosine: ways this near to one another are one
+BRANCHES, NARROWEST = (1.0, 0.5, 0.25), 0.5  # of the diameter, tried in turn for voids that are narrower; mm
 NARROWER, TRIES = 0.9, 6  # of the width of a drain that might fit, and how often one is tried
 
 
@@ -49,6 +50,8 @@ class Hole:
         Number of the void, the largest is 0.
     into : int or None
         Of a branch, the other void.
+    diameter : float
+        mm; that of a branch may be less than was asked for, where the void is narrower.
     clearance : float
         Least distance from all skin but the face that it leaves through, mm.
     near : (3,) float64, mm
@@ -64,6 +67,7 @@ class Hole:
     out: float
     void: int
     into: int | None
+    diameter: float
     clearance: float
     near: Floats
     above: float
@@ -101,11 +105,14 @@ class DrainPlan:
     Parameters
     ----------
     holes : tuple of Hole
+    volumes : tuple of float
+        Of the voids, mm³, the largest first.
     undrained, unvented : tuple of Undrained
         By falling volume.
     """
 
     holes: tuple[Hole, ...]
+    volumes: tuple[float, ...] = ()
     undrained: tuple[Undrained, ...] = ()
     unvented: tuple[Undrained, ...] = ()
 
@@ -161,7 +168,7 @@ def plan_drains(
         # Voids that are open at a side have their vent there.
         found, unvented = _one_way(up, high, "vent", set(np.flatnonzero(voids_open).tolist()), wanting, volume, holes)
         holes += found
-    return DrainPlan(holes=tuple(holes), undrained=undrained, unvented=unvented)
+    return DrainPlan(holes=tuple(holes), volumes=tuple(volume.tolist()), undrained=undrained, unvented=unvented)
 
 
 def _by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
@@ -187,7 +194,7 @@ def _one_way(
         shaft = places.shaft(each, np.array(taken).reshape(-1, 2) if apart else None)
         if shaft is not None:
             taken.append(shaft.at)
-            found.append(_hole(shaft, below, kind, each, float(places.lowest[each])))
+            found.append(_hole(shaft, below, kind, each, needs.diameter, float(places.lowest[each])))
             done.add(each)
         return shaft is not None
 
@@ -197,9 +204,11 @@ def _one_way(
     # Holes that are near one another leave a thin web between them, and nothing that is seen from the side.
     alone = [each for each in left if each not in joined]
     still = [each for each in alone if not drill(each, apart=False)]
-    if len(still) < len(alone):
-        branches += find_branches(below, needs, done | joined, still)
-        joined = {branch.void for branch in branches}
+    for share in BRANCHES[len(still) == len(alone) :]:
+        width = share * needs.diameter
+        if share == 1 or width >= NARROWEST:
+            branches += find_branches(below, replace(needs, diameter=width), done | joined, set(still) - joined)
+            joined = {branch.void for branch in branches}
     found += [_branch(each, below) for each in branches]
     missing = [each for each in still if each not in joined]
     return found, tuple(
@@ -207,7 +216,7 @@ def _one_way(
     )
 
 
-def _hole(shaft: Shaft, below: Below, kind: Kind, void: int, lowest: float) -> Hole:
+def _hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: float, lowest: float) -> Hole:
     at = np.array([*shaft.at, shaft.skin])
     to = np.array([*shaft.at, shaft.high])
     return Hole(
@@ -218,6 +227,7 @@ def _hole(shaft: Shaft, below: Below, kind: Kind, void: int, lowest: float) -> H
         out=shaft.skin - shaft.low,
         void=void,
         into=None,
+        diameter=diameter,
         clearance=shaft.clearance,
         near=below.back(shaft.near),
         above=max(0.0, shaft.floor - lowest),
@@ -235,6 +245,7 @@ def _branch(branch: Branch, below: Below) -> Hole:
         out=0.0,
         void=branch.void,
         into=branch.into,
+        diameter=branch.diameter,
         clearance=branch.clearance,
         near=below.back(branch.near),
         above=branch.above,
@@ -324,7 +335,7 @@ def _hole_at(
         )
     void = int(ways.void[way_in])
     lowest = float(np.asarray(voids.vertices, dtype=np.float64)[names == void, 2].min())
-    hole = _hole(shaft, below, "place", void, 0.0)
+    hole = _hole(shaft, below, "place", void, needs.diameter, 0.0)
     return replace(hole, above=max(0.0, float(below.back(np.array([*shaft.at, shaft.floor]))[2]) - lowest))
 
 

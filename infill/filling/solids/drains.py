@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -57,7 +58,7 @@ class Drained:
         """The holes that leave the part."""
         return [hole for hole in self.plan.holes if hole.kind != "branch"]
 
-    def facts(self, diameter: float | None) -> dict[str, Any]:
+    def facts(self) -> dict[str, Any]:
         """Return what the report says of the drains."""
         return {
             "count": len(self.outlets),
@@ -67,7 +68,7 @@ class Drained:
                     "kind": hole.kind,
                     "at": hole.at.tolist(),
                     "to": hole.to.tolist(),
-                    "diameter": diameter,
+                    "diameter": hole.diameter,
                     "void": hole.void,
                     "into": hole.into,
                     "wall": hole.clearance if np.isfinite(hole.clearance) else None,
@@ -127,14 +128,14 @@ def drain(solid: Surface, hollow: Hollow, request: Request, *, threads: int | No
     )
     if not plan.holes:
         return Drained(solid=solid, plan=plan)
-    found = _drilled(solid, plan.holes, needs.radius)
+    found = _drilled(solid, plan.holes)
     if found is None:
         return Drained(solid=solid, plan=NOWHERE, failed=True)
     whole, pieces = _without_loose(found, solid)
     return Drained(solid=whole, plan=plan, pieces=pieces)
 
 
-def _drilled(solid: Surface, holes: tuple[Hole, ...], radius: float) -> Surface | None:
+def _drilled(solid: Surface, holes: tuple[Hole, ...]) -> Surface | None:
     """Return a solid without holes, or None if manifold3d rejects it."""
     import manifold3d
 
@@ -142,7 +143,7 @@ def _drilled(solid: Surface, holes: tuple[Hole, ...], radius: float) -> Surface 
     if status_of(whole) != FINE:
         return None
     for turn in TURNS:
-        tools = [_tool(hole, radius, turn) for hole in holes]
+        tools = [_tool(hole, turn) for hole in holes]
         cut = whole - manifold3d.Manifold.batch_boolean(tools, manifold3d.OpType.Add)
         if status_of(cut) != FINE or cut.is_empty():
             continue
@@ -155,10 +156,11 @@ def _drilled(solid: Surface, holes: tuple[Hole, ...], radius: float) -> Surface 
     return None if best is None else best[1]
 
 
-def _tool(hole: Hole, radius: float, turn: float) -> manifold3d.Manifold:
+def _tool(hole: Hole, turn: float) -> manifold3d.Manifold:
     """Return what a hole takes away: a cylinder, or for a branch a cylinder with round ends."""
     import manifold3d
 
+    radius = hole.diameter / 2
     if hole.kind == "branch":
         ball = manifold3d.Manifold.sphere(radius, SIDES).rotate((0.0, 0.0, float(np.degrees(turn))))
         return manifold3d.Manifold.batch_hull([ball.translate(tuple(end)) for end in (hole.at, hole.to)])
@@ -224,6 +226,15 @@ def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float,
             f"{len(drained.plan.unvented)} void(s) have no vent, the largest, of {first.volume:.3g} mm³, with its "
             f"highest place at ({_words(first.at.tolist())}): there is no way for a hole of {request.drain:g} mm up "
             f"from it; give {'thinner drains' if fits is None else f'drains of at most {fits:g} mm'}, or turn the part"
+        )
+    narrow = [hole for hole in drained.plan.holes if hole.diameter < request.drain]
+    large = [hole for hole in narrow if drained.plan.volumes[hole.void] > math.pi / 6 * request.drain**3]
+    if large:
+        worst = min(large, key=lambda hole: hole.void)
+        yield (
+            f"{len(large)} void(s) drain through branches narrower than {request.drain:g} mm, the largest, of "
+            f"{drained.plan.volumes[worst.void]:.3g} mm³, through one of {worst.diameter:g} mm at "
+            f"({_words(worst.at.tolist())}); give thinner drains, or turn the part"
         )
     high = [hole for hole in drained.plan.holes if hole.kind == "drain" and hole.above > request.drain]
     if high:

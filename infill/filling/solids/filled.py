@@ -295,7 +295,7 @@ def _result(
             "islands": hollow.islands,
             "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],
         },
-        "drains": drained.facts(request.drain),
+        "drains": drained.facts(),
         "walls": {"requested": request.wall, "least": facts.least, "at": facts.at},
     }
     return solid, report, hollow
