@@ -400,13 +400,14 @@ def fill(
 
 def _cuts(given: list[str], *, drawn: bool) -> tuple[Cut, ...]:
     """Return where a preview is cut open, or raise UsageError."""
-    if given and not drawn:
-        raise typer.BadParameter("--cut says where a preview is cut open; give --preview FILE.png too, or leave it out")
     if not given:
         return ()
     from infill.pictures.sections import parse_cut
 
-    return tuple(parse_cut(each) for each in given)
+    cuts = tuple(parse_cut(each) for each in given)
+    if not drawn:
+        raise typer.BadParameter("--cut says where a preview is cut open; give --preview FILE.png too, or leave it out")
+    return cuts
 
 
 def _writer(

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 AXES = "xyz"
 MIDDLE, PLANES = (0.3, 0.7), 25  # of a side: between these, so many planes are tried
 AS_GOOD = 0.95  # of the best: of such planes, one in the middle of those beside one another is taken
-USUAL = 0.5  # of what a cut across x shows: one across y that shows this much is taken, as it is seen from the front
+USUAL = 0.9  # of what a cut across x shows: one across y that shows this much is taken, as it is seen from the front
 # The plane of a cut lies this far, of a side, from a round number, where faces of parts and walls often lie.
 ASIDE = 1e-4
 
@@ -49,14 +49,16 @@ class Cut:
 
 
 def parse_cut(text: str) -> Cut:
-    """Return the cut in ``z=10``, or raise UsageError.
+    """Return the cut in ``z=10``; raise UsageError, or ParameterError if it is nowhere.
 
     >>> parse_cut("z=10")
     Cut(axis=2, at=10.0)
     """
-    found = re.fullmatch(r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(?:mm)?\s*", text.lower())
-    if not found or not math.isfinite(float(found[2])):
+    found = re.fullmatch(r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*", text.lower())
+    if not found:
         raise UsageError(f"cut is {text!r}; give x, y or z and a place in mm, such as z=10")
+    if not math.isfinite(float(found[2])):
+        raise ParameterError(f"cut is {text!r}; give a place in mm, such as {found[1]}=10")
     return Cut(axis=AXES.index(found[1]), at=float(found[2]))
 
 
@@ -84,8 +86,8 @@ def choose_cuts(surface: Surface, part: Surface | None = None, given: Sequence[C
 
     Notes
     -----
-    A section shows the area of its voids, times how much longer its outline is for them: none of a plane along a wall,
-    and little of one between two walls that never meets one.
+    A section shows the squared area of its voids, times the root of how much longer its outline is for them: nothing of
+    a plane along a wall, little of one that grazes walls, and not the most of one between two walls that meets none.
     """
     solid = solid_of(surface)
     outer = None if part is None else solid_of(part)
@@ -136,11 +138,11 @@ def _turned_up(solid: manifold3d.Manifold, axis: int) -> manifold3d.Manifold:
 
 
 def _shown(solids: list[manifold3d.Manifold], height: float) -> float:
-    """Return how much of the inside of a solid is seen at a height: mm² of voids, times mm of what bounds them."""
+    """Return how much of the inside of a solid is seen at a height; 0 if nothing is."""
     section = solids[0].slice(height)
     whole = solids[1].slice(height) if len(solids) > 1 else section.hull()
     longer = _outline(section) - _outline(whole)
-    return max(0.0, whole.area() - section.area()) * max(0.0, longer)
+    return max(0.0, whole.area() - section.area()) ** 2 * math.sqrt(max(0.0, longer))
 
 
 def _outline(section: manifold3d.CrossSection) -> float:

@@ -262,7 +262,8 @@ def checked(
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
     if drain is not None and form != "solid":
         raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
-    for name, value in (("vent", vent), ("drain_at", len(drain_at) > 0)):
+    places = tuple(_place(each) for each in drain_at)
+    for name, value in (("vent", vent), ("drain_at", bool(places))):
         if value and drain is None:
             raise UsageError(f"{name} is given, and drain is missing; give drain too, the diameter of the holes in mm")
     if open_ is not None and open_ not in get_args(Open):
@@ -321,7 +322,7 @@ def checked(
         grading=grading,
         open_=open_,  # type: ignore[arg-type]
         vent=vent,
-        drain_at=tuple(_place(each) for each in drain_at),
+        drain_at=places,
     )
 
 
