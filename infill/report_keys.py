@@ -505,11 +505,36 @@ class ClosedVoid(TypedDict):
     at: Vector
 
 
+class FillHole(TypedDict):
+    """A hole that a void drains through."""
+
+    kind: str
+    at: Vector
+    to: Vector
+    diameter: float
+    void: int
+    into: int | None
+    wall: float | None
+    above: float
+
+
+class UndrainedVoid(TypedDict):
+    """A void for which there is no hole."""
+
+    void: int
+    volume: float
+    at: Vector
+    fits: float | None
+
+
 class FillDrains(TypedDict):
     """Holes that voids drain through."""
 
     count: int
     at: list[Vector]
+    holes: list[FillHole]
+    undrained: list[UndrainedVoid]
+    unvented: list[UndrainedVoid]
 
 
 class GradedStep(TypedDict):
@@ -557,6 +582,8 @@ class FillRequest(TypedDict):
     form: str
     overlap: float
     drain: float | None
+    vent: bool
+    drain_at: list[Vector]
     open: str | None
     smooth_radius: float | None
     tolerance: float

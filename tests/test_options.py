@@ -90,6 +90,8 @@ OUT_OF_RANGE = {
         "--angle": "1000 nan",
         "--phase": "1e9_0_0 nan_0_0",
         "--drain": "-1 0 nan",
+        "--drain-at": "nan,0,0 1e9,0,0",
+        "--cut": "x=nan",
         "--smooth-radius": "-1 nan",
         "--overlap": "-1 9 nan",
         "--tolerance": "-1 nan",

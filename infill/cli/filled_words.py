@@ -89,12 +89,16 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
 
 
 def _drained(report: FillReport) -> str:
-    closed, drains, side = len(report["voids"]["closed"]), report["drains"]["count"], report["request"]["open"]
-    if not (drains or side):
+    closed, side = len(report["voids"]["closed"]), report["request"]["open"]
+    holes = report["drains"]["holes"]
+    if not (holes or side):
         return "closed: nothing drains from them"
     said = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
-    if drains:
-        said.append(f"{drains:,} drain(s) of {report['request']['drain']:g} mm")
+    for kinds, words in ((("drain", "place"), "drain(s)"), (("vent",), "vent(s)"), (("branch",), "branch(es)")):
+        widths = [hole["diameter"] for hole in holes if hole["kind"] in kinds]
+        if widths:
+            low, high = min(widths), max(widths)
+            said.append(f"{len(widths):,} {words} of {low:g}{'' if low == high else f' to {high:g}'} mm")
     if closed:
-        said.append(f"{closed:,} still closed" if drains else f"{closed:,} closed")
+        said.append(f"{closed:,} still closed" if holes else f"{closed:,} closed")
     return "; ".join(said)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, BinaryIO, Literal
@@ -14,6 +15,7 @@ from infill.cli.console import is_typed, log_said, print_json, progress_bar, say
 
 if TYPE_CHECKING:
     from infill.filling.solids.settings import FillSettings
+    from infill.pictures.sections import Cut
     from infill.report_keys import FillReport
     from infill.result import Result
 
@@ -40,7 +42,17 @@ def fill(
     preview: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE", help="Picture to write, cut open through the middle: a .png.", rich_help_panel=FILES
+            metavar="FILE",
+            help="Picture to write, cut open where that shows most of the infill: a .png.",
+            rich_help_panel=FILES,
+        ),
+    ] = None,
+    cut: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="x|y|z=MM",
+            help="Where --preview cuts the part open, such as z=10; may be given again.",
+            rich_help_panel=FILES,
         ),
     ] = None,
     config: Annotated[
@@ -190,7 +202,24 @@ def fill(
         float | None,
         typer.Option(
             metavar="MM",
-            help="Diameter of a hole down from the lowest place of every void, for powder and resin. (default: none)",
+            help="Diameter of a hole down from the lowest place of every void, for powder and resin; it keeps the wall "
+            "from all sides. (default: none)",
+            rich_help_panel=SOLID,
+        ),
+    ] = None,
+    vent: Annotated[
+        bool,
+        typer.Option(
+            "--vent",
+            help="With --drain, also a hole up from the highest place of every void, for air.",
+            rich_help_panel=SOLID,
+        ),
+    ] = False,
+    drain_at: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="X,Y,Z",
+            help="With --drain, a place on the skin for a hole straight in, mm; may be given again.",
             rich_help_panel=SOLID,
         ),
     ] = None,
@@ -314,6 +343,8 @@ def fill(
         "phase": phase,
         "seed": seed,
         "drain": drain,
+        "vent": vent,
+        "drain_at": drain_at,
         "open": open_,
         "smooth_radius": smooth_radius,
         "overlap": overlap,
@@ -333,6 +364,7 @@ def fill(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
+    cuts = _cuts(cut or [], drawn=preview is not None and not dry_run)
     limit = None if max_memory is None else parse_bytes(max_memory)
     saved: dict[Path, Callable[[BinaryIO], object]] = {}
     if save_config is not None:
@@ -353,6 +385,10 @@ def fill(
             progress("read", 0.0)
         with log_said(shown=not quiet):
             given: Any = read_source(part, kind="mesh", units=settings.units)
+            if cuts:
+                from infill.pictures.sections import check_cuts
+
+                check_cuts(cuts, given.bounds)
             if dry_run:
                 show_plan(planned_fill(given, settings.request, threads=threads), str(part), as_json=as_json)
                 return
@@ -363,12 +399,25 @@ def fill(
             path: partial(write, result, part.stem) for path, write in writers.items()
         }
         if preview is not None:
-            parts[preview] = result.write_picture
+            shown = replace(result, stages=replace(result.stages, cuts=cuts))
+            parts[preview] = shown.write_picture
         files = deliver_all({**parts, **saved})
     if not quiet:
         say(summary(result.report, files, str(part), verbose=verbose))
     if as_json:
         print_json({**result.report, "files": files})
+
+
+def _cuts(given: list[str], *, drawn: bool) -> tuple[Cut, ...]:
+    """Return where a preview is cut open, or raise UsageError."""
+    if not given:
+        return ()
+    from infill.pictures.sections import parse_cut
+
+    cuts = tuple(parse_cut(each) for each in given)
+    if not drawn:
+        raise typer.BadParameter("--cut says where a preview is cut open; give --preview FILE.png too, or leave it out")
+    return cuts
 
 
 def _writer(

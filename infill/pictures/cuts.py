@@ -1,10 +1,10 @@
-"""A solid cut open through its middle, from the front and from above."""
+"""A solid cut open where that shows its inside, from the front and from above."""
 
 from __future__ import annotations
 
 import io
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, render
+from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, sheet
 from infill.surface import Surface
 from infill.surfaces.solids import FINE, solid_of, status_of, surface_from
@@ -21,10 +22,14 @@ BEHIND: Colour = (196, 200, 206)
 ABOVE = math.radians(55)  # the elevation from which a level cut is looked at
 THUMBNAIL = 256  # pixels
 ON = 1e-6  # of the size: what lies this near the plane of a cut was cut
-AXES = "xyz"
+BEYOND = (-1.0, 1.0, -1.0)  # which side of a cut across x, y and z is shown
+# From where each is looked at: azimuth and elevation.
+EYES = ((AZIMUTH + math.pi / 2, ELEVATION), (AZIMUTH, ELEVATION), (AZIMUTH, ABOVE))
 
 
-def cuts(surface: Surface, report: Mapping[str, Any]) -> Image.Image:
+def cuts(
+    surface: Surface, report: Mapping[str, Any], *, part: Surface | None = None, given: Sequence[Cut] = ()
+) -> Image.Image:
     """Return a closed surface without its front half, and without its upper half.
 
     Parameters
@@ -32,11 +37,12 @@ def cuts(surface: Surface, report: Mapping[str, Any]) -> Image.Image:
     surface : Surface, mm
     report : mapping
         See docs/report.md.
+    part : Surface, optional
+        The same without its voids.
+    given : sequence of Cut
+        Where it is cut; by default, or for an upright or a level cut that is missing, where its inside is seen best.
     """
-    panels = {}
-    for axis, elevation in ((1, ELEVATION), (2, ABOVE)):
-        middle = float(surface.bounds[:, axis].mean())
-        panels[f"cut at {AXES[axis]} = {middle:.4g} mm"] = _half(surface, axis, middle, elevation)
+    panels = {f"cut at {cut}": _half(surface, cut) for cut in choose_cuts(surface, part, given)}
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     request, voids = report["request"], report["voids"]
     facts = f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of {request['wall']:g} mm"
@@ -45,29 +51,29 @@ def cuts(surface: Surface, report: Mapping[str, Any]) -> Image.Image:
 
 def thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
     """Return a small PNG of a closed surface without its front half."""
-    middle = float(surface.bounds[:, 1].mean())
     with io.BytesIO() as file:
-        _half(surface, 1, middle, ELEVATION, side).save(file, format="PNG")
+        _half(surface, choose_cuts(surface)[0], side).save(file, format="PNG")
         return file.getvalue()
 
 
-def _half(surface: Surface, axis: int, middle: float, elevation: float, side: int = PANEL) -> Image.Image:
-    """Return what lies behind, or below, the middle."""
-    solid = solid_of(surface)
+def _half(surface: Surface, cut: Cut, side: int = PANEL) -> Image.Image:
+    """Return what lies behind, or below, a cut."""
+    solid, axis = solid_of(surface), cut.axis
     if status_of(solid) == FINE:
         normal = [0.0, 0.0, 0.0]
-        normal[axis] = 1.0 if axis == 1 else -1.0
-        surface = surface_from(solid.trim_by_plane(normal, normal[axis] * middle))
+        normal[axis] = BEYOND[axis]
+        surface = surface_from(solid.trim_by_plane(normal, normal[axis] * cut.at))
     near = ON * float(np.ptp(surface.bounds, axis=0).max())
 
     def paint(points: Floats) -> NDArray[np.number]:
-        return np.where((np.abs(points[:, axis] - middle) < near)[:, None], np.array(CUT), np.array(BEHIND))
+        return np.where((np.abs(points[:, axis] - cut.at) < near)[:, None], np.array(CUT), np.array(BEHIND))
 
+    azimuth, elevation = EYES[axis]
     pixels = render(
         surface,
         width=side,
         height=side,
-        azimuth=AZIMUTH,
+        azimuth=azimuth,
         elevation=elevation,
         background=BACKGROUND,
         paint=paint,

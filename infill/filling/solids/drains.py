@@ -1,112 +1,253 @@
-"""Drains: a round hole down from the lowest place of every void, so that powder and resin leave it."""
+"""Drains: round holes by which powder and resin leave the voids of a part, each with walls around it.
+
+    lowest place of every void, straight down  ->  branches for the others  ->  vents  ->  holes taken out of the solid
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.errors import GeometryError
+from infill.filling.solids.drain_places import Needs
+from infill.filling.solids.drain_plan import DrainPlan, Hole, Undrained, plan_drains
+from infill.filling.solids.hollow import Hollow
+from infill.filling.solids.request import Request
 from infill.surface import Surface
 from infill.surfaces.components import shell_names
-from infill.surfaces.shells import shell_volumes
-from infill.surfaces.solids import FINE, solid_of, status_of, surface_from
+from infill.surfaces.shells import shell_volumes, with_faces
+from infill.surfaces.solids import FINE, in_one_place, solid_of, status_of, surface_from
+
+if TYPE_CHECKING:
+    import manifold3d
 
 SIDES = 32
-LOW = 0.25  # of the diameter: what lies this little above the lowest point of a void is its bottom
-UP, DOWN = 0.5, 1.0  # diameters by which a drain reaches into the void, and out of the skin
+TURNS = (0.0, 0.037, 0.071, 0.113)  # radians: holes are turned so that no two vertices are in one place; tried in turn
+NOWHERE = DrainPlan(holes=())
 
 Floats = NDArray[np.float64]
 
 
-def bottoms(voids: Surface, diameter: float) -> Floats:
-    """Return the middle of the bottom of every void, (N, 3) mm, at the height of its lowest point.
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Drained:
+    """A solid with its drains.
 
     Parameters
     ----------
-    voids : Surface, mm
-    diameter : float
-        Of a drain, mm: what lies further than this from the lowest point belongs to another hollow.
-
-    >>> import trimesh
-    >>> ball = trimesh.creation.icosphere(radius=2)
-    >>> bottoms(Surface(vertices=ball.vertices + 5.0, faces=ball.faces), 1.0).round(3).tolist()
-    [[5.0, 5.0, 3.0]]
+    solid : Surface, mm
+    plan : DrainPlan
+        The holes that it has, and the voids that have none.
+    pieces : int
+        Pieces of infill that hung on nothing else than what was drilled away, which are left out.
+    failed : bool
+        Whether manifold3d rejects the mesh, so that it has no holes.
     """
-    names, count = shell_names(voids)
-    vertices = np.asarray(voids.vertices, dtype=np.float64)
-    order = np.argsort(names, kind="stable")
-    ends = np.searchsorted(names[order], np.arange(count + 1))
-    found = np.empty((count, 3))
-    for shell in range(count):
-        own = vertices[order[ends[shell] : ends[shell + 1]]]
-        lowest = own[np.argmin(own[:, 2])]
-        near = (own[:, 2] < lowest[2] + LOW * diameter) & (np.linalg.norm(own[:, :2] - lowest[:2], axis=1) < diameter)
-        found[shell] = (*own[near, :2].mean(axis=0), lowest[2])
-    return found
+
+    solid: Surface
+    plan: DrainPlan = NOWHERE
+    pieces: int = 0
+    failed: bool = False
+
+    @property
+    def outlets(self) -> list[Hole]:
+        """The holes that leave the part."""
+        return [hole for hole in self.plan.holes if hole.kind != "branch"]
+
+    def facts(self) -> dict[str, Any]:
+        """Return what the report says of the drains."""
+        return {
+            "count": len(self.outlets),
+            "at": [hole.at.tolist() for hole in self.outlets],
+            "holes": [
+                {
+                    "kind": hole.kind,
+                    "at": hole.at.tolist(),
+                    "to": hole.to.tolist(),
+                    "diameter": hole.diameter,
+                    "void": hole.void,
+                    "into": hole.into,
+                    "wall": hole.clearance if np.isfinite(hole.clearance) else None,
+                    "above": hole.above,
+                }
+                for hole in self.plan.holes
+            ],
+            "undrained": [_left(each) for each in self.plan.undrained],
+            "unvented": [_left(each) for each in self.plan.unvented],
+        }
 
 
-def falls(part: Surface, points: Floats) -> Floats:
-    """Return the height at which each of some points (N, 3) inside a part leaves it, straight down: (N,) mm; or nan."""
-    corners = np.asarray(part.vertices, dtype=np.float64)[part.faces]
-    low, high = corners.min(axis=1), corners.max(axis=1)
-    found = np.full(len(points), np.nan)
-    for number, point in enumerate(points):
-        over = (low[:, :2] <= point[:2]).all(axis=1) & (high[:, :2] >= point[:2]).all(axis=1) & (low[:, 2] < point[2])
-        heights = [height for height in _heights(corners[over], point[:2]) if height < point[2]]
-        found[number] = max(heights, default=math.nan)
-    return found
+def _left(each: Undrained) -> dict[str, Any]:
+    return {"void": each.void, "volume": each.volume, "at": each.at.tolist(), "fits": each.fits}
 
 
-def _heights(triangles: Floats, at: Floats) -> Iterator[float]:
-    """Yield the heights at which a vertical line passes through triangles (N, 3, 3)."""
-    a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-    doubled = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    for one, two, three, area in zip(a, b, c, doubled, strict=True):
-        if area == 0:
-            continue
-        shares = [
-            ((q[0] - at[0]) * (r[1] - at[1]) - (q[1] - at[1]) * (r[0] - at[0])) / area
-            for q, r in ((two, three), (three, one), (one, two))
-        ]
-        if min(shares) >= 0:
-            yield float(shares[0] * one[2] + shares[1] * two[2] + shares[2] * three[2])
+def check_width(request: Request, bounds: NDArray[np.floating]) -> None:
+    """Raise an error if drains are too wide for any place of a part.
+
+    Raises
+    ------
+    GeometryError
+    """
+    if request.drain is None or request.drain_at:
+        return
+    width = float(np.ptp(np.asarray(bounds, dtype=np.float64), axis=0)[:2].min())
+    most = width - 2 * request.wall
+    if request.drain > most:
+        given = f"drain is {request.drain:g} mm, and the part is {width:.4g} mm wide"
+        if most <= 0:
+            raise GeometryError(f"{given}, no more than two walls of {request.wall:g} mm; leave drain out")
+        raise GeometryError(f"{given}: with walls of {request.wall:g} mm, give less than {most:.3g}")
 
 
-def drained(solid: Surface, part: Surface, voids: Surface, diameter: float) -> tuple[Surface, Floats]:
-    """Return a solid with a drain for every void, and where these leave it, (N, 3) mm.
+def drain(solid: Surface, hollow: Hollow, request: Request, *, threads: int | None = None) -> Drained:
+    """Drill the drains that were asked for.
 
     Parameters
     ----------
     solid : Surface, mm
         The part without its voids.
-    part, voids : Surface, mm
-    diameter : float
-        mm
+    hollow : Hollow
+    request : Request
+    threads : int, optional
 
-    Returns
-    -------
-    Surface
-        As it was, if manifold3d does not take it.
+    Raises
+    ------
+    GeometryError
+        If there cannot be a drain at a place that was asked for.
     """
+    if request.drain is None or not hollow.surfaces:
+        return Drained(solid=solid)
+    space = hollow.space
+    needs = Needs(diameter=request.drain, wall=request.wall, cell=hollow.cell, threads=threads)
+    plan = plan_drains(
+        space.part, hollow.surface, needs, vent=request.vent, places=request.drain_at, opening=space.opening
+    )
+    if not plan.holes:
+        return Drained(solid=solid, plan=plan)
+    found = _drilled(solid, plan.holes)
+    if found is None:
+        return Drained(solid=solid, plan=NOWHERE, failed=True)
+    whole, pieces = _without_loose(found, solid)
+    return Drained(solid=whole, plan=plan, pieces=pieces)
+
+
+def _drilled(solid: Surface, holes: tuple[Hole, ...]) -> Surface | None:
+    """Return a solid without holes, or None if manifold3d rejects it."""
     import manifold3d
 
-    from_, whole = bottoms(voids, diameter), solid_of(solid)
-    floor = falls(part, from_)
-    found = np.isfinite(floor)
-    from_, floor = from_[found], floor[found]
-    if status_of(whole) != FINE or not len(from_):
-        return solid, np.empty((0, 3))
-    round_ = manifold3d.CrossSection.circle(diameter / 2, SIDES)
-    holes = [
-        round_.extrude(top + UP * diameter - (bottom - DOWN * diameter)).translate((x, y, bottom - DOWN * diameter))
-        for (x, y, top), bottom in zip(from_.tolist(), floor.tolist(), strict=True)
-    ]
-    open_ = whole - manifold3d.Manifold.batch_boolean(holes, manifold3d.OpType.Add)
-    if status_of(open_) != FINE:
-        return solid, np.empty((0, 3))
-    return surface_from(open_), np.column_stack([from_[:, :2], floor])
+    whole, best = solid_of(solid), None
+    if status_of(whole) != FINE:
+        return None
+    for turn in TURNS:
+        tools = [_tool(hole, turn) for hole in holes]
+        cut = whole - manifold3d.Manifold.batch_boolean(tools, manifold3d.OpType.Add)
+        if status_of(cut) != FINE or cut.is_empty():
+            continue
+        found = surface_from(cut)
+        twins = int(in_one_place(found).sum())
+        if best is None or twins < best[0]:
+            best = twins, found
+        if found.closed and not twins:
+            break
+    return None if best is None else best[1]
+
+
+def _tool(hole: Hole, turn: float) -> manifold3d.Manifold:
+    """Return what a hole takes away: a cylinder, or for a branch a cylinder with round ends."""
+    import manifold3d
+
+    radius = hole.diameter / 2
+    if hole.kind == "branch":
+        ball = manifold3d.Manifold.sphere(radius, SIDES).rotate((0.0, 0.0, float(np.degrees(turn))))
+        return manifold3d.Manifold.batch_hull([ball.translate(tuple(end)) for end in (hole.at, hole.to)])
+    start, end = hole.to, hole.at + hole.out * hole.way
+    height = float(np.linalg.norm(end - start))
+    beside = np.eye(3)[int(np.argmin(np.abs(hole.way)))]
+    one = np.cross(hole.way, beside)
+    one /= np.linalg.norm(one)
+    axes = np.column_stack([one, np.cross(hole.way, one), hole.way, start])
+    round_ = manifold3d.CrossSection.circle(radius, SIDES).rotate(float(np.degrees(turn)))
+    return round_.extrude(height).transform(axes)
+
+
+def _without_loose(found: Surface, solid: Surface) -> tuple[Surface, int]:
+    """Return a solid without the pieces that drilling cut off: those that have no vertex of the solid's outer shells."""
+    names, count = shell_names(found)
+    volume = shell_volumes(found, names, count)
+    own, shells = shell_names(solid)
+    if int((volume > 0).sum()) <= (outer := int((shell_volumes(solid, own, shells) > 0).sum())):
+        return found, 0
+    loose = np.argsort(-volume, kind="stable")[outer : int((volume > 0).sum())]
+    return with_faces(found, ~np.isin(names[found.faces[:, 0]], loose)), len(loose)
+
+
+def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float, list[float]]]) -> Iterator[str]:
+    """Say which voids are still closed, and which drains do not do what they should.
+
+    Parameters
+    ----------
+    request : Request
+    drained : Drained
+    closed : list of (float, list of float)
+        Voids of the finished mesh that are closed: volume, mm³, and lowest point of each.
+    """
+    if request.drain is None:
+        return
+    if drained.failed:
+        yield "manifold3d rejects the mesh, so no drain was made; make a solid of the part first: 'infill smooth' does"
+    left = drained.plan.undrained
+    if closed:
+        volume, at = closed[0]
+        said = f"{len(closed)} void(s) are still closed"
+        if left:
+            first = left[0]
+            volume, at = first.volume, first.at.tolist()
+        said += f", the largest, of {volume:.3g} mm³, with its lowest place at ({_words(at)})"
+        if left and left[0].blocked:
+            said += (
+                f": below it lie other voids or faces too steep for a hole, and no wall beside it is thin enough for a "
+                f"branch of {request.drain:g} mm; give thinner drains, turn the part, or choose a pattern of bars"
+            )
+        elif left:
+            fits = left[0].fits
+            said += (
+                f": straight down from it, a hole of {request.drain:g} mm leaves less than a wall of {request.wall:g} "
+                f"mm; give {'thinner drains' if fits is None else f'drains of at most {fits:g} mm'}, or turn the part"
+            )
+        yield said
+    if drained.plan.unvented:
+        first = drained.plan.unvented[0]
+        fits = first.fits
+        yield (
+            f"{len(drained.plan.unvented)} void(s) have no vent, the largest, of {first.volume:.3g} mm³, with its "
+            f"highest place at ({_words(first.at.tolist())}): there is no way for a hole of {request.drain:g} mm up "
+            f"from it; give {'thinner drains' if fits is None else f'drains of at most {fits:g} mm'}, or turn the part"
+        )
+    narrow = [hole for hole in drained.plan.holes if hole.diameter < request.drain]
+    large = [hole for hole in narrow if drained.plan.volumes[hole.void] > math.pi / 6 * request.drain**3]
+    if large:
+        worst = min(large, key=lambda hole: hole.void)
+        yield (
+            f"{len(large)} void(s) drain through branches narrower than {request.drain:g} mm, the largest, of "
+            f"{drained.plan.volumes[worst.void]:.3g} mm³, through one of {worst.diameter:g} mm at "
+            f"({_words(worst.at.tolist())}); give thinner drains, or turn the part"
+        )
+    high = [hole for hole in drained.plan.holes if hole.kind == "drain" and hole.above > request.drain]
+    if high:
+        worst = max(high, key=lambda hole: hole.above)
+        yield (
+            f"{len(high)} drain(s) begin more than {request.drain:g} mm above the lowest place of their void, at most "
+            f"{worst.above:.3g} mm, at ({_words(worst.at.tolist())}): what lies below does not run out; give thinner "
+            "drains, or turn the part"
+        )
+
+
+def _words(place: list[float]) -> str:
+    return ", ".join(f"{each:.4g}" for each in place)
 
 
 def trapped(solid: Surface) -> list[tuple[float, list[float]]]:

@@ -9,13 +9,12 @@ inside of it and apart from one another.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.drains import drained
+from infill.filling.solids.drains import Drained, check_width, drain
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import hollowed
 from infill.filling.solids.inside import SHARE, inner_side
@@ -57,6 +56,8 @@ def fill(
     angle: float = 0.0,
     phase: tuple[float, ...] = (0.0, 0.0, 0.0),
     drain: float | None = None,
+    vent: bool = False,
+    drain_at: Sequence[Sequence[float]] = (),
     open_: str | None = None,
     smooth_radius: float | None = None,
     overlap: float | None = None,
@@ -109,8 +110,13 @@ def fill(
     phase : (x, y) or (x, y, z)
         Shifts the pattern, mm. In a project that has none, a pattern of which slicers would print little is shifted.
     drain : float, optional
-        Diameter of a hole straight down from the lowest place of every void, mm; by default there is none.
-        Voids that are open need none.
+        Diameter of a hole straight down from the lowest place of every void, mm; by default there is none. It keeps a
+        wall from all skin besides the face that it leaves through: for that it moves inwards, or the void is joined to
+        one that is drained. Voids that are open need none.
+    vent : bool
+        Whether every void also gets such a hole straight up from its highest place, so that air comes in.
+    drain_at : sequence of (x, y, z), mm
+        Places on the skin where holes are to be, straight in; the voids that these reach need no other drain.
     open_ : {"top", "bottom", "both"}, optional
         Where the shell is left out: the voids go through the flat side at the very top or bottom of the part, or both.
     smooth_radius : float, optional
@@ -140,8 +146,8 @@ def fill(
     ParameterError, patterns.PatternError
         If a number is out of range, or there is no such pattern.
     GeometryError
-        If the part encloses nothing, has no room inside its walls, has no flat side to be open at, or cannot be filled
-        to this density.
+        If the part encloses nothing, has no room inside its walls, has no flat side to be open at, cannot be filled to
+        this density, or is too narrow for the drains, or there cannot be one at a place that was asked for.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -171,6 +177,8 @@ def fill(
         align=align,
         form=as_,
         drain=drain,
+        vent=vent,
+        drain_at=drain_at,
         open_=open_,
         smooth_radius=smooth_radius,
         tolerance=tolerance,
@@ -190,6 +198,7 @@ def filled(
     progress: Progress | None = None,
 ) -> Result[FillStages, FillReport]:
     """Return a part that is filled as a request says: see `fill`."""
+    check_width(request, given.bounds)
     clock, request = Clock(progress), on_grid_of(request, given.bounds)
     project = None
     if request.form == "project":
@@ -225,11 +234,12 @@ def _result(
         else:
             solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
-    drains = np.empty((0, 3))
-    if request.drain is not None and len(hollow.shut.faces):
-        solid, drains = drained(solid, space.part, hollow.shut, request.drain)
-    solid = with_measures(solid, threads=threads)
-    facts = measured(solid, outer, hollow, pattern, request, threads=threads)
+    drained = Drained(solid=solid)
+    if request.drain is not None:
+        drained = drain(solid, hollow, request, threads=threads)
+        hollow = replace(hollow, islands=hollow.islands + drained.pieces)
+    solid = with_measures(drained.solid, threads=threads)
+    facts = measured(solid, outer, hollow, pattern, request, drained, threads=threads)
     narrow = None if project is None else project.narrow
     bounds = solid.bounds
     report = {
@@ -243,7 +253,7 @@ def _result(
         "bounds": bounds.tolist(),
         "volume": solid.volume,
         "density": hollow.density,
-        "problems": list(problems(request, hollow, facts, narrow)),
+        "problems": list(problems(request, hollow, facts, drained, narrow)),
         "request": request.facts(),
         "grid": {
             "shape": list(space.shape),
@@ -286,7 +296,7 @@ def _result(
             "islands": hollow.islands,
             "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],
         },
-        "drains": {"count": len(drains), "at": drains.tolist()},
+        "drains": drained.facts(),
         "walls": {"requested": request.wall, "least": facts.least, "at": facts.at},
     }
     return solid, report, hollow

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
+import numpy as np
+
 from infill.checks import length, positive, whole, within
 from infill.errors import GeometryError, UsageError
 from infill.filling.solids.fields import field_of
@@ -56,6 +58,10 @@ class Request:
         mm
     drain : float or None
         Diameter of a hole for each void, mm.
+    vent : bool
+        Whether every void also has a hole up from its highest place.
+    drain_at : tuple of (x, y, z)
+        Places of holes on the skin, mm.
     open_ : {"top", "bottom", "both"} or None
         Sides of the part without a wall.
     smooth_radius : float or None
@@ -93,6 +99,8 @@ class Request:
     max_triangles: int | None
     grading: Grading | None = None
     open_: Open | None = None
+    vent: bool = False
+    drain_at: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def beyond(self) -> float:
@@ -197,6 +205,8 @@ class Request:
             "form": self.form,
             "overlap": self.overlap,
             "drain": self.drain,
+            "vent": self.vent,
+            "drain_at": [list(each) for each in self.drain_at],
             "open": self.open_,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
@@ -238,6 +248,8 @@ def checked(
     max_triangles: int | None,
     open_: str | None = None,
     grade: str | None = None,
+    vent: bool = False,
+    drain_at: Sequence[Sequence[float]] = (),
 ) -> Request:
     """Return a request whose numbers are in range, with what follows from others left open."""
     if density is not None and cell is not None and line_width is not None:
@@ -250,6 +262,10 @@ def checked(
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
     if drain is not None and form != "solid":
         raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
+    places = tuple(_place(each) for each in drain_at)
+    for name, value in (("vent", vent), ("drain_at", bool(places))):
+        if value and drain is None:
+            raise UsageError(f"{name} is given, and drain is missing; give drain too, the diameter of the holes in mm")
     if open_ is not None and open_ not in get_args(Open):
         raise UsageError(f"open is {open_!r}; choose from {', '.join(get_args(Open))}")
     if open_ is not None and form == "project":
@@ -305,7 +321,17 @@ def checked(
         max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
         grading=grading,
         open_=open_,  # type: ignore[arg-type]
+        vent=vent,
+        drain_at=places,
     )
+
+
+def _place(given: Sequence[float]) -> tuple[float, float, float]:
+    """Return a place where a drain is to be, checked."""
+    if isinstance(given, (str, bytes)) or not isinstance(given, (Sequence, np.ndarray)) or len(given) != 3:
+        raise UsageError(f"drain_at has a place {given!r}; give three numbers x, y, z in mm for each")
+    x, y, z = (within("drain_at", each, -FURTHEST, FURTHEST, "mm") for each in given)
+    return x, y, z
 
 
 def _cells_that_follow(kind: Kind, name: str, align: str) -> None:

@@ -22,7 +22,16 @@ from infill.errors import UsageError
 from infill.filling.solids.choosing import own_parameters, seeded
 from infill.filling.solids.request import TOLERANCE, Request, checked
 from infill.formats.assignments import table_of
-from infill.formats.options import Reader, parse_number, parse_numbers, parse_share, parse_whole, parse_word, parsed
+from infill.formats.options import (
+    Reader,
+    parse_flag,
+    parse_number,
+    parse_numbers,
+    parse_share,
+    parse_whole,
+    parse_word,
+    parsed,
+)
 from infill.formats.toml import options_text, read_toml
 from infill.formats.trust import check_trusted
 
@@ -131,6 +140,17 @@ def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
     return found if len(found) > 1 else found[0]
 
 
+def parse_places(name: str, value: object) -> tuple[tuple[float, ...], ...]:
+    """Return places x, y, z, of which there may be one alone, or raise UsageError.
+
+    >>> parse_places("drain_at", ["1,2,3", "4, 5, 6"]), parse_places("drain_at", [7, 8, 9])
+    (((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), ((7.0, 8.0, 9.0),))
+    """
+    several = isinstance(value, (list, tuple)) and all(isinstance(each, (list, tuple, str)) for each in value)
+    places = value if several and isinstance(value, (list, tuple)) else [value]
+    return tuple(parse_numbers(name, each, (3,)) for each in places)
+
+
 DEFAULTS: dict[str, Any] = {
     "density": None,
     "by": None,
@@ -142,6 +162,8 @@ DEFAULTS: dict[str, Any] = {
     "angle": 0.0,
     "phase": (0.0, 0.0, 0.0),
     "drain": None,
+    "vent": False,
+    "drain_at": (),
     "smooth_radius": None,
     "overlap": None,
     "tolerance": TOLERANCE,
@@ -166,6 +188,8 @@ READERS: Mapping[str, Reader] = {
     "phase": partial(parse_numbers, counts=(2, 3)),
     "seed": parse_whole,
     "drain": parse_number,
+    "vent": parse_flag,
+    "drain_at": parse_places,
     "open": parse_word,
     "smooth_radius": parse_number,
     "overlap": parse_number,

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
     from infill.filling.solids.opening import Opening
+    from infill.pictures.sections import Cut
     from infill.surface import Surface
 
 
@@ -27,15 +28,18 @@ class FillStages:
         What was made.
     opening : Opening or None
         Where the part has no shell.
+    cuts : tuple of Cut
+        Where a picture is cut open; where its inside is seen best by default.
     """
 
     part: Surface
     voids: Surface
     shown: Surface
     opening: Opening | None = None
+    cuts: tuple[Cut, ...] = ()
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
-        """Return cuts through the middle: in a project, of the infill, as the part is whole."""
+        """Return cuts that show the inside: in a project, of the infill, as the part is whole."""
         from infill.pictures.cuts import cuts
 
-        return cuts(self.shown, report)
+        return cuts(self.shown, report, part=self.part, given=self.cuts)

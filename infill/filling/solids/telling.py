@@ -9,7 +9,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.filling.solids.drains import trapped
+from infill.filling.solids.drains import Drained, told_of_drains, trapped
 from infill.filling.solids.hollow import Hollow
 from infill.filling.solids.hollowing import even, share_of_cells, wanted
 from infill.filling.solids.local_density import densities_by_share
@@ -137,9 +137,16 @@ class Measured:
 
 
 def measured(
-    solid: Surface, outer: Surface, hollow: Hollow, voids: Voids, request: Request, *, threads: int | None
+    solid: Surface,
+    outer: Surface,
+    hollow: Hollow,
+    voids: Voids,
+    request: Request,
+    drained: Drained,
+    *,
+    threads: int | None,
 ) -> Measured:
-    """Return what is measured on a solid with an outer surface and voids."""
+    """Return what is measured on a solid with an outer surface, voids and drains."""
     least: float | None = None
     at: list[float] | None = None
     astray, crowded = 0, int(in_one_place(solid).sum())
@@ -147,6 +154,9 @@ def measured(
         part, opening = hollow.space.part, hollow.space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
         least, at = least_wall(part, hollow.surfaces, threads, opening)
+        for hole in drained.plan.holes:
+            if hole.clearance < least:
+                least, at = hole.clearance, hole.near.tolist()
         astray = outside(part, hollow.surfaces, threads, middle)
         crowded -= int(in_one_place(outer).sum())
     return Measured(
@@ -194,7 +204,9 @@ def near(width: float, asked: float) -> bool:
     return abs(width / asked - 1) <= OFF_WIDTH
 
 
-def problems(request: Request, hollow: Hollow, facts: Measured, lost: Narrow | None = None) -> Iterator[str]:
+def problems(
+    request: Request, hollow: Hollow, facts: Measured, drained: Drained, lost: Narrow | None = None
+) -> Iterator[str]:
     """Say what is not as it was asked for, and what was done to the part."""
     overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
     if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
@@ -257,8 +269,7 @@ def problems(request: Request, hollow: Hollow, facts: Measured, lost: Narrow | N
         yield "the part has edges with more than two faces, and so has the result"
     if overlap > LEAST_OVERLAP:
         yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
-    if request.drain is not None and facts.closed:
-        yield f"{len(facts.closed)} void(s) are still closed; give larger or smaller drains, or turn the part"
+    yield from told_of_drains(request, drained, facts.closed)
     if facts.crowded:
         yield f"{facts.crowded} vertices are in one place in single precision: an STL of it is not closed"
     if facts.verdict != FINE:

@@ -1,0 +1,251 @@
+"""Where every void is drained: the lowest place from which a hole straight down keeps the wall from all other skin."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.filling.solids.drain_clearance import Shaft, Skin
+from infill.filling.solids.drain_columns import Lattice, Ways, find_ways
+from infill.surface import Surface
+
+ACROSS, IN_A_CELL = 6, 10  # lines in the diameter of a drain, and in a cell of the pattern
+MOST_LINES = 250_000
+ASIDE = 0.377, 0.291  # of a step: so far lines stand from round numbers, where edges of parts are
+UP = 0.5, 0.15  # diameters by which a drain reaches into the void; the second where there is no room for the first
+CENTRED = 0.5  # mm higher that a drain may begin for each mm that it cuts into the walls around its void
+AT_ONCE = 64  # places that are measured together
+BEST, MOST = 300, 1500  # places of a void that are tried: all of the best, and some of the others
+TRIES = 60  # holes that are measured well, for each void
+MOUTHS = 8  # faces, of which the other skin is put in order ahead
+TURN_OVER = np.diag([1.0, -1.0, -1.0])  # about x: what was above is below
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Needs:
+    """What a drain needs.
+
+    Parameters
+    ----------
+    diameter, wall : float, mm
+    cell : float
+        Of the pattern, mm.
+    closed_at : float or None
+        Height of a side of the part that is open already, through which no drain leaves, mm.
+    threads : int or None
+    """
+
+    diameter: float
+    wall: float
+    cell: float
+    closed_at: float | None = None
+    threads: int | None = None
+
+    @property
+    def radius(self) -> float:
+        """Of a drain, mm."""
+        return self.diameter / 2
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Below:
+    """A part and its voids, turned so that drains go straight down.
+
+    Parameters
+    ----------
+    part, voids : Surface, mm
+    names : (V,) int
+        The void of every vertex of the voids.
+    count : int
+        Of voids.
+    turned : (3, 3) float64
+        Takes a place of the part as it was given to where it is here.
+    """
+
+    part: Surface
+    voids: Surface
+    names: NDArray[np.integer]
+    count: int
+    turned: Floats
+    skin: Skin = field(repr=False)
+
+    @classmethod
+    def of(cls, part: Surface, voids: Surface, names: NDArray[np.integer], count: int, turned: Floats) -> Below:
+        """Return a part and voids, turned."""
+        whole, hollow = _turned(part, turned), _turned(voids, turned)
+        return cls(part=whole, voids=hollow, names=names, count=count, turned=turned, skin=Skin(part=whole))
+
+    def back(self, points: Floats) -> Floats:
+        """Return where points (..., 3) are in the part as it was given."""
+        found: Floats = points @ self.turned
+        return found
+
+    def lattice(self, needs: Needs) -> Lattice:
+        """Return lines through all of the part, close enough for drains and cells."""
+        low, high = (np.asarray(each, dtype=np.float64)[:2] for each in self.part.bounds)
+        sides = high - low
+        step = min(needs.diameter / ACROSS, needs.cell / IN_A_CELL)
+        step = max(step, math.sqrt(float(sides.prod()) / MOST_LINES))
+        nx, ny = (np.ceil(sides / step).astype(int) + 1).tolist()
+        return Lattice(low=low + step * (np.array(ASIDE) - 1), step=step, shape=(nx + 1, ny + 1))
+
+    def lowest(self) -> Floats:
+        """Return the height of the lowest place of every void, (N,) mm."""
+        found = np.full(self.count, np.inf)
+        used = self.names >= 0
+        np.minimum.at(found, self.names[used], np.asarray(self.voids.vertices, dtype=np.float64)[used, 2])
+        return found
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Places:
+    """Places at which voids may be drained.
+
+    Parameters
+    ----------
+    below : Below
+    needs : Needs
+    ways : Ways
+    order : list of (N,) int64
+        Of every void, its ways, the best first.
+    lowest : (V,) float64
+        mm
+    """
+
+    below: Below
+    needs: Needs
+    ways: Ways
+    order: list[Integers]
+    lowest: Floats
+
+    @classmethod
+    def of(cls, below: Below, needs: Needs) -> Places:
+        """Find the places from which a line straight down leaves the part through solid alone."""
+        lattice = below.lattice(needs)
+        ways = find_ways(below.part, below.voids, below.names, lattice)
+        lowest = below.lowest()
+        free = below.skin.leaving[ways.face]
+        if needs.closed_at is not None:
+            level = 1e-5 * float(np.ptp(below.part.bounds, axis=0).max())
+            free &= np.abs(ways.skin - needs.closed_at) > level
+        room = _room(ways, lattice, needs.radius)
+        cost = ways.floor - lowest[ways.void] + CENTRED * np.clip(needs.radius - room, 0, None)
+        kept = np.flatnonzero(free)
+        kept = kept[np.lexsort((cost[kept], ways.void[kept]))]
+        ends = np.searchsorted(ways.void[kept], np.arange(below.count + 1))
+        order = [kept[begin:end] for begin, end in zip(ends[:-1], ends[1:], strict=True)]
+        _order_skin(below.skin, ways.face[kept])
+        return cls(below=below, needs=needs, ways=ways, order=[_some(each) for each in order], lowest=lowest)
+
+    def shaft(self, void: int, taken: Floats | None) -> Shaft | None:
+        """Return the best hole for a void that keeps the wall from other skin, or None.
+
+        Parameters
+        ----------
+        void : int
+        taken : (N, 2) float64, mm
+            Where there are holes, from which it also keeps a wall; None if that is not asked for.
+        """
+        needs, mine = self.needs, self.order[void]
+        if taken is not None and len(taken) and len(mine):
+            apart = np.linalg.norm(self.ways.at[mine][:, None] - taken, axis=2).min(axis=1)
+            mine = mine[apart >= needs.diameter + needs.wall]
+        for up in UP:
+            tries = 0
+            for way, high in self._passing(mine, up):
+                shaft = self.below.skin.shaft(
+                    self.ways.at[way],
+                    int(self.ways.face[way]),
+                    float(self.ways.skin[way]),
+                    float(self.ways.floor[way]),
+                    high,
+                    radius=needs.radius,
+                    wall=needs.wall,
+                    threads=needs.threads,
+                )
+                if shaft is not None and shaft.clearance >= needs.wall:
+                    return shaft
+                tries += 1
+                if tries >= TRIES:
+                    break
+        return None
+
+    def _passing(self, ways: Integers, up: float) -> Iterator[tuple[int, float]]:
+        """Yield the ways that keep about a wall from other skin, each with the height at which the hole ends."""
+        needs, skin = self.needs, self.below.skin
+        for begin in range(0, len(ways), AT_ONCE):
+            some = ways[begin : begin + AT_ONCE]
+            high = np.minimum(self.ways.floor[some] + up * needs.diameter, self.ways.ceiling[some])
+            away = np.empty(len(some))
+            mouths = skin.mouths[self.ways.face[some]]
+            mouths = np.where([skin.knows(each) for each in mouths.tolist()], mouths, -1)
+            for mouth in np.unique(mouths).tolist():
+                own = mouths == mouth
+                away[own] = skin.roughly(
+                    self.ways.at[some[own]],
+                    self.ways.face[some[own]],
+                    self.ways.skin[some[own]],
+                    high[own],
+                    needs.radius,
+                    mouth,
+                    needs.threads,
+                )
+            for index in np.flatnonzero(away >= needs.wall).tolist():
+                yield int(some[index]), float(high[index])
+
+    def widest(self, void: int) -> float | None:
+        """Return about how wide a hole for a void may be, mm; None if no way leads down from it."""
+        mine = self.order[void][:BEST]
+        if not len(mine):
+            return None
+        tree = self.below.skin.tree(-1)
+        if tree is None:
+            return None
+        ends = np.stack([self.ways.skin[mine], self.ways.floor[mine]])
+        points = np.concatenate([np.column_stack([self.ways.at[mine], height]) for height in ends])
+        away, _ = tree.nearest(points, threads=self.needs.threads)
+        return 2 * (float(away.reshape(2, -1).min(axis=0).max()) - self.needs.wall)
+
+
+def _turned(surface: Surface, turned: Floats) -> Surface:
+    return Surface(vertices=np.asarray(surface.vertices, dtype=np.float64) @ turned.T, faces=surface.faces)
+
+
+def _some(ways: Integers) -> Integers:
+    """Return the best ways, and some of the others."""
+    if len(ways) <= MOST:
+        return ways
+    rest = ways[BEST:]
+    return np.concatenate([ways[:BEST], rest[np.linspace(0, len(rest) - 1, MOST - BEST).astype(np.int64)]])
+
+
+def _order_skin(skin: Skin, faces: Integers) -> None:
+    """Have the other skin of the faces that most ways leave through put in order."""
+    names, counts = np.unique(skin.mouths[faces], return_counts=True)
+    for mouth in names[np.argsort(-counts)][:MOUTHS].tolist():
+        skin.tree(mouth)
+
+
+def _room(ways: Ways, lattice: Lattice, radius: float) -> Floats:
+    """Return how far each way is from where another void, or a much higher floor, is above the skin, mm."""
+    from scipy.ndimage import distance_transform_edt
+
+    void, floor = np.full(lattice.shape, -1, dtype=np.int64), np.full(lattice.shape, np.inf)
+    backwards = ways.line[::-1]  # of several ways on a line, the lowest is written last
+    void.ravel()[backwards], floor.ravel()[backwards] = ways.void[::-1], ways.floor[::-1]
+    inside = void >= 0
+    for axis in (0, 1):
+        for way in (1, -1):
+            beside = np.roll(void, way, axis=axis)
+            higher = np.full(lattice.shape, True)
+            np.less_equal(np.roll(floor, way, axis=axis), floor + radius, out=higher, where=inside)
+            inside &= (beside == void) & higher
+    away: Floats = distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1] * lattice.step
+    return away.ravel()[ways.line]

@@ -1,0 +1,364 @@
+"""Drains: what they take from a part, how far they stay from its skin, and what they leave closed."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import manifold3d
+import numpy as np
+import pytest
+import trimesh
+from made_shapes import box, less, rod, together, union
+from typer.testing import CliRunner
+
+from benchmarks import fill_drains
+from benchmarks.fill_drains import PARTS, Case, distances, faults, mouth_of, run, tilted
+from infill import GeometryError, Surface, UsageError, fill
+from infill.cli import app
+from infill.filling.solids.drain_clearance import Skin
+from infill.filling.solids.drain_columns import Lattice, cross, find_ways
+from infill.filling.solids.drain_places import TURN_OVER, Needs
+from infill.filling.solids.drain_plan import DrainPlan, plan_drains
+from infill.filling.solids.drains import Drained, trapped
+from infill.surfaces.components import shell_names
+
+pytestmark = pytest.mark.usefixtures("compiled")
+
+QUICK = {"voxel": 0.5, "density": 0.3}
+WALL = 1.2
+
+
+def surface(mesh: Any) -> Surface:
+    return Surface(vertices=np.asarray(mesh.vertices, dtype=np.float64), faces=np.asarray(mesh.faces))
+
+
+def plan(part: trimesh.Trimesh, *voids: trimesh.Trimesh, diameter: float, wall: float = WALL, **more: Any) -> DrainPlan:
+    needs = Needs(diameter=diameter, wall=wall, cell=4.0, threads=1)
+    return plan_drains(surface(part), surface(together(*voids)), needs, **more)
+
+
+def inset(x: float, y: float, z: float, wall: float = WALL) -> trimesh.Trimesh:
+    """The void of a box with walls all around."""
+    return box(x - 2 * wall, y - 2 * wall, z - 2 * wall)
+
+
+def kinds(found: DrainPlan) -> list[str]:
+    return sorted(hole.kind for hole in found.holes)
+
+
+# --- made parts, judged by the meshes ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern", "drain", "options"),
+    [
+        ("box", "grid", 3.0, {}),
+        ("tower", "grid", 4.0, {"vent": True}),
+        ("bolted", "grid", 2.0, {}),
+        ("on its edge", "grid", 2.5, {}),
+        ("arch", "cubic-bars", 3.0, {"cell": 12.0}),
+        ("stair", "grid", 2.0, {"vent": True}),
+    ],
+)
+def test_drains_of_made_parts_keep_the_law(name: str, pattern: str, drain: float, options: dict[str, Any]) -> None:
+    """By manifold3d and trimesh alone: see benchmarks/fill_drains.py, which has over a hundred parts."""
+    wrong, report = run(
+        Case(name=name, part=PARTS[name](), drain=drain, wall=WALL, options={**QUICK, "pattern": pattern, **options})
+    )
+    assert wrong == []
+    assert not isinstance(report, str)
+    assert report["drains"]["holes"]
+
+
+def test_the_judge_finds_holes_where_none_may_be() -> None:
+    """Holes through a corner, beside a side and through a void that is not told are planted, and each is found."""
+    part = box(24, 24, 16)
+    result = fill(part, "grid", drain=3, wall=WALL, **QUICK)
+    voids = result.stages.voids.to_trimesh()
+    case = Case(name="planted", part=part, drain=3, wall=WALL)
+    assert list(faults(case, result, voids)) == []
+
+    class Planted:
+        def __init__(self, mesh: trimesh.Trimesh, report: dict[str, Any]) -> None:
+            self.mesh, self.report = mesh, report
+
+    report = dict(result.report)
+    corner = Planted(less(result.mesh, rod(1.5, 30, (11.5, 11.5, 0))), report)
+    assert any("skin outside all mouths" in each for each in faults(case, corner, voids))  # type: ignore[arg-type]
+    hole = {**report["drains"]["holes"][0], "at": [10.0, 0.1, -8.0], "to": [10.0, 0.1, -5.0], "kind": "drain"}
+    listed = {**report, "drains": {**report["drains"], "holes": [*report["drains"]["holes"], hole]}}
+    beside = Planted(less(result.mesh, rod(1.5, 6, (10.0, 0.1, -7.0))), listed)
+    assert any("from other skin" in each for each in faults(case, beside, voids))  # type: ignore[arg-type]
+    shut = fill(part, "grid", wall=WALL, **QUICK)
+    assert any("not told" in each for each in faults(case, shut, voids))
+
+
+def test_the_wall_of_a_hole_is_what_trimesh_measures() -> None:
+    """Exact to a hundredth: points on the mesh of the hole, against triangles of the part."""
+    part = PARTS["bolted"]()
+    result = fill(part, "grid", drain=2.0, wall=WALL, **QUICK)
+    holes = [hole for hole in result.report["drains"]["holes"] if hole["kind"] == "drain"]
+    assert holes
+    for hole in holes[:6]:
+        at, to = np.array(hole["at"]), np.array(hole["to"])
+        other = part.triangles[~mouth_of(part, at, np.array([0.0, 0.0, -1.0]))]
+        angle = np.linspace(0, 2 * np.pi, 180, endpoint=False)
+        ring = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(180)]) * hole["diameter"] / 2
+        points = np.concatenate([at + ring + share * (to - at) for share in np.linspace(0, 1, 12)])
+        # A ring of 180 points misses less than a thousandth of a mm; the hole is measured with 0.02 mm to spare.
+        assert hole["wall"] == pytest.approx(distances(points, other).min(), abs=0.03)
+        assert hole["wall"] >= WALL
+    least = result.report["walls"]["least"]
+    assert least <= min(hole["wall"] for hole in result.report["drains"]["holes"])
+
+
+# --- where drains go ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("diameter", [1.0, 2.0, 4.0])
+@pytest.mark.parametrize("degrees", [0, 10, 30])
+def test_a_drain_keeps_diameter_and_wall_from_every_side(diameter: float, degrees: float) -> None:
+    part, void = (tilted(each, degrees) for each in (box(20, 16, 12), inset(20, 16, 12)))
+    (hole,) = plan(part, void, diameter=diameter).holes
+    assert hole.way == pytest.approx([0, 0, -1])
+    axis = hole.at + np.linspace(0, 1, 40)[:, None] * (hole.to - hole.at)
+    other = part.triangles[~mouth_of(part, hole.at, hole.way)]
+    assert distances(axis, other).min() >= diameter / 2 + WALL
+    assert hole.clearance >= WALL
+
+
+@pytest.mark.parametrize("side", range(4))
+def test_a_drain_moves_off_a_side_wall(side: int) -> None:
+    """The lowest place of the void lies in a corner, where there is no room for a hole."""
+    sloped = tilted(box(20, 20, 20), 12, (1, 1, 0) if side % 2 else (1, -1, 0))
+    void = tilted(inset(20, 20, 20), 12, (1, 1, 0) if side % 2 else (1, -1, 0))
+    turn = trimesh.transformations.rotation_matrix(side // 2 * np.pi, (0, 0, 1))
+    for each in (sloped, void):
+        each.apply_transform(turn)
+    (hole,) = plan(sloped, void, diameter=3.0).holes
+    assert hole.clearance >= WALL
+    assert 0 < hole.above < 3.0
+    # No place that is lower by more than a line of the lattice would do: the hole is as low as the wall lets it be.
+    assert hole.clearance < WALL + 3.0 / 6 + 0.1
+
+
+def test_a_drain_passes_beside_a_bolt_hole_that_lies_in_its_way() -> None:
+    """Across, below all of the middle of the void: the hole goes down beside it."""
+    part = less(box(30, 20, 20), rod(2, 40, (0, 0, -6)).apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0), (0, 0, -6))))
+    void = box(8, 16, 8, (0, 0, 4))
+    assert plan(part, void, diameter=3.0).undrained  # 8 mm wide, and the bolt hole needs 4 + 2 walls + 3
+    wide = box(22, 16, 8, (0, 0, 4))
+    (hole,) = plan(part, wide, diameter=3.0).holes
+    assert abs(hole.at[0]) >= 2 + WALL + 1.5
+    assert hole.clearance >= WALL
+
+
+def test_no_drain_goes_through_an_edge() -> None:
+    """On its edge, a box is lowest there; a hole leaves through one of the faces beside it, a wall from the other."""
+    part, void = (tilted(each, 45, (1, 0, 0)) for each in (box(26, 26, 26), inset(26, 26, 26)))
+    (hole,) = plan(part, void, diameter=3.0).holes
+    assert abs(hole.at[1]) > 1
+    other = part.triangles[~mouth_of(part, hole.at, hole.way)]
+    assert distances(hole.at[None], other).min() > WALL
+
+
+def test_a_high_void_gets_no_shaft_through_what_lies_below() -> None:
+    """It is joined to the void below, which has a drain: one hole in the skin."""
+    part, low, high = box(20, 20, 30), box(17, 17, 12, (0, 0, -7)), box(17, 17, 12, (0, 0, 7))
+    found = plan(part, low, high, diameter=3.0)
+    assert kinds(found) == ["branch", "drain"]
+    (branch,) = (hole for hole in found.holes if hole.kind == "branch")
+    assert {branch.void, branch.into} == {0, 1}
+    (drain,) = (hole for hole in found.holes if hole.kind == "drain")
+    assert drain.to[2] < -7  # it ends in the void that it is for
+    assert not found.undrained
+
+
+def test_a_void_that_nothing_reaches_is_told_with_its_place() -> None:
+    """Below it lies a slot of the part, nearer than a hole of this width may come to its sides."""
+    part = less(box(30, 12, 24), box(40, 2, 3, (0, 0, -6)))
+    void = box(20, 5, 6, (0, 0, 5))
+    (left,) = plan(part, void, diameter=3.0).undrained
+    assert left.at[2] == pytest.approx(2.0)
+    assert left.volume == pytest.approx(20 * 5 * 6)
+    assert left.blocked or left.fits is not None
+
+
+def test_the_diameter_that_is_said_to_fit_fits() -> None:
+    part, void = box(9, 9, 20), inset(9, 9, 20)
+    (left,) = plan(part, void, diameter=6.9).undrained
+    assert left.fits is not None
+    assert left.fits > 5
+    (hole,) = plan(part, void, diameter=left.fits).holes
+    assert hole.clearance >= WALL
+
+
+def test_a_narrow_void_beside_a_wall_is_joined_to_its_neighbour() -> None:
+    """As cells that the skin cuts off are: too narrow for a hole that keeps the wall."""
+    part = box(20, 20, 20)
+    narrow, wide = box(1, 17.6, 17.6, (-8.3, 0, 0)), box(15, 17.6, 17.6, (0.5, 0, 0))
+    found = plan(part, narrow, wide, diameter=4.0)
+    assert kinds(found) == ["branch", "drain"]
+    assert all(hole.clearance >= WALL for hole in found.holes)
+
+
+def test_a_drain_does_not_leave_into_a_closed_cavity() -> None:
+    part = less(box(16, 16, 20), box(14, 14, 4, (0, 0, -6)))
+    void = box(12, 12, 8, (0, 0, 4))
+    assert plan(part, void, diameter=2.0).undrained
+
+
+def test_a_hole_does_not_reach_what_lies_below_its_mouth() -> None:
+    """Across a slot that is narrower than a wall lies another part of the skin."""
+    part, void = less(box(24, 24, 30), box(30, 18, 0.8, (0, 0, -5))), box(18, 14, 10, (0, 0, 5))
+    found = plan(part, void, diameter=3.0)
+    for hole in found.holes:
+        other = part.triangles[~mouth_of(part, hole.at, hole.way)]
+        end = hole.at + hole.out * hole.way
+        assert distances(end[None], other).min() > 0.5
+    assert found.undrained
+
+
+def test_vents_are_drains_of_the_part_turned_over() -> None:
+    part, void = PARTS["stair"](), box(20, 16, 5, (5, 0, 0))
+    up = plan(part, void, diameter=2.0, vent=True)
+    assert kinds(up) == ["drain", "vent"]
+    over, hollow = part.copy(), void.copy()
+    for each in (over, hollow):
+        each.vertices = each.vertices @ TURN_OVER
+    down = plan(over, hollow, diameter=2.0)
+    (vent,) = (hole for hole in up.holes if hole.kind == "vent")
+    assert TURN_OVER @ down.holes[0].at == pytest.approx(vent.at)
+    assert vent.way == pytest.approx([0, 0, 1])
+
+
+def test_a_drain_is_where_it_was_asked_for() -> None:
+    part, void = box(20, 20, 20), inset(20, 20, 20)
+    for place in ((3.0, -2.0, -10.0), (10.0, 1.0, 2.0), (0.0, 0.0, 10.0), (-2.0, -10.0, 4.0)):
+        (hole,) = plan(part, void, diameter=3.0, places=(place,)).holes
+        assert hole.kind == "place"
+        assert hole.at == pytest.approx(np.array(place), abs=1e-3)
+        assert hole.way == pytest.approx(np.round(np.array(place) / 10 - 0.01), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("place", "words"),
+    [
+        ((8.0, 0.0, -10.0), r"leaves 0\.\d+ mm of wall at|runs over"),
+        ((0.0, 0.0, 0.0), r"from the skin of the part; give a place on it, such as"),
+        ((9.5, 9.5, -10.0), "no void lies straight behind it|runs over"),
+        ((10.0, 10.0, -10.0), "no void lies straight behind it|runs over"),
+    ],
+)
+def test_a_place_that_leaves_no_wall_is_refused(place: tuple[float, float, float], words: str) -> None:
+    with pytest.raises(GeometryError, match=words) as error:
+        plan(box(20, 20, 20), inset(20, 20, 20), diameter=3.0, places=(place,))
+    assert "\n" not in str(error.value)
+    assert str(error.value).startswith("drain_at is (")
+
+
+# --- the command and the report ----------------------------------------------------------------------------------------
+
+
+def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() -> None:
+    with pytest.raises(GeometryError, match=r"drain is 40 mm, and the part is 30 mm wide.*give less than 27\.6"):
+        fill(box(30, 30, 30), "grid", drain=40)
+    with pytest.raises(GeometryError, match="leave drain out"):
+        fill(box(30, 30, 30), "grid", drain=4, wall=16)
+
+
+def test_every_void_that_stays_closed_is_told_with_its_place() -> None:
+    part = box(9, 40, 12)
+    result = fill(part, "honeycomb", drain=6.5, wall=WALL, **QUICK)
+    closed = trapped(result.surface)
+    report = result.report
+    assert len(closed) == len(report["voids"]["closed"])
+    told = [each for each in report["problems"] if "still closed" in each]
+    assert bool(told) == bool(closed)
+    assert {each["void"] for each in report["drains"]["undrained"]} <= set(range(report["voids"]["count"]))
+    for each in told:
+        assert f"{closed[0][0]:.3g} mm³" in each
+
+
+def test_options_for_drains_need_a_diameter() -> None:
+    for option in ({"vent": True}, {"drain_at": [(0, 0, -10)]}):
+        with pytest.raises(UsageError, match="drain is missing"):
+            fill(box(20, 20, 20), "grid", **option)
+    with pytest.raises(UsageError, match="three numbers"):
+        fill(box(20, 20, 20), "grid", drain=2, drain_at=[(0, 0)])
+
+
+def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
+    box(20, 20, 20).export(tmp_path / "part.stl")
+    words = ["fill", str(tmp_path / "part.stl"), "--pattern", "cubic-bars", "--cell", "12", "--voxel", "0.5"]
+    config = tmp_path / "drains.toml"
+    drains = ["--drain", "3", "--vent", "--drain-at", "1,2,-10", "--drain-at=-10,1.5,2"]
+    saved = ["--save-config", str(config), "-o", str(tmp_path / "a.stl")]
+    done = CliRunner().invoke(app, [*words, *drains, *saved])
+    assert done.exit_code == 0, done.output
+    assert "2 drain(s) of 3 mm; 1 vent(s) of 3 mm" in done.output
+    again = CliRunner().invoke(app, [*words[:2], "--config", str(config), "-o", str(tmp_path / "b.stl")])
+    assert again.exit_code == 0, again.output
+    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
+    wrong = CliRunner().invoke(app, [*words, "--drain", "3", "--drain-at", "1,2", "-o", str(tmp_path / "c.stl")])
+    assert wrong.exit_code == 2
+    assert not (tmp_path / "c.stl").exists()
+
+
+# --- lines through a part ----------------------------------------------------------------------------------------------
+
+
+def test_lines_cross_a_solid_as_often_in_as_out() -> None:
+    part = union(PARTS["bracket"](), box(5, 5, 5, (-20, 0, 30)))
+    lattice = Lattice(low=np.array([-30.13, -20.27]), step=0.91, shape=(70, 45))
+    line, height, up, face = cross(surface(part), lattice)
+    assert (np.bincount(line, weights=up) == 0).all()
+    corners = part.triangles[face]
+    points = np.column_stack([lattice.places(line), height])
+    normal = part.face_normals[face]
+    assert np.abs(((points - corners[:, 0]) * normal).sum(axis=1)).max() < 1e-9  # rounding, at 50 mm
+    # What lines enclose is the volume, to what lines that are a mm apart see of it.
+    assert (-up * height).sum() * lattice.step**2 == pytest.approx(part.volume, rel=0.02)
+
+
+def test_ways_lead_through_solid_alone() -> None:
+    part, voids = box(20, 20, 30), [box(17, 17, 6, (0, 0, -8)), box(17, 17, 6, (0, 0, 4)), box(2, 2, 2, (0, 0, 12))]
+    hollow = surface(together(*voids))
+    names, _ = shell_names(hollow)
+    ways = find_ways(surface(part), hollow, names, Lattice(low=np.array([-9.9, -9.8]), step=0.7, shape=(29, 29)))
+    assert set(ways.void.tolist()) == {0}
+    assert ways.skin == pytest.approx(-15.0)
+    assert ways.floor == pytest.approx(-11.0)
+    assert ways.ceiling == pytest.approx(-5.0)
+
+
+def test_a_solid_without_drains_is_left_as_it_is() -> None:
+    solid = surface(box(4, 4, 4))
+    assert Drained(solid=solid).facts()["holes"] == []
+
+
+@pytest.mark.parametrize("degrees", [20, 45, 55])
+def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
+    """A hole down through a slope, or through a chamfer, is no hole through the edge beside it."""
+    part = surface(tilted(box(30, 30, 30), degrees, (0, 1, 0)))
+    skin = Skin(part=part)
+    lowest = part.vertices[np.argmin(part.vertices[:, 2])]
+    faces = np.flatnonzero(skin.leaving)
+    assert len(faces)
+    at = lowest[:2] + np.array([0.0, 15.0 if lowest[1] < 0 else -15.0])
+    shaft = skin.shaft(at, int(faces[0]), float(lowest[2]), float(lowest[2]) + 4, float(lowest[2]) + 6, radius=2.0, wall=1.0, threads=1)
+    assert shaft is None or shaft.clearance < 1.0
+
+
+def places(values: Sequence[float]) -> list[tuple[float, ...]]:
+    return list(itertools.product(values, repeat=2))
+
+
+def test_the_judge_measures_like_manifold() -> None:
+    """Its distances are those of manifold3d, between solids."""
+    one, other = box(4, 4, 4), rod(1, 4, (5, 1, 0))
+    gap = manifold3d.Manifold.min_gap(fill_drains.solid_of(one), fill_drains.solid_of(other), 10.0)
+    assert distances(other.vertices, one.triangles).min() == pytest.approx(gap, abs=1e-9)
