@@ -159,7 +159,7 @@ def marked(table: Table, before: Tags) -> Marks:
         command = commands.get(line)
         if command is not None:
             tool = tool_of(command.code, command.words, table.text(line, line + 1))
-            if tool and tool != now.tool:
+            if tool and (tool != now.tool or now.changing_tool or now.role == "wipe tower"):
                 changed_tool = changed_tool if now.purging else line
                 now = replace(now, tool=tool, purging=True)
             elif command.code == "M204":
