@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from infill.filling.batch import Batch
 from infill.filling.corners import Rounded
 from infill.filling.rounding import Corners, Rounding, corners_of
+from infill.filling.widest_gap import largest_moves
 from infill.gcode.sections import Strokes
 from infill.gcode.splicing import UNIT, Redrawn
 from infill.ragged import picked
@@ -39,6 +40,7 @@ def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corne
         corner=corner,
         line_width=batch.line_width,
         wide=True,
+        limit=largest_moves(batch),
     )
 
 
