@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
+from scipy.spatial import cKDTree
 
 PIXEL = 0.1  # mm
 SPARSE = ("Internal infill", "Sparse infill", "FILL")
@@ -56,9 +57,7 @@ def read_layers(text: str) -> list[Layer]:
                 filament[0] += pushed if role in SPARSE else 0.0
             x, y = nx, ny
     shaped = [[np.array(beads, dtype=float).reshape(-1, 4) for beads in layer[:2]] for layer in found]
-    return [
-        Layer(infill=a, others=b, filament=layer[2][0]) for (a, b), layer in zip(shaped, found, strict=True)
-    ]
+    return [Layer(infill=a, others=b, filament=layer[2][0]) for (a, b), layer in zip(shaped, found, strict=True)]
 
 
 def raster(beads: np.ndarray, low: np.ndarray, shape: tuple[int, int]) -> np.ndarray:
@@ -106,3 +105,23 @@ def widest_gaps(old: str, new: str) -> list[tuple[float, float]]:
 def filament(text: str) -> float:
     """Return what the infill takes, mm of filament."""
     return sum(layer.filament for layer in read_layers(text))
+
+
+def touching_walls(text: str, width: float = 0.45) -> float:
+    """Return how much of the infill lies beside a bead of another kind, mm: as near as beads touch."""
+    found = 0.0
+    for layer in read_layers(text):
+        if len(layer.infill) and len(layer.others):
+            points, weight = samples(layer.infill)
+            near, _ = cKDTree(samples(layer.others)[0]).query(points, distance_upper_bound=1.1 * width)
+            found += float(weight[np.isfinite(near)].sum())
+    return found
+
+
+def samples(beads: np.ndarray, step: float = 0.05) -> tuple[np.ndarray, np.ndarray]:
+    """Return points along beads, a step apart, and the length that each stands for, mm."""
+    length = np.hypot(beads[:, 2] - beads[:, 0], beads[:, 3] - beads[:, 1])
+    number = np.ceil(length / step).astype(int).clip(1)
+    row = np.repeat(np.arange(len(beads)), number)
+    share = np.concatenate([(np.arange(n) + 0.5) / n for n in number])[:, None]
+    return beads[row, :2] + share * (beads[row, 2:] - beads[row, :2]), (length / number)[row]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from infill.filling.batch import LEAST_SPEED, Batch
 from infill.filling.contact import Contact
 from infill.filling.covering import total_length
-from infill.filling.keeping import lengths, redrawn, stroke_corners
+from infill.filling.keeping import lengths, redrawn, same_filament, stroke_corners
 from infill.filling.measuring import Below, Drawing, measured
 from infill.filling.planning import Plan
 from infill.filling.replacing import NO_REGION, Fresh, Memory, fresh_sections, outside, retractions
@@ -135,6 +135,7 @@ def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Place
             filament=float(anew.filament.sum()),
         ),
     )
+    tally.widened += float((same_filament(infill, anew) - anew.filament).sum())
     tally.save(tools[infill.opens[anew.which]], infill.filament[anew.which], anew.filament)
     tally.round(new.radius[np.repeat(changed, np.diff(infill.first))])
     old_paths, new_paths = parted(infill.points, infill.first), parted(new.points, new.first)
@@ -236,6 +237,7 @@ def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amou
 
     tally.infill = amounts(np.ones(len(infill), dtype=bool))
     tally.infill_after = amounts(~changed) + new
+    tally.widened = tally.infill_after.filament
 
 
 def _seconds(fresh: Fresh, rules: Rules) -> float:
