@@ -5,8 +5,8 @@ agree on is more than one's own opinion. `judge(old, new)` returns one line for 
 with its name; no line if all is well.
 
 The print is cut into stretches: what is outside the sparse infill, and sections inside it. A section begins at the tag
-of the sparse role and ends at the next tag of a role or a layer; labels of objects, changes of tool and custom blocks
-cut it too. Outside, every line must be the same, byte for byte, and move the same way at the same speed from the same
+of the sparse role and ends at the next tag of a role; tags of layers, labels of objects, changes of tool and custom
+blocks cut it in two. (PrusaSlicer says a role once, however many layers it lasts.) Outside, every line must be the same, byte for byte, and move the same way at the same speed from the same
 place. Inside, what is no move must be kept, once and in order, and the moves must be lawful.
 """
 
@@ -164,13 +164,30 @@ def sections(data: bytes) -> list[Section]:
         if role:
             sparse = role[1] in SPARSE
         elif LAYER.match(line.body):
-            sparse = False
-            layer += not line.body.startswith((b";TIME", b"; WIPE_T", b";WIPE_T"))
-        inside = sparse and not role and not LABEL.match(line.body)
+            new = not line.body.startswith((b";TIME", b"; WIPE_T", b";WIPE_T"))
+            layer += new
+            sparse &= new
+        inside = sparse and not role and not LABEL.match(line.body) and not LAYER.match(line.body)
         if inside != found[-1].sparse:
             found.append(Section(inside, [], layer))
         found[-1].lines.append(line)
         found[-1].layer = layer
+    return found
+
+
+def purged(parts: list[Section]) -> set[int]:
+    """Return the sections that take what is purged: from a change of the tool to the first tag in its layer that ends it."""
+    found: set[int] = set()
+    since: int | None = None
+    for i, part in enumerate(parts):
+        for line in part.lines if not part.sparse else []:
+            if re.match(rb"T\d", line.body):
+                since = i if since is None else since
+            elif LAYER.match(line.body):
+                since = None
+            elif b"; PURGING FINISHED" in line.body and since is not None:
+                found |= {k for k in range(since, i) if parts[k].sparse}
+                since = None
     return found
 
 
@@ -521,12 +538,12 @@ def judge(
     habit = habits(old, old_runs)
     machine = Machine()
     new_runs = []
+    purges = purged(old_parts)
     for i, (a, b, was) in enumerate(zip(old_parts, new_parts, old_runs, strict=True)):
         now = run(b, machine)
         new_runs.append(now)
         if a.sparse:
-            purged = i + 1 < len(old_parts) and b"PURGING FINISHED" in old_parts[i + 1].lines[0].body
-            if purged and [x.raw for x in a.lines] != [x.raw for x in b.lines]:
+            if i in purges and [x.raw for x in a.lines] != [x.raw for x in b.lines]:
                 faults.append(f"purge: line {b.lines[0].number}: what is purged was changed")
             following = next((s.lines[0].number for s in new_parts[i + 1 : i + 2]), "the end")
             faults += _inside(a, b, was, now, habit, strict=deviation is not None)

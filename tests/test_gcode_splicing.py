@@ -501,7 +501,7 @@ ODDITIES = {
 def test_an_odd_section_is_told(middle: str) -> None:
     table = read(square(middle), BEGIN)
     marks = marked(table, Tags())
-    assert bodies(table, marks, strokes(table, marks)) == ([], {ODDITIES[middle]: 1})
+    assert bodies(table, marks, strokes(table, marks)) == ([], {ODDITIES[middle]: [1]})
 
 
 @pytest.mark.parametrize(
@@ -546,7 +546,7 @@ def test_every_section_has_its_own_body() -> None:
     table = read(text, BEGIN)
     marks = marked(table, Tags())
     found, odd = bodies(table, marks, strokes(table, marks))
-    assert odd == {"a G4 command in between": 1}
+    assert odd == {"a G4 command in between": [3]}
     assert [body.first for body in found] == [4, 4 + 2 * 12 + 1]
     assert len({body.section for body in found}) == 2
 

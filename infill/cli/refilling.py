@@ -21,6 +21,7 @@ from patterns.errors import PatternError
 if TYPE_CHECKING:
     from infill.inspection.layer_speeds import LayerSpeeds
 
+ALIKE = 0.995  # of the filament of the infill: no less is the old amount
 PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
 
 
@@ -250,7 +251,9 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
         rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
         density = filament["density_for_the_same_percent"]
         if density and after < before * 0.999:
-            rows["filament"] += f"; for the old amount, set {density:g} % in the slicer, or give --density same"
+            rows["filament"] += f"; for the old amount, set {density:g} % in the slicer"
+            if filament["ratio_with_density_same"] > ALIKE:
+                rows["filament"] += ", or give --density same"
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]
         rows["time"] = f"{_span(after)} of infill, {after / before - 1:+.1%} ({_span(before)})"
         contact = report["contact"]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from infill.filling.measuring import Drawing
 from infill.filling.surroundings import Beads, beads
-from infill.gcode.sections import Marks, Strokes, Tags, marked, strokes
+from infill.gcode.sections import SPARSE, Marks, Strokes, Tags, marked, printing, strokes
 from infill.gcode.stream import batches
 from infill.gcode.table import State, Table, read
 
@@ -48,6 +48,20 @@ class Batch:
     def section(self) -> Places:
         """Of each stroke, (M,)."""
         return self.marks.section[self.infill.opens]
+
+    @cached_property
+    def sections(self) -> Places:
+        """All sections of sparse infill, ascending: also those without strokes."""
+        return self._printed(self.marks.is_role(SPARSE) | self.marks.purged)
+
+    @cached_property
+    def purged_sections(self) -> Places:
+        """The sections that take purged filament, ascending."""
+        return self._printed(self.marks.purged)
+
+    def _printed(self, lines: NDArray[np.bool_]) -> Places:
+        """Return the sections in which some lines print."""
+        return np.unique(self.marks.section[lines & printing(self.table)])
 
     @cached_property
     def speed(self) -> Floats:

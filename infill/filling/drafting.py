@@ -18,7 +18,7 @@ from infill.filling.planning import Plan
 from infill.filling.replacing import Memory
 from infill.filling.request import AUTO, KEEP, Progress
 from infill.filling.rules import Rules
-from infill.filling.support import kept_shares, smaller_deviation
+from infill.filling.support import LEAST_SHARE, kept_length, kept_shares, smaller_deviation
 from infill.filling.tally import Tally
 from infill.formats.whole_files import told
 from infill.gcode.estimates import estimates
@@ -62,12 +62,17 @@ def drafted(
         tally = _evened(tally, plan, lambda other: drawn(rules, other))
     last = 0.0
     for _ in range(AGAIN if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
-        kept = min(kept_shares(tally.before, tally.after))
+        length = kept_length(tally.infill.length, tally.infill_after.length)
+        kept = min(*kept_shares(tally.before, tally.after), length)
         smaller = smaller_deviation(rules.rounding.deviation, kept, last)
         if smaller == rules.rounding.deviation:
             break
         last, rules = kept, rules.rounded_by(smaller)
         tally = drawn(rules, plan)
+    else:  # drawn again as often as may be
+        if last and kept_length(tally.infill.length, tally.infill_after.length) < LEAST_SHARE:
+            rules = rules.rounded_by(0.0)
+            tally = drawn(rules, plan)
     return tally, rules
 
 

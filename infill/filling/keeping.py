@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.batch import Batch
 from infill.filling.corners import Rounded
 from infill.filling.rounding import Corners, Rounding, corners_of
+from infill.filling.widest_gap import largest_moves
 from infill.gcode.sections import Strokes
 from infill.gcode.splicing import UNIT, Redrawn
 from infill.ragged import picked
@@ -39,6 +42,7 @@ def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corne
         corner=corner,
         line_width=batch.line_width,
         wide=True,
+        limit=largest_moves(batch),
     )
 
 
@@ -54,16 +58,21 @@ def redrawn(infill: Strokes, new: Rounded, chosen: NDArray[np.bool_], rounding: 
     at, first = picked(new.first, which)
     length = lengths(new.points, new.first)[which]
     rate = infill.filament[which] / infill.length[which]
-    filament = rate * length
-    if rounding.same_filament:
-        filament = np.minimum(infill.filament[which], filament * MOST_WIDENED)
-    return Redrawn(
+    drawn = Redrawn(
         which=which,
         points=new.points[at],
         first=first,
         source=new.source[at],
-        filament=filament,
+        filament=rate * length,
     )
+    return replace(drawn, filament=same_filament(infill, drawn)) if rounding.same_filament else drawn
+
+
+def same_filament(infill: Strokes, new: Redrawn) -> Floats:
+    """Return the filament, mm, that strokes drawn anew take with wider beads, (S,): as before, or all these hold."""
+    length = lengths(new.points, new.first)
+    rate = infill.filament[new.which] / infill.length[new.which]
+    return np.minimum(infill.filament[new.which], rate * length * MOST_WIDENED)
 
 
 def _changed(infill: Strokes, new: Rounded) -> NDArray[np.bool_]:

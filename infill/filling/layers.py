@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,15 +11,15 @@ from numpy.typing import NDArray
 from infill.filling.batch import LEAST_SPEED, Batch
 from infill.filling.contact import Contact
 from infill.filling.covering import total_length
-from infill.filling.keeping import lengths, redrawn, stroke_corners
+from infill.filling.keeping import lengths, redrawn, same_filament, stroke_corners
 from infill.filling.measuring import Below, Drawing, measured
 from infill.filling.planning import Plan
-from infill.filling.replacing import Fresh, Memory, fresh_sections, outside, retractions
+from infill.filling.replacing import NO_REGION, Fresh, Memory, fresh_sections, outside, retractions
+from infill.filling.request import KEEP
 from infill.filling.rules import Rules, short_layers, unchanged
 from infill.filling.tally import Amounts, Tally
 from infill.filling.timing import path_seconds
 from infill.gcode.bodies import composed, exchanged, unlawful, ways_of
-from infill.gcode.sections import SPARSE
 from infill.gcode.splicing import differing, spliced, unlike
 from infill.gcode.table import Table, read
 from infill.ragged import packed, parted
@@ -27,6 +28,8 @@ Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 
+PURGED, UNREAD = "purged filament", "no plain moves"  # why a section has no strokes
+NO_CORNER = "no corner to round"
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 
 
@@ -62,20 +65,18 @@ def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> R
     """
     table, marks = batch.table, batch.marks
     tools = _tools(table)
-    tally = Tally(layers=int(marks.layer[-1] - (marks.layer[0] - marks.tagged[0])) if len(marks.layer) else 0)
+    tally = Tally(layers=marks.layers)
     tally.use(tools, table.extruded)
-    sections = np.unique(marks.section[marks.is_role(SPARSE) & (table.extruded > 0)])
-    tally.sections = len(sections)
+    tally.sections = len(batch.sections)
     if plan is not None:
         memory.ways = ways_of(table, memory.ways)
     if not len(batch.infill):
-        tally.keep("no plain moves", len(sections))
+        _tell(tally, batch, {})
         return _as_it_was(batch, tally, np.empty(0))
     acceleration = batch.acceleration(rules.acceleration)
     before = path_seconds(batch.infill.points, batch.infill.first, batch.speed, acceleration, rules.limits)
     if plan is not None:
         return _replaced(batch, rules, plan, memory, tally, before, tools)
-    tally.keep("no plain moves", len(np.setdiff1d(sections, batch.section)))
     return _kept(batch, rules, tally, before, tools)
 
 
@@ -114,14 +115,14 @@ def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Place
     done = spliced(batch.table, infill, anew)
     wrong = unlike(batch.table, infill, anew, done)
     if wrong:
-        tally.keep(f"a check failed: {wrong}", len(np.unique(batch.section)))
+        _tell(tally, batch, {f"a check failed: {wrong}": batch.section})
         return _as_it_was(batch, tally, before)
     changed = np.zeros(len(infill), dtype=bool)
     changed[anew.which] = True
-    touched = np.unique(batch.section[changed])
-    tally.replaced = len(touched)
-    for reason, which in reasons.items():
-        tally.keep(reason, len(np.setdiff1d(np.unique(batch.section[which]), touched)))
+    kept = {reason: batch.section[which] for reason, which in reasons.items()}
+    if rules.request.pattern != KEEP:  # a pattern of ours that found no room anywhere
+        kept[NO_REGION] = batch.section
+    _tell(tally, batch, kept, batch.section[changed])
     length = lengths(new.points, new.first)
     _count(
         tally,
@@ -134,6 +135,7 @@ def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Place
             filament=float(anew.filament.sum()),
         ),
     )
+    tally.widened += float((same_filament(infill, anew) - anew.filament).sum())
     tally.save(tools[infill.opens[anew.which]], infill.filament[anew.which], anew.filament)
     tally.round(new.radius[np.repeat(changed, np.diff(infill.first))])
     old_paths, new_paths = parted(infill.points, infill.first), parted(new.points, new.first)
@@ -148,15 +150,14 @@ def _replaced(
     table, infill = batch.table, batch.infill
     found, odd = fresh_sections(batch, plan, memory, rules.acceleration)
     reasons = unchanged(batch, rules)
-    for reason, which in reasons.items():
-        tally.keep(reason, len(np.unique(batch.section[which])))
-    for reason, number in odd.items():
-        tally.keep(reason, number)
     fixed = _any_of(reasons, len(infill))
+    kept = {reason: batch.section[which] for reason, which in reasons.items()} | odd
     wanted = [each for each in found if not fixed[each.body.strokes].any()]
     fresh = _unhurried(batch, rules, [each for each in wanted if not outside(each)])
-    tally.keep("a path would leave its region", len(wanted) - len(fresh))
+    drawn = np.array([each.body.section for each in fresh], dtype=np.intp)
+    kept["a path would leave its region"] = np.setdiff1d([each.body.section for each in wanted], drawn)
     if not fresh:
+        _tell(tally, batch, kept)
         return _as_it_was(batch, tally, before)
     texts, filament = [], []
     for each in fresh:
@@ -167,9 +168,9 @@ def _replaced(
     other = read(done.text, table.before)
     wrong = differing(table, other, done) or unlawful(other, done, [each.body for each in fresh], texts)
     if wrong:
-        tally.keep(f"a check failed: {wrong}", len(fresh))
+        _tell(tally, batch, kept | {f"a check failed: {wrong}": drawn})
         return _as_it_was(batch, tally, before)
-    tally.replaced = len(fresh)
+    _tell(tally, batch, kept, drawn)
     changed = np.zeros(len(infill), dtype=bool)
     for each in fresh:
         changed[each.body.strokes] = True
@@ -187,12 +188,34 @@ def _replaced(
     )
     opens = np.array([each.body.first for each in fresh])
     tally.save(tools[opens], np.array([each.body.filament for each in fresh]), np.array(filament))
-    old_paths, kept = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
-    paths = [old_paths[k] for k in kept] + [path for each in fresh for path in each.paths]
-    layer = [batch.layer[kept], *(np.full(len(each.paths), each.body.layer) for each in fresh)]
+    old_paths, same = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
+    paths = [old_paths[k] for k in same] + [path for each in fresh for path in each.paths]
+    layer = [batch.layer[same], *(np.full(len(each.paths), each.body.layer) for each in fresh)]
     points, first = packed(paths, like=(2,))
-    drawn = Drawing(points=points, first=first, layer=np.concatenate(layer))
-    return Refilled(text=done.text, tally=tally, infill=drawn)
+    drawing = Drawing(points=points, first=first, layer=np.concatenate(layer))
+    return Refilled(text=done.text, tally=tally, infill=drawing)
+
+
+def _tell(tally: Tally, batch: Batch, reasons: Mapping[str, Places], changed: Places | None = None) -> None:
+    """Count every section of a batch once: as replaced, or as kept for the first reason that it has.
+
+    Parameters
+    ----------
+    tally : Tally
+    batch : Batch
+    reasons : mapping of str to array of int
+        Sections that have each reason.
+    changed : array of int, optional
+        Sections of which something was drawn anew.
+    """
+    changed = np.unique(changed) if changed is not None else np.empty(0, dtype=np.intp)
+    tally.replaced = len(changed)
+    left = np.setdiff1d(batch.sections, changed)
+    unread = np.setdiff1d(left, batch.section)
+    purged = np.intersect1d(unread, batch.purged_sections)
+    for reason, some in {PURGED: purged, UNREAD: unread, **reasons, NO_CORNER: left}.items():
+        tally.keep(reason, len(np.intersect1d(left, some)))
+        left = np.setdiff1d(left, some)
 
 
 def _as_it_was(batch: Batch, tally: Tally, before: Floats) -> Refilled:
@@ -214,6 +237,7 @@ def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amou
 
     tally.infill = amounts(np.ones(len(infill), dtype=bool))
     tally.infill_after = amounts(~changed) + new
+    tally.widened = tally.infill_after.filament
 
 
 def _seconds(fresh: Fresh, rules: Rules) -> float:

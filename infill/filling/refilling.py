@@ -13,6 +13,7 @@ import io
 import math
 import os
 import shutil
+import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -192,6 +193,8 @@ class _Done:
     draft : binary file
     tally, rules : Tally and Rules, optional
         None if nothing was done.
+    remedy : Tally, optional
+        Of the remedy for infill that lost too much filament: drawn, and thrown away.
     edits : tuple of (place, length, text)
         What to exchange in the draft, in order.
     metadata : dict
@@ -202,6 +205,7 @@ class _Done:
     draft: BinaryIO
     tally: Tally | None = None
     rules: Rules | None = None
+    remedy: Tally | None = None
     edits: tuple[tuple[int, int, bytes], ...] = ()
     metadata: dict[str, str] = field(default_factory=dict)
 
@@ -228,7 +232,12 @@ def _report(request: Request, parts: Sequence[_Done], plates: Sequence[int] = ()
     for tally in tallies:
         whole.add(tally)
     done = whole if tallies else None
-    return report_of_refill(request, found, done, already=found.stamped, rules=rules, plates=plates)
+    remedied = Tally()
+    for each in parts:
+        if each.tally is not None:
+            remedied.add(each.remedy or each.tally)
+    remedy = remedied if any(each.remedy is not None for each in parts) else None
+    return report_of_refill(request, found, done, already=found.stamped, rules=rules, plates=plates, remedy=remedy)
 
 
 def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
@@ -238,6 +247,7 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
     from infill.filling.support import largest_deviation, samples
+    from infill.filling.telling import loses_filament
     from infill.gcode.survey import survey
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
@@ -257,6 +267,12 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
     tally, rules = drafted(given.text, draft, found, rules, plan, progress)
+    remedy = None
+    if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
+        by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
+        by_itself = by_itself.rounded_by(largest_deviation(some, by_itself.rounding, rules.acceleration))
+        with tempfile.TemporaryFile() as trial:
+            remedy, _ = drafted(given.text, trial, found, by_itself, None, progress)
     said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
     said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
     change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
@@ -266,7 +282,9 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
         edits = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
         edits.append(_stamp(draft, tally))
     metadata = retold(given.metadata, change, said)
-    return _Done(found=found, draft=draft, tally=tally, rules=rules, edits=tuple(sorted(edits)), metadata=metadata)
+    return _Done(
+        found=found, draft=draft, tally=tally, rules=rules, remedy=remedy, edits=tuple(sorted(edits)), metadata=metadata
+    )
 
 
 def _section(found: Survey) -> float:

@@ -27,12 +27,14 @@ if TYPE_CHECKING:
     from shapely import Polygon
 
 Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
 Paths = list[Floats]
 
 LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
 LEAST_TRAVEL = 1.0  # mm; shorter ways are never retracted
 DEBT = 0.1  # of the filament of a layer that may be owed before columns choose their cells anew
 AGAIN_AFTER = 8  # layers, before they do so again
+NO_REGION = "no sure region"
 ACROSS = 0.1  # mm that a way may leave its areas without a retraction
 
 
@@ -92,8 +94,10 @@ class Fresh:
     acceleration: float
 
 
-def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float) -> tuple[list[Fresh], dict[str, int]]:
-    """Return new paths for the sections of a batch, and how many sections keep theirs, by reason.
+def fresh_sections(
+    batch: Batch, plan: Plan, memory: Memory, acceleration: float
+) -> tuple[list[Fresh], dict[str, Places]]:
+    """Return new paths for the sections of a batch, and which sections keep theirs, by reason.
 
     Parameters
     ----------
@@ -134,8 +138,9 @@ def fresh_sections(batch: Batch, plan: Plan, memory: Memory, acceleration: float
                 fresh += done
                 reason = "" if done else "no path fits"
             if reason:
-                reasons[reason] = reasons.get(reason, 0) + len(members)
-    return sorted(fresh, key=lambda each: each.body.first), reasons
+                reasons.setdefault(reason, []).extend(body.section for body in members)
+    kept = {reason: np.array(sections, dtype=np.intp) for reason, sections in reasons.items()}
+    return sorted(fresh, key=lambda each: each.body.first), {**kept, NO_REGION: batch.section}
 
 
 def _pay(memory: Memory, layer: int, filament: float) -> None:

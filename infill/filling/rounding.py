@@ -70,6 +70,8 @@ class Corners:
     line_width : float, mm
     room : Room, optional
         Where corners may be taken wide.
+    limit : (K,) float64, mm, optional
+        How far the path may move at each point of `curves`, whatever the rounding.
     """
 
     curves: Recut
@@ -82,12 +84,14 @@ class Corners:
     walls: Walls
     line_width: float
     room: Room | None = None
+    limit: Floats | None = None
 
     def rounded(self, rounding: Rounding) -> Rounded:
         """Return the paths with round corners."""
         points, first = self.curves.points, self.curves.first
         deviation = np.zeros(len(points))
-        deviation[self.inner] = rounding.deviation
+        limit = np.full(len(points), np.inf) if self.limit is None else self.limit
+        deviation[self.inner] = np.minimum(rounding.deviation, limit[self.inner])
         deviation[self.beside] = bounded_deviation(
             points,
             self.beside,
@@ -97,8 +101,10 @@ class Corners:
             deviation=min(BESIDE_WALLS * rounding.deviation, rounding.most),
             line_width=self.line_width,
         )
+        deviation[self.beside] = np.minimum(deviation[self.beside], limit[self.beside])
         if self.room is not None:
-            points, wide = widened(points, self.room, deviation=rounding.deviation, radius=rounding.radius)
+            most = np.minimum(rounding.deviation, limit[self.room.corner])
+            points, wide = widened(points, self.room, deviation=most, radius=rounding.radius)
             deviation[self.room.corner] = wide
         done = rounded(points, first, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT)
         radius = np.full(self.old, np.inf)
@@ -119,6 +125,7 @@ def corners_of(
     line_width: float,
     hard: NDArray[np.bool_] | None = None,
     wide: bool = False,
+    limit: Floats | None = None,
 ) -> Corners:
     """Cut the curves of some paths anew, and find their corners.
 
@@ -140,6 +147,8 @@ def corners_of(
         Points that stay as they are.
     wide : bool
         Take corners wide where there is room.
+    limit : (M,) float64, mm, optional
+        How far each path may move at most.
     """
 
     def machine(begins: Places) -> Machine:
@@ -173,6 +182,7 @@ def corners_of(
         walls=walls,
         line_width=line_width,
         room=room,
+        limit=None if limit is None else np.repeat(limit, np.diff(curves.first)),
     )
 
 

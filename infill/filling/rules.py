@@ -64,6 +64,10 @@ class Rules:
         """Return the rules with another largest deviation, mm."""
         return replace(self, rounding=replace(self.rounding, deviation=deviation))
 
+    def with_radius(self, radius: float) -> Rules:
+        """Return the rules with another largest radius of corners, mm."""
+        return replace(self, rounding=replace(self.rounding, radius=radius))
+
 
 def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
     """Return the rules for a print, from what its header and some of its layers tell."""

@@ -1,7 +1,7 @@
-"""How far corners may move if layers are still to lie on one another and doubled walls to touch.
+"""How far corners may move if layers are still to lie on one another, doubled walls to touch, and beads to stay.
 
 Measured on some layers of the print itself: the largest deviation at which the supported and the bonded share of the
-infill's length are at least 0.94 of what they are in the slicer's own paths.
+infill's length are at least 0.94 of what they are in the slicer's own paths, and its length at least 0.97.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from infill.filling.batch import Batch, batch_of
 from infill.filling.contact import Contact, Samples, contact, merged
 from infill.filling.corners import Rounded
-from infill.filling.keeping import stroke_corners
+from infill.filling.keeping import lengths, stroke_corners
 from infill.filling.measuring import Drawing
 from infill.filling.rounding import Corners, Rounding
 from infill.gcode.sections import Strokes, Tags
@@ -24,6 +24,7 @@ from infill.gcode.table import read
 from infill.kernels.threads import in_order, thread_count
 
 LEAST_SHARE = 0.94
+LEAST_LENGTH = 0.97  # of the infill's length, and so of its filament
 AIM = 0.944  # what layers here and there must keep, so that all of them keep the least
 # mm; tried from the largest down. Beyond them, legs are what limits an arc.
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
@@ -62,8 +63,18 @@ def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
     )
 
 
+def kept_length(old: float, new: float) -> float:
+    """Return the share of the infill's length that is left, on the scale of the other shares: 0.97 is as 0.94 of those.
+
+    >>> round(kept_length(100.0, 97.0), 9), kept_length(100.0, 101.0)
+    (0.94, 1.0)
+    """
+    lost = 1 - new / old if old else 0.0
+    return 1 - max(lost, 0.0) * (1 - LEAST_SHARE) / (1 - LEAST_LENGTH)
+
+
 def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: float) -> float:
-    """Return the largest deviation, mm, that keeps support and contact.
+    """Return the largest deviation, mm, that keeps support, contact and length.
 
     Parameters
     ----------
@@ -76,15 +87,16 @@ def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: f
     tried = [_Tried.of(batch, rounding, acceleration) for batch in some]
     threads = thread_count()
 
-    def measured(infill: Callable[[_Tried], Strokes | Rounded]) -> Contact:
-        found = in_order(lambda each: each.contact(infill(each)), tried, threads=threads)
-        return sum((contact for _, contact in found), Contact())
+    def measured(infill: Callable[[_Tried], Strokes | Rounded]) -> tuple[Contact, float]:
+        found = [pair for _, pair in in_order(lambda each: each.measured(infill(each)), tried, threads=threads)]
+        return sum((contact for contact, _ in found), Contact()), sum(length for _, length in found)
 
-    hard = measured(lambda each: each.batch.infill)
+    hard, old = measured(lambda each: each.batch.infill)
 
     def share(deviation: float) -> float:
         now = replace(rounding, deviation=deviation)
-        return min(kept_shares(hard, measured(lambda each: each.corners.rounded(now))))
+        contact, new = measured(lambda each: each.corners.rounded(now))
+        return min(*kept_shares(hard, contact), kept_length(old, new))
 
     if share(rounding.deviation) >= AIM:
         return rounding.deviation
@@ -152,10 +164,10 @@ class _Tried:
             walls={number: batch.others.samples_of(number - 1) for number in filled(batch)},
         )
 
-    def contact(self, infill: Strokes | Rounded) -> Contact:
-        """Return the contact of the layers with some infill."""
+    def measured(self, infill: Strokes | Rounded) -> tuple[Contact, float]:
+        """Return the contact of the layers with some infill, and the length of all of it, mm."""
         drawn = Drawing(points=infill.points, first=infill.first, layer=self.batch.layer)
         total = Contact()
         for number, walls in self.walls.items():
             total += contact(drawn.of(number), merged(drawn.of(number - 1), walls), self.batch.line_width)
-        return total
+        return total, float(lengths(infill.points, infill.first).sum())

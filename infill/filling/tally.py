@@ -72,6 +72,8 @@ class Tally:
         Sections that were left as they were, by reason.
     infill, infill_after : Amounts
         Before and after.
+    widened : float
+        mm of filament that the infill would take with beads as much wider as ``--density same`` makes them.
     filament, change : dict of int to float
         By tool, mm: of the whole print before, and what it takes more.
     corners : int
@@ -89,6 +91,7 @@ class Tally:
     kept: dict[str, int] = field(default_factory=dict)
     infill: Amounts = field(default_factory=Amounts)
     infill_after: Amounts = field(default_factory=Amounts)
+    widened: float = 0.0
     filament: dict[int, float] = field(default_factory=dict)
     change: dict[int, float] = field(default_factory=dict)
     corners: int = 0
@@ -145,6 +148,7 @@ class Tally:
             self.keep(reason, sections)
         self.infill += other.infill
         self.infill_after += other.infill_after
+        self.widened += other.widened
         for mine, more in ((self.filament, other.filament), (self.change, other.change)):
             for tool, filament in more.items():
                 mine[tool] = mine.get(tool, 0.0) + filament

@@ -9,7 +9,7 @@ from typing import Any
 from infill.filling.placement import placement
 from infill.filling.request import KEEP, Request
 from infill.filling.rules import Rules
-from infill.filling.support import LEAST_SHARE, kept_shares
+from infill.filling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
 from infill.filling.tally import Tally
 from infill.gcode.survey import Survey
 from infill.version import __version__
@@ -29,6 +29,7 @@ def report_of_refill(
     already: bool,
     rules: Rules | None = None,
     plates: Sequence[int] = (),
+    remedy: Tally | None = None,
 ) -> dict[str, Any]:
     """Return the report of one run: plain numbers, strings, lists and dicts."""
     report: dict[str, Any] = {
@@ -61,19 +62,28 @@ def report_of_refill(
         "corners": tally.corners,
         "radius_mm": tally.radii.report(),
     }
-    keeps = request.pattern == KEEP and request.density is None
+    keeps_paths = request.pattern == KEEP
+    keeps = keeps_paths and request.density is None
     before, after = tally.infill, tally.infill_after
-    ratio = after.filament / before.filament if before.filament else 1.0
+    ratio = _ratio(tally)
     density = found.number("fill_density", "sparse_infill_density")
     report["filament"] = {
         "infill_before_mm": before.filament,
         "infill_after_mm": after.filament,
         "print_ratio": tally.filament_ratio,
-        "density_for_the_same_percent": round(density / ratio, 2) if keeps and density and ratio > 0 else None,
+        "density_for_the_same_percent": round(density / ratio, 2)
+        if keeps and density and ratio >= LEAST_LENGTH
+        else None,
+        "ratio_with_density_same": tally.widened / before.filament if keeps and before.filament else None,
     }
     report["time"] = {"infill_before_s": before.seconds, "infill_after_s": after.seconds}
     report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
+    if keeps_paths and loses_filament(tally):
+        lost = f"the infill takes {ratio - 1:+.1%} filament"
+        if remedy is not None and not loses_filament(remedy):
+            lost += f"; leave --smooth-radius out, and it takes {_ratio(remedy) - 1:+.1%}"
+        report["problems"].append(lost)
     promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
     if promised and tally.replaced and abs(ratio - 1) > MOST_OFF:
         report["problems"].append(
@@ -81,6 +91,17 @@ def report_of_refill(
             "another --density"
         )
     return report
+
+
+def loses_filament(tally: Tally) -> bool:
+    """Return whether the infill takes so much less filament than before that it must be said."""
+    return _ratio(tally) < LEAST_LENGTH
+
+
+def _ratio(tally: Tally) -> float:
+    """Return the filament of the infill, after over before."""
+    before, after = tally.infill.filament, tally.infill_after.filament
+    return after / before if before else 1.0
 
 
 def contact_section(tally: Tally) -> dict[str, Any]:

@@ -100,14 +100,14 @@ def room_of(
     return Room(corner=corner, free=free, along=along, turn=turn, before=before, after=after, leg=leg)
 
 
-def widened(points: Floats, room: Room, *, deviation: float, radius: float) -> tuple[Floats, Floats]:
+def widened(points: Floats, room: Room, *, deviation: float | Floats, radius: float) -> tuple[Floats, Floats]:
     """Return the paths with their corners moved outwards, and how far arcs may then lie from these corners, mm.
 
     Parameters
     ----------
     points : (N, 2) float64, mm
     room : Room
-    deviation : float, mm
+    deviation : float or (C,) float64, mm
         How far the rounded path may lie from the old one.
     radius : float, mm
         Of the largest arc.

@@ -62,10 +62,10 @@ class Body:
     feed_after: float
 
 
-def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dict[str, int]]:
-    """Return the sections that can be drawn anew, and how many cannot, by reason."""
+def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dict[str, list[int]]]:
+    """Return the sections that can be drawn anew, and which cannot, by reason."""
     found: list[Body] = []
-    odd: dict[str, int] = {}
+    odd: dict[str, list[int]] = {}
     opens, closes = infill.opens, infill.closes
     section = marks.section[opens]
     commands = {command.line: command for command in table.commands}
@@ -73,7 +73,7 @@ def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dic
         some = np.flatnonzero(section == number)
         reason = _oddness(table, marks, infill, some, int(opens[some[0]]), int(closes[some[-1]]), commands)
         if reason:
-            odd[reason] = odd.get(reason, 0) + 1
+            odd.setdefault(reason, []).append(int(number))
             continue
         length, filament = infill.length[some], infill.filament[some]
         feeds, which = np.unique(table.f[opens[some]], return_inverse=True)

@@ -7,10 +7,13 @@ Which family a file of OrcaSlicer uses depends on its printer, so all of them ar
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Final
 
 OTHER: Final = "other"  # the role of a name that no slicer we know writes
 UNTAGGED: Final = "untagged"  # the role of what stands before the first tag
+
+TOOL_CODES: Final = ("M108", "M135")  # select a tool by T: Sailfish and MakerWare
 
 # What a comment says, by how it begins. The rest of the line is its value.
 TAGS: Final[dict[bytes, str]] = {
@@ -29,6 +32,16 @@ TAGS: Final[dict[bytes, str]] = {
     b"; WIPE_START": "wipe start",
     b";WIPE_END": "wipe end",
     b"; WIPE_END": "wipe end",
+    b"; PURGING FINISHED": "purged",
+    b";PURGING FINISHED": "purged",
+    b"; CP TOOLCHANGE START": "tool change",
+    b"; CP TOOLCHANGE END": "tool change end",
+    b"; WIPE_TOWER_START": "tool change",
+    b"; WIPE_TOWER_END": "tool change end",
+    b"; FLUSH_START": "tool change",
+    b"; FLUSH_END": "tool change end",
+    b"; NOZZLE_CHANGE_START": "tool change",
+    b"; NOZZLE_CHANGE_END": "tool change end",
     b";MESH:": "object",
     b"; printing object ": "object",
     b"; start printing object": "object",
@@ -70,6 +83,31 @@ def role_of(name: bytes) -> str:
     ('sparse infill', 'sparse infill', 'gap fill', 'other')
     """
     return _ROLE_OF.get(name.strip(), OTHER if name else UNTAGGED)
+
+
+def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
+    """Return the tool that a command selects, the same word each time; nothing if it selects none.
+
+    Parameters
+    ----------
+    code : str
+        Such as "T1".
+    words : mapping
+        Its numbers by letter.
+    text : bytes
+        The whole line.
+
+    >>> tool_of("T1", {}, b"T1"), tool_of("M135", {"T": 1.0}, b"M135 T1"), tool_of("M104", {"S": 210.0}, b"M104 S210")
+    ('T1', 'T1', '')
+    """
+    if code[:1] == "T" and code[1:].isdigit():
+        return code
+    if code in TOOL_CODES:
+        number = words.get("T")
+        return "" if number is None else f"T{number:g}"
+    if code.upper() == "ACTIVATE_EXTRUDER":
+        return text.partition(b";")[0].strip().upper().decode("latin-1")
+    return ""
 
 
 def tag_of(comment: bytes) -> tuple[str, bytes] | None:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.dialect import UNTAGGED, role_of, tag_of
+from infill.gcode.dialect import UNTAGGED, role_of, tag_of, tool_of
 from infill.gcode.lines import BLANK, COMMENT, MOVE
 from infill.gcode.table import NAN, Table
 
@@ -20,18 +21,29 @@ ALIKE = 0.02  # two moves extrude alike if their filament per mm differs by less
 FILAMENT_UNIT = 1e-5  # mm: the last decimal of an E word
 # Said to the display or the host alone, so that moves before and after it are still one line of plastic.
 TALK = {"M73", "M117", "M118", "M70"}
+# Tags that are remarks where they change nothing: a stroke goes on.
+QUIET = {"purged", "tool change", "tool change end", "wipe end"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tags:
     """What the tags before a line have said.
 
+    Slicers forget an end, say a beginning twice, or say it where nothing follows. So whatever begins also ends with
+    what cannot be inside of it, a new layer at the latest.
+
     Parameters
     ----------
     role : str
-        What is printed: see `infill.gcode.dialect.ROLES`; "untagged" at the beginning of a layer.
+        What is printed: see `infill.gcode.dialect.ROLES`; "untagged" before the first tag. It holds until the next tag
+        of a role, as in slicers' own readers: PrusaSlicer says it once where all layers are of infill alone.
     layer : int
-        Number of layer tags so far.
+        Number of layers so far. Tags with nothing printed between them, such as those of a slicer and of its settings
+        for each layer, begin the same layer.
+    layer_tag : bytes
+        The last tag of a layer, as it stands.
+    printed : bool
+        Something was printed since that tag.
     width, height : float
         mm, NaN while unknown.
     part : int
@@ -39,18 +51,35 @@ class Tags:
     name : str
         Of the object; "" if none is said.
     wiping : bool
+        Up to the tag that ends it. A tag of a role, an object or a layer ends it too: then the next move that
+        extrudes was no part of it.
     acceleration : float
         mm/s² of printing moves as last commanded; NaN while unknown.
+    tool : str
+        In use, as `infill.gcode.dialect.tool_of` names it; "" while unknown.
+    purging : bool
+        The tool was changed, and what is printed now takes what is purged if a tag says later that purging is over:
+        the first such tag in the same layer.
+    purged_on_object : bool
+        Something other than a wipe tower was printed since the tool was changed.
+    changing_tool : bool
+        Between the tags around a tool change. A tag of a role, an object or a layer ends it too.
     """
 
     role: str = UNTAGGED
     layer: int = 0
+    layer_tag: bytes = b""
+    printed: bool = False
     width: float = NAN
     height: float = NAN
     part: int = 0
     name: str = ""
     wiping: bool = False
     acceleration: float = NAN
+    tool: str = ""
+    purging: bool = False
+    purged_on_object: bool = False
+    changing_tool: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,11 +92,17 @@ class Marks:
         The roles that occur.
     role : (N,) uint8
         Place in `roles`.
+    purged : (N,) bool
+        The line is tagged as sparse infill, and takes what a tool change purges: its role is "wipe tower".
     section : (N,) int
-        Number of the run of lines between two tags of role, layer or object, from 0 in this table.
+        Number of the run of lines between two tags of role, layer or object, or of purging, from 0 in this table.
     layer : (N,) int
+    layers : int
+        How many begin here.
     width, height, acceleration : (N,) float64
     wiping : (N,) bool
+        From the tag that begins a wipe to the one that ends it, or, where that is missing, to the next move that
+        extrudes.
     names : dict of int to str
         By section, the name of its object.
     tagged : (N,) bool
@@ -78,8 +113,10 @@ class Marks:
 
     roles: tuple[str, ...]
     role: NDArray[np.uint8]
+    purged: NDArray[np.bool_]
     section: Places
     layer: Places
+    layers: int
     width: Floats
     height: Floats
     acceleration: Floats
@@ -97,84 +134,164 @@ class Marks:
 def marked(table: Table, before: Tags) -> Marks:
     """Read the tags of a table, beginning with what held before it.
 
-    Purging into the infill bears the role of the infill, up to the comment that says it is over: it is set to
-    "wipe tower".
+    Purging into the infill bears the role of the infill. It is what stands between a tool change and the first tag
+    after it that says that purging is over, and its role is set to "wipe tower". PrusaSlicer writes that tag once for
+    every tool of a layer, also for the one in use when the layer begins: then nothing was purged.
     """
     lines = len(table)
     at, said = [0], [before]
     tagged = np.zeros(lines, dtype=bool)
-    now = before
-    events: list[tuple[int, Tags]] = []
+    now, last = before, 0
     purges: list[tuple[int, int]] = []
+    wipes: list[tuple[int, int]] = []
+    changed_tool = wipe = 0  # the line, or the first one if it stands in a table before
+    printed = np.concatenate([[0], np.cumsum(printing(table))])
     commands = {command.line: command for command in table.commands}
-    tool_changed = 0
+
+    def first_printed(line: int) -> int:
+        """Return the first line from one on that prints; the end if none does."""
+        return int(np.searchsorted(printed, printed[line], side="right")) - 1
+
     for line in sorted([*np.flatnonzero(table.kind == COMMENT).tolist(), *commands]):
+        if printed[line] > printed[last]:
+            now = _printed(now)
+        last, then = line, now
         command = commands.get(line)
         if command is not None:
-            if command.code[:1] == "T":
-                tool_changed = line
+            tool = tool_of(command.code, command.words, table.text(line, line + 1))
+            if tool and (tool != now.tool or now.changing_tool or now.role == "wipe tower"):
+                changed_tool = changed_tool if now.purging else line
+                now = replace(now, tool=tool, purging=True)
             elif command.code == "M204":
-                value = command.words.get("P") or command.words.get("S")
-                if value:
-                    now = replace(now, acceleration=value)
-                    events.append((line, now))
-            continue
-        text = table.text(line, line + 1)[:200].lstrip()
-        if text.startswith(b"; PURGING FINISHED"):
-            purges.append((tool_changed, line))
-            continue
-        tag = tag_of(text)
-        if tag is None:
-            continue
-        tagged[line] = True
-        now = _said(now, *tag)
-        events.append((line, now))
-    for line, tags in events:
-        at.append(line)
-        said.append(tags)
+                now = replace(now, acceleration=command.words.get("P") or command.words.get("S") or now.acceleration)
+        else:
+            tag = tag_of(table.text(line, line + 1)[:200].lstrip())
+            if tag is None:
+                continue
+            if tag[0] == "purged" and now.purging:
+                purges.append((changed_tool, line))
+            now = _said(now, *tag)
+            if then.wiping and (tag[0] in ("wipe start", "wipe end") or not now.wiping):
+                wipes.append((wipe, line if tag[0] == "wipe end" else min(line, first_printed(wipe))))
+            wipe = line if tag[0] == "wipe start" else wipe
+            tagged[line] = tag[0] not in QUIET or now != then
+        if now != then:
+            at.append(line)
+            said.append(now)
+    if printed[lines] > printed[last]:
+        now = _printed(now)
+    if now.wiping:
+        wipes.append((wipe, first_printed(wipe)))
+        now = replace(now, wiping=first_printed(wipe) == lines)
     roles = tuple(dict.fromkeys([tags.role for tags in said] + ["wipe tower"]))
     count = np.diff([*at, lines])
-    role = np.repeat(np.array([roles.index(tags.role) for tags in said], dtype=np.uint8), count)
-    for first, last in purges:
-        role[first:last] = roles.index("wipe tower")
+
+    def spread(values: list[Any], kind: Any) -> NDArray[Any]:  # noqa: ANN401 - a NumPy type
+        return np.repeat(np.array(values, dtype=kind), count)
+
+    role = spread([roles.index(tags.role) for tags in said], np.uint8)
+    purged = spread([tags.changing_tool for tags in said], np.bool_)
     keys = [(tags.role, tags.layer, tags.part) for tags in said]
-    new = np.cumsum([False] + [one != other for one, other in zip(keys[1:], keys[:-1], strict=True)])
-
-    def spread(values: list[float]) -> Floats:
-        return np.repeat(np.array(values, dtype=np.float64), count)
-
+    begins = np.zeros(lines + 1, dtype=bool)
+    begins[[line for line, one, other in zip(at[1:], keys[1:], keys[:-1], strict=True) if one != other]] = True
+    for first, end in purges:
+        purged[first:end] = begins[first] = begins[end] = True
+    begins[0] = False
+    wiping = np.zeros(lines, dtype=bool)
+    for first, end in wipes:
+        wiping[first:end] = True
+    section = np.cumsum(begins[:lines])
+    purged &= role == (roles.index(SPARSE) if SPARSE in roles else len(roles))
+    role[purged] = roles.index("wipe tower")
+    names = {int(section[line]): tags.name for line, tags in zip(at, said, strict=True) if line < lines}
     return Marks(
         roles=roles,
         role=role,
-        section=np.repeat(new, count),
-        layer=np.repeat(np.array([tags.layer for tags in said]), count),
-        width=spread([tags.width for tags in said]),
-        height=spread([tags.height for tags in said]),
-        acceleration=spread([tags.acceleration for tags in said]),
-        wiping=np.repeat(np.array([tags.wiping for tags in said]), count),
-        names={int(number): tags.name for number, tags in zip(new, said, strict=True)},
+        purged=purged,
+        section=section,
+        layer=spread([tags.layer for tags in said], np.intp),
+        layers=now.layer - before.layer,
+        width=spread([tags.width for tags in said], np.float64),
+        height=spread([tags.height for tags in said], np.float64),
+        acceleration=spread([tags.acceleration for tags in said], np.float64),
+        wiping=wiping,
+        names=_for_all(names, section),
         tagged=tagged,
         after=now,
     )
 
 
+def printing(table: Table) -> NDArray[np.bool_]:
+    """Return whether each line extrudes on its way."""
+    found: NDArray[np.bool_] = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
+    return found
+
+
+def _for_all(names: dict[int, str], section: Places) -> dict[int, str]:
+    """Return the names of all sections: where a section begins without a tag of its own, of the one before it."""
+    name = ""
+    filled = {}
+    for number in np.unique(section).tolist():
+        name = names.get(number, name)
+        filled[number] = name
+    return filled
+
+
+def _printed(tags: Tags) -> Tags:
+    """Return what holds after something was printed."""
+    on_object = tags.purging and tags.role != "wipe tower" and not tags.changing_tool
+    return replace(tags, printed=True, purged_on_object=tags.purged_on_object or on_object)
+
+
 def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
     match meaning:
         case "role":
-            return replace(tags, role=role_of(value))
+            return replace(tags, role=role_of(value), wiping=False, changing_tool=False)
         case "layer":
-            return replace(tags, role=UNTAGGED, layer=tags.layer + 1)
+            return _begun(tags, value)
         case "object" | "object end":
-            name = value.decode("utf-8", "replace") if meaning == "object" else ""
-            return replace(tags, part=tags.part + 1, name=name)
+            name = value.decode("utf-8", "replace") if meaning == "object" and value != b"NONMESH" else ""
+            return replace(tags, part=tags.part + 1, name=name, wiping=False, changing_tool=False)
         case "width":
             return replace(tags, width=_length(value, tags.width))
         case "height":
             return replace(tags, height=_length(value, tags.height))
         case "wipe start" | "wipe end":
             return replace(tags, wiping=meaning == "wipe start")
+        case "tool change" | "tool change end":
+            return replace(tags, changing_tool=meaning == "tool change")
+        case "purged":
+            return replace(tags, purging=False, purged_on_object=False)
         case _:
             return tags
+
+
+def _begun(tags: Tags, value: bytes) -> Tags:
+    """Return what holds at a tag of a layer.
+
+    A tool change before it whose purging has not ended purged nothing, unless nothing was printed since: then it
+    belongs to the new layer. One before the first layer selects the tool to begin with.
+    """
+    if tags.layer and not tags.printed and not _counts_on(tags.layer_tag, value):
+        return replace(tags, layer_tag=value)
+    purging = tags.purging and not tags.purged_on_object and tags.layer > 0
+    return replace(
+        tags,
+        layer=tags.layer + 1,
+        layer_tag=value,
+        printed=False,
+        part=tags.part + bool(tags.name),
+        name="",
+        wiping=False,
+        purging=purging,
+        purged_on_object=False,
+        changing_tool=False,
+    )
+
+
+def _counts_on(before: bytes, value: bytes) -> bool:
+    """Return whether two tags of layers are numbered, and differently: the layer between them is empty."""
+    return bool(before) and bool(value) and before != value
 
 
 def _length(value: bytes, otherwise: float) -> float:
