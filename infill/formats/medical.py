@@ -1,17 +1,15 @@
-"""Medical images: NRRD, NIfTI, MetaImage and DICOM by SimpleITK (extra `medical`); NRRD is written without it."""
+"""DICOM, a file or a folder of slices, by SimpleITK (extra `medical`)."""
 
 from __future__ import annotations
 
 import contextlib
-import gzip
 import math
-import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
-from typing import IO, Any, BinaryIO, cast
+from typing import Any
 
 import numpy as np
 
@@ -19,29 +17,12 @@ from infill.errors import FormatError
 from infill.formats.broken import SMALLER, checked_volume, is_ours, told_broken
 from infill.formats.frames import chosen
 from infill.machine import require_memory
-from infill.version import __version__
 from infill.volume import AXES, Volume
 
 UNEVEN = 0.05  # of a slice: how far DICOM slices may deviate from even spacing
 POSITION = "0020|0032"
-SEGMENTS = (".seg.nrrd", ".seg.nhdr")
 HEAD = 1024  # bytes that contain the storage class
 STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian like the rest of that header
-USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # among the headers that SimpleITK reports
-NRRD_TYPES = {
-    "b1": "uint8",
-    "i1": "int8",
-    "u1": "uint8",
-    "i2": "int16",
-    "u2": "uint16",
-    "i4": "int32",
-    "u4": "uint32",
-    "i8": "int64",
-    "u8": "uint64",
-    "f4": "float",
-    "f8": "double",
-}
-NRRD_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
 
 
 class _Kept:
@@ -79,17 +60,15 @@ def _quiet(sitk: ModuleType, path: Path) -> Iterator[None]:
 
 def read_medical(path: Path, frame: int | None = None) -> Volume:
     """Return the volume of one file, [x, y, z], where it lies in space, or one of several, counted from 0."""
-    sitk = _simpleitk(path.suffix if path.suffix.lower() != ".gz" else ".nii.gz")
+    sitk = _simpleitk(path.suffix)
     reader, found = _announced(sitk, path)
     size, numbers = found.size, found.components
     if numbers > 1:
         what = f"holds a {found.kind} per cell; save one grey value, magnitude or label per cell"
-        if path.name.lower().endswith(SEGMENTS):
-            what = f"holds {numbers} layers of segments; write all with {{label}} in the name of the output"
         component = chosen(path, frame, numbers, what=what)
     else:
         at = chosen(path, frame, math.prod(size[AXES:]), what=f"has {len(size)} axes, {_times(size)}")
-    if len(size) < AXES or (path.suffix.lower() == ".dcm" and size[2] == 1):
+    if len(size) < AXES or size[2] == 1:
         raise FormatError(f"{path} is a single slice, {_times(size)}; give the folder of all slices, or a volume")
     if numbers == 1 and math.prod(size[AXES:]) > 1:
         reader.SetExtractSize((*size[:AXES], *(0 for _ in size[AXES:])))
@@ -97,21 +76,6 @@ def read_medical(path: Path, frame: int | None = None) -> Volume:
     with _quiet(sitk, path):
         image = reader.Execute()
     return _placed(sitk, path, image, found.space, component=component if numbers > 1 else None)
-
-
-def read_layers(path: Path) -> tuple[Volume, ...]:
-    """Return every component of an image as a volume, in order: the layers of a segmentation, which may be empty."""
-    sitk = _simpleitk(path.suffix)
-    reader, found = _announced(sitk, path)
-    if len(found.size) != AXES:
-        return (read_medical(path),)
-    with _quiet(sitk, path):
-        image = reader.Execute()
-    if found.components == 1:
-        return (_placed(sitk, path, image, found.space),)
-    return tuple(
-        _placed(sitk, path, image, found.space, component=layer, varied=False) for layer in range(found.components)
-    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,14 +97,9 @@ def _announced(sitk: ModuleType, path: Path) -> tuple[Any, _Announced]:
     size, kind = reader.GetSize(), sitk.GetPixelIDValueAsString(reader.GetPixelID())
     if "complex" in kind:
         raise FormatError(f"{path} holds a {kind} per cell; save one grey value, magnitude or label per cell")
-    known = {key: reader.GetMetaData(key) for key in USED_TAGS if reader.HasMetaDataKey(key)}
     components = reader.GetNumberOfComponents()
-    if path.name.lower().endswith((".nii", ".nii.gz")):
-        _require_whole_nifti(path, (*size, 1 if "8-bit" in kind else components), known)  # bytes of a colour are one
     require_memory(math.prod(size) * components * _cell_bytes(kind), None, SMALLER)
-    # An NRRD may lie in a space without a name; for all other formats, the readers convert theirs to LPS.
-    named = not path.name.lower().endswith((".nrrd", ".nhdr")) or known.get("NRRD_space") == "left-posterior-superior"
-    return reader, _Announced(size=size, kind=kind, components=components, space="LPS" if named else "")
+    return reader, _Announced(size=size, kind=kind, components=components, space="LPS")
 
 
 def _placed(
@@ -171,29 +130,6 @@ def _times(size: tuple[int, ...]) -> str:
 def _cell_bytes(kind: str) -> int:
     found = re.search(r"(\d+)-bit", kind)
     return int(found[1]) // 8 if found else 8
-
-
-def _require_whole_nifti(path: Path, size: tuple[int, ...], known: dict[str, str]) -> None:
-    """Raise FormatError for a truncated NIfTI: its reader would silently fill the rest with zeros."""
-    with told_broken(path):
-        needed = int(float(known["vox_offset"])) + math.prod(size) * int(known["bitpix"]) // 8
-    if path.suffix.lower() != ".gz":
-        held = path.stat().st_size
-    else:
-        with path.open("rb") as file:
-            file.seek(-min(4, path.stat().st_size), os.SEEK_END)
-            announced = int.from_bytes(file.read(4), "little")  # size of the last part, modulo 4 GiB
-        held = needed if announced == needed % 2**32 else _unpacked_bytes(path)
-    if held < needed:
-        raise FormatError(f"{path} is cut off: it holds {held} bytes of {needed}; copy or save it again")
-
-
-def _unpacked_bytes(path: Path) -> int:
-    with told_broken(path), gzip.open(path) as file:
-        held = 0
-        while chunk := file.read(2**20):
-            held += len(chunk)
-    return held
 
 
 def read_dicom(folder: Path, series: str | None) -> Volume:
@@ -274,43 +210,3 @@ def _require_even(folder: Path, image: Any, places: list[str]) -> None:  # noqa:
             f"{folder} has slices up to {off:.2g} of a slice away from even steps (missing, doubled, or a tilted "
             "scanner); resample the series to even slices first"
         )
-
-
-def write_nrrd(volume: Volume, file: BinaryIO) -> None:
-    """Write NRRD: a text header and the values, compressed by gzip; `space origin` is the centre of the first cell.
-
-    Booleans become 0 and 1, and 16-bit floating-point numbers become 32-bit. A space without a name stays
-    without one, so that no program reorients its axes. Source: "Definition of NRRD File Format", Teem.
-    """
-    kind = _stored(volume.values.dtype)
-    axes = np.asarray(volume.direction) * volume.cell_size  # column i: one cell along axis i
-    centre = np.array(volume.origin) + axes.sum(axis=1) / 2
-    space = f"space: {NRRD_SPACES[volume.space]}" if volume.space in NRRD_SPACES else f"space dimension: {AXES}"
-    header = (
-        "NRRD0005",
-        f"# phasefill {__version__}, millimetres",
-        f"type: {NRRD_TYPES[kind.str[1:]]}",
-        f"dimension: {AXES}",
-        space,
-        f"sizes: {' '.join(str(cells) for cells in volume.values.shape)}",
-        f"space directions: {' '.join(_vector(axis) for axis in axes.T)}",
-        f"kinds:{AXES * ' domain'}",
-        "endian: little",
-        "encoding: gzip",
-        f"space origin: {_vector(centre)}",
-    )
-    file.write(("\n".join(header) + "\n\n").encode("ascii"))
-    with gzip.GzipFile(filename="", mode="wb", compresslevel=6, fileobj=cast(IO[bytes], file), mtime=0) as packed:
-        for k in range(volume.values.shape[2]):  # layer by layer, so that no second copy is held
-            packed.write(volume.values[:, :, k].astype(kind).tobytes(order="F"))
-
-
-def _stored(kind: np.dtype[np.generic]) -> np.dtype[np.generic]:
-    """Return the type in which NRRD holds numbers of type `kind`, low byte first."""
-    if kind.kind == "f":
-        return np.dtype("<f4" if kind.itemsize <= 4 else "<f8")
-    return np.dtype(np.uint8) if kind.kind == "b" else kind.newbyteorder("<")
-
-
-def _vector(numbers: Iterable[float]) -> str:
-    return "(" + ",".join(f"{float(number):.17g}" for number in numbers) + ")"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from infill.errors import FormatError
 from infill.formats.label_tables import Segment, segments_of_nrrd
-from infill.formats.medical import read_layers
+from infill.formats.nrrd import read_layers
 from infill.formats.volume_files import read_volume
 from infill.volume import Volume
 

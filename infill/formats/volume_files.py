@@ -2,10 +2,10 @@
 
     .npy .npz           [x, y, z], or [z, y, x] where the file says so
     .tif .tiff          pages are z, rows y, columns x; likewise a folder of .tif or .png slices
-    .nrrd .nii .mha …   by SimpleITK (extra `medical`), with their place in space
+    .nrrd .nii .mha …   with their place in space
     .mgz .mgh           of FreeSurfer
     .vtk .vti           images of VTK, legacy and XML
-    a DICOM folder      the only series in it, or the one that is named
+    .dcm, DICOM folder  by SimpleITK (extra `medical`): the only series in it, or the one that is named
 
 Values keep their type, and are copied at most once.
 """
@@ -21,7 +21,10 @@ from infill.errors import FormatError, ParameterError
 from infill.formats.arrays import read_npy, read_npz, write_npz
 from infill.formats.broken import not_empty, one_line
 from infill.formats.freesurfer import read_mgh
-from infill.formats.medical import read_dicom, read_medical, write_nrrd
+from infill.formats.medical import read_dicom, read_medical
+from infill.formats.metaimage import read_meta_image
+from infill.formats.nifti import read_nifti
+from infill.formats.nrrd import read_nrrd, write_nrrd
 from infill.formats.slices import SLICES, natural, read_slices, read_tiff
 from infill.formats.vtk_images import read_vtk
 from infill.formats.vtk_xml import read_vti
@@ -37,9 +40,9 @@ def read_volume(
     Parameters
     ----------
     path : str or Path
-        .npy, .npz, .tif, .tiff, .mgz, .mgh, .vtk, .vti; with SimpleITK also .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd,
-        .dcm; a folder of .tif or .png slices, taken in the order of the numbers in their names; a folder of DICOM
-        slices.
+        .npy, .npz, .tif, .tiff, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, .mgz, .mgh, .vtk, .vti; with SimpleITK also
+        .dcm; a folder of .tif or .png slices, taken in the order of the numbers in their names; a
+        folder of DICOM slices.
     array : str, optional
         Name of the array to read, if an .npz holds several with three axes.
     series : str, optional
@@ -141,7 +144,10 @@ def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
 
 
 FRAMED: dict[str, Callable[..., Volume]] = {
-    **dict.fromkeys((".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm"), read_medical),
+    **dict.fromkeys((".nrrd", ".nhdr"), read_nrrd),
+    **dict.fromkeys((".nii", ".nii.gz"), read_nifti),
+    **dict.fromkeys((".mha", ".mhd"), read_meta_image),
+    ".dcm": read_medical,
     **dict.fromkeys((".mgz", ".mgh", ".mgh.gz"), read_mgh),
     ".vtk": read_vtk,
     ".vti": read_vti,
