@@ -236,7 +236,7 @@ def _directed(
         raise ValueError(f"space directions of {count} numbers")
     origin = _vectors(fields.get("space origin"))
     if not origin or origin[0] is None:
-        LOG.warning("%s does not say where its first cell lies (space origin); it is taken to lie at 0, 0, 0", path)
+        LOG.info("%s does not say where its first cell lies (space origin); it is taken to lie at 0, 0, 0", path)
         first = np.zeros(count)
     else:
         first = origin[0]

@@ -169,10 +169,14 @@ def _unpacked(raw: memoryview, coding: _Coding, needed: int, *, in_base64: bool)
     packed = head(0, 3 + blocks)[3:]
     # The head is turned into base64 by itself, what is packed after it in one go.
     begin = math.ceil((3 + blocks) * word / BASE64_IN) * BASE64_OUT if in_base64 else (3 + blocks) * word
-    data, parts, most = _some(raw, begin, sum(packed), in_base64), [], max(1, size, last)
+    data, parts = _some(raw, begin, sum(packed), in_base64), []
     at = 0
-    for length in packed:
-        parts.append(zlib.decompressobj().decompress(data[at : at + length], most))
+    for number, length in enumerate(packed):
+        stream = zlib.decompressobj()
+        expected = last if last and number == blocks - 1 else size
+        parts.append(stream.decompress(data[at : at + length], expected + 1))  # its checksum is read with its end
+        if len(parts[-1]) != expected or not stream.eof:
+            raise ValueError(f"a block of {len(parts[-1])} bytes or more where there should be {expected}")
         at += length
     return b"".join(parts)
 
