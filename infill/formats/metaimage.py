@@ -225,7 +225,7 @@ def _files(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, 
         if not listed:
             raise FormatError(f"{path} lists no files that hold its cells; save it again")
         return [find_detached(path, name) for name in listed]
-    if "%" in words[0] and len(words) > 1:
+    if len(words) > 1 and "%" in words[0]:
         low, high, step = (int(word) for word in (*words[1:4], "1")[:3]) if len(words) > 2 else (int(words[1]), 0, 1)
         if len(words) == 2:
             high = low + header.sizes[-1] - 1
