@@ -469,6 +469,7 @@ def test_simpleitk_stays_quiet(sitk: Any, tmp_path: Path, capfd: pytest.CaptureF
 
 def test_without_simpleitk_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "SimpleITK", None)
+    monkeypatch.setitem(sys.modules, "pydicom", None)
     (tmp_path / "a.nii.gz").write_bytes(b"x")
     (tmp_path / "a.nrrd").write_bytes(b"x")
     for path, what in (("a.nii.gz", ".nii.gz"), ("a.nrrd", ".nrrd"), (".", "a DICOM folder")):

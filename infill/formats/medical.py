@@ -7,6 +7,8 @@ import gzip
 import math
 import os
 import re
+import sys
+import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +16,7 @@ from types import ModuleType
 from typing import IO, Any, BinaryIO, cast
 
 import numpy as np
+from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, checked_volume, is_ours, told_broken
@@ -27,6 +30,7 @@ POSITION = "0020|0032"
 SEGMENTS = (".seg.nrrd", ".seg.nhdr")
 HEAD = 1024  # bytes that contain the storage class
 STORAGE_CLASS = b"\x02\x00\x02\x00UI"  # tag (0002,0002), little-endian like the rest of that header
+HEARD = 4096  # bytes of what is printed while a file is read
 USED_TAGS = ("NRRD_space", "vox_offset", "bitpix")  # among the headers that SimpleITK reports
 NRRD_TYPES = {
     "b1": "uint8",
@@ -97,6 +101,57 @@ def read_medical(path: Path, frame: int | None = None) -> Volume:
     with _quiet(sitk, path):
         image = reader.Execute()
     return _placed(sitk, path, image, found.space, component=component if numbers > 1 else None)
+
+
+def unpacked_frames(path: Path, source: Path) -> tuple[NDArray[Any], tuple[str, ...]]:
+    """Return the numbers in a DICOM file [frame, row, column], and what was said while they were unpacked.
+
+    Parameters
+    ----------
+    path : Path
+        A file that says nothing but pixels: see `infill.formats.dicom_files.write_packed_frames`.
+    source : Path
+        The file that they come from, for messages.
+    """
+    sitk = _simpleitk(".dcm")
+    said: list[str] = []
+    with _quiet(sitk, source), _heard(sitk, said):
+        values = sitk.GetArrayFromImage(sitk.ReadImage(str(path), imageIO="GDCMImageIO"))
+    return values, tuple(said)
+
+
+@contextlib.contextmanager
+def _heard(sitk: ModuleType, said: list[str]) -> Iterator[None]:
+    """Collect what ITK warns of, and what its libraries print on stderr, line by line."""
+    base: Any = sitk.LoggerBase
+
+    class Listener(base):  # type: ignore[misc]
+        def DisplayText(self, text: str) -> None:  # noqa: N802 - its name in ITK
+            said.extend(text.splitlines())
+
+        DisplayErrorText = DisplayWarningText = DisplayGenericOutputText = DisplayText
+
+        def DisplayDebugText(self, text: str) -> None:  # noqa: N802
+            """Leave out what is for developers."""
+
+    listener = Listener()
+    before = listener.SetAsGlobalITKLogger()
+    sitk.ProcessObject.SetGlobalWarningDisplay(True)
+    sys.stderr.flush()
+    kept = os.dup(2)
+    try:
+        with tempfile.TemporaryFile() as file:
+            os.dup2(file.fileno(), 2)
+            try:
+                yield
+            finally:
+                os.dup2(kept, 2)
+                file.seek(0)
+                said.extend(file.read(HEARD).decode("utf-8", "replace").splitlines())
+    finally:
+        os.close(kept)
+        before.SetAsGlobalITKLogger()
+        said[:] = [line for line in dict.fromkeys(each.strip() for each in said) if line]
 
 
 def read_layers(path: Path) -> tuple[Volume, ...]:
