@@ -39,6 +39,7 @@ KEPT = {
     "numba": "infill.kernels",
     "llvmlite": "infill.kernels",
     "SimpleITK": "infill.formats.medical",
+    "pydicom": "infill.formats.dicom_files",
     "typer": "infill.cli",
     "rich": "infill.cli",
 }

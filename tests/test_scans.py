@@ -467,6 +467,7 @@ def test_simpleitk_stays_quiet(sitk: Any, tmp_path: Path, capfd: pytest.CaptureF
 
 def test_without_simpleitk_the_extra_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "SimpleITK", None)
+    monkeypatch.setitem(sys.modules, "pydicom", None)
     (tmp_path / "a.dcm").write_bytes(b"x")
     for path, what in (("a.dcm", ".dcm"), (".", "a DICOM folder")):
         with pytest.raises(FormatError) as caught:

@@ -89,6 +89,16 @@ def told_broken(path: Path, what: str | None = None, advice: str = "save it agai
         raise FormatError(f"{path} {said} ({one_line(error)}); {advice}") from error
 
 
+@contextlib.contextmanager
+def told_unreadable(path: Path) -> Iterator[None]:
+    """Turn an error of the operating system, such as a missing permission, into one of ours."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or one_line(error)
+        raise FormatError(f"cannot read {path}: {reason}; check the file") from error
+
+
 def is_ours(error: BaseException) -> bool:
     """Return whether an error was raised by this package, and not by a library that it calls."""
     names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]

@@ -86,6 +86,8 @@ def _require_whole_pages(path: Path, series: Any) -> None:  # noqa: ANN401 - tif
         if page is None:
             raise FormatError(f"{path} lacks page {number} of its series; save it again")
         counts, whole = page.databytecounts, page.keyframe
+        if not whole.nbytes:
+            raise FormatError(f"{path} has a page {number} without cells; save it again")
         if not counts or min(counts) <= 0 or min(page.dataoffsets) <= 0:
             raise FormatError(f"{path} lacks a piece of its page {number}; save it again")
         if whole.compression == UNCOMPRESSED and not whole.is_tiled:
@@ -178,17 +180,17 @@ def _scale(path: Path, unit: str, axis: str) -> float:
 
 
 def _length(page: Any, name: str) -> float | None:  # noqa: ANN401 - tifffile.TiffPage
-    """Return the length of a cell by a resolution, which is cells per length; None if there is none."""
+    """Return the length of a cell by a resolution, cells per length, which is a fraction; None if there is none."""
     value = getattr(page.tags.get(name), "value", None)
-    if not isinstance(value, tuple) or len(value) != 2 or not value[0] or not value[1]:
+    if not isinstance(value, tuple) or len(value) != 2 or not value[0]:
         return None
-    return _positive(value[1] / value[0])
+    return float(value[1]) / float(value[0])
 
 
 def _is_usual(per_cell: list[float | None], unit: str) -> bool:
     inches = 1.0 if unit == "inch" else 2.54
     return all(
-        size is None or any(abs(inches / size - dots) < DOTS_APART * dots for dots in USUAL_DOTS) for size in per_cell
+        not size or any(abs(inches / size - dots) < DOTS_APART * dots for dots in USUAL_DOTS) for size in per_cell
     )
 
 
