@@ -40,6 +40,7 @@ ADDRESS = re.compile(r" ?\(0x[0-9a-f]+\)")
 TRACE = "Traceback (most recent call last)"
 LENGTH = 8  # bytes, at the end, that say how long the text before them is
 ALIGNED = 64  # bytes
+NAMELESS = os.name == "posix"  # elsewhere numbers of files do not travel, and no file is removed while it is mapped
 KILL_ON_DEATH = 1  # PR_SET_PDEATHSIG of Linux
 # Threads reserve address space, and reading needs none.
 ENVIRONMENT = {
@@ -156,13 +157,13 @@ def _run(request: str, seconds: float, path: Path, files: tuple[int, ...]) -> tu
 @contextlib.contextmanager
 def _result_file() -> Iterator[tuple[IO[bytes], int | str]]:
     """Yield a file for the result, and its number or its name for the child."""
-    if hasattr(os, "memfd_create"):
+    if NAMELESS and hasattr(os, "memfd_create"):
         with open(os.memfd_create("infill-volume"), "r+b") as file:
             yield file, file.fileno()
-    elif os.name == "posix":
+    elif NAMELESS:
         with tempfile.TemporaryFile() as file:
             yield file, file.fileno()
-    else:  # a number does not travel, and what has a name has to be removed
+    else:
         with tempfile.TemporaryDirectory(prefix="infill-") as folder, (Path(folder) / "volume").open("x+b") as file:
             yield file, file.name
 
@@ -187,11 +188,12 @@ def _answer(file: IO[bytes]) -> dict[str, Any] | None:
 def _arrays(file: IO[bytes], described: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
     if not described:
         return {}
-    if os.name != "posix":  # a file cannot be removed there as long as it is mapped
-        file.seek(0)
-        held: Any = bytearray(file.read())
-    else:
+    held: Any
+    if NAMELESS:
         held = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY)
+    else:
+        file.seek(0)
+        held = bytearray(file.read())
     return {
         name: np.ndarray(tuple(each["shape"]), dtype=each["dtype"], buffer=held, offset=each["at"])
         for name, each in described.items()
