@@ -117,9 +117,9 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
     units = [unit, *(str(known.get(f"{axis}unit", unit)) for axis in "yz")]
     depth = known.get("spacing")
     sizes = [*per_cell, None if depth is None else _positive(depth)]
-    scales = [_scale(path, each, axis) for each, axis in zip(units, "xyz", strict=True)]
     if unit.lower() in CELLS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
         return (1.0,) * AXES  # nothing was measured
+    scales = [_scale(path, each, axis) for each, axis in zip(units, "xyz", strict=True)]
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (len(tiff.pages) > 1 or int(known.get("images", 1)) > 1 or missing != ["z"]):
         LOG.warning(
