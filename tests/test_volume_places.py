@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gzip
 import logging
 import math
 import tempfile
@@ -491,3 +492,22 @@ def test_cells_are_found_beside_a_header_of_another_computer(tmp_path: Path) -> 
     (tmp_path / "a.raw").write_bytes(w.flat(VALUES))
     (tmp_path / "a.mhd").write_bytes(w.meta_head(VALUES, "C:\\scans\\a.raw"))
     assert np.array_equal(read_volume(tmp_path / "a.mhd").values, VALUES)
+
+
+# --- VTK and FreeSurfer ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("way", ["vtk", "vtk text", "vti raw", "vti zlib", "vti text", "mgh", "mgz"])
+def test_a_size_that_other_formats_lack_is_told(way: str) -> None:
+    whole = w.WAYS[way](VALUES)
+    assert read(whole)[1] == []
+    if way.startswith("vt"):
+        data = whole.data.replace(b"SPACING 1 0.5 3\n", b"").replace(b' Spacing="1 0.5 3"', b"")
+    else:
+        data = gzip.decompress(whole.data) if way == "mgz" else whole.data
+        data = data[:28] + b"\0\0" + data[30:]
+        data = gzip.compress(data) if way == "mgz" else data
+    volume, said = read(w.Written(name=whole.name, data=data))
+    assert volume.spacing == (1, 1, 1)
+    assert len(said) == 1
+    assert "does not say the size" in said[0]

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, told_broken
 from infill.formats.frames import chosen
-from infill.formats.vtk_images import Lattice, numbers_in
+from infill.formats.vtk_images import LOG, Lattice, numbers_in
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -81,6 +81,8 @@ def _coding(path: Path, root: ElementTree.Element, appended: memoryview, tag: re
 def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int | None) -> Volume:
     """Return the volume that the pieces of an image make up."""
     extent = _extent(image.get("WholeExtent", ""))
+    if image.get("Spacing") is None:
+        LOG.warning("%s does not say the size of its cells; 1 mm is taken: give --spacing if it is another", path)
     spacing = _numbers(image.get("Spacing", "1 1 1"), AXES)
     direction = _numbers(image.get("Direction", "1 0 0 0 1 0 0 0 1"), AXES * AXES).reshape(AXES, AXES)
     first = _numbers(image.get("Origin", "0 0 0"), AXES) + direction @ (spacing * extent[:, 0])
