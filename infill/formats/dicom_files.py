@@ -1,6 +1,7 @@
 """What the header of a DICOM file says of its frames, by pydicom (extra `medical`), and where its pixels are.
 
-    functional groups   per frame or shared: Plane Position, Plane Orientation, Pixel Measures, Pixel Value Transformation
+    functional groups   of each frame or all: Plane Position, Plane Orientation, Pixel Measures, Pixel Value
+                        Transformation
     top level           the same for a file of one frame; Grid Frame Offset Vector of a dose; Slice Vector and Spacing
                         Between Slices of nuclear medicine
     Segment Sequence    numbers, names and colours of the segments
@@ -27,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import SMALLER, told_broken
+from infill.formats.broken import SMALLER, one_line, told_broken
 from infill.formats.label_tables import Colour, Segment
 from infill.machine import available_memory, require_memory
 
@@ -162,6 +163,8 @@ class Pixels:
         Whether numbers may be negative, have their low byte first, and were written as 16-bit words.
     deflated : bool
         Whether all of the file is packed.
+    syntax : str
+        UID of how it is written.
     """
 
     begin: int
@@ -174,6 +177,7 @@ class Pixels:
     little: bool
     words: bool
     deflated: bool
+    syntax: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -273,15 +277,17 @@ def read_image(path: Path) -> Image | None:
 @contextlib.contextmanager
 def _parsed(path: Path) -> Iterator[tuple[Dataset, Pixels | None]]:
     """Yield the header of a file and how its pixels are stored, if it has any; complaints about either are ours."""
-    from pydicom.errors import InvalidDicomError
+    from pydicom.errors import BytesLengthException, InvalidDicomError
 
     try:
         # What it warns of are elements that do not matter here: those that do are checked.
         with warnings.catch_warnings(), told_broken(path, "is broken or cut off", "copy or save it again"):
             warnings.simplefilter("ignore")
             yield _header(path)
-    except InvalidDicomError as error:
-        raise FormatError(f"{path} is not DICOM; check that it is the right file") from error
+    except (BytesLengthException, InvalidDicomError, OSError) as error:
+        if isinstance(error, OSError) and error.errno is not None:  # of the file system, not of what is in the file
+            raise
+        raise FormatError(f"{path} is broken or not DICOM ({one_line(error)}); copy or save it again") from error
 
 
 def _header(path: Path) -> tuple[Dataset, Pixels | None]:
@@ -308,6 +314,7 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
             header = read_partial(file, stop_when=at_pixels, force=True)
             implicit = bool(header.original_encoding[0])
             little = header.original_encoding[1] is not False
+            syntax = str(header.file_meta.get("TransferSyntaxUID", ""))
             implicit = implicit or syntax == ImplicitVRLittleEndian
         if not found:
             return header, None
@@ -328,6 +335,7 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
         little=little,
         words=vr != "OB",
         deflated=deflated,
+        syntax=syntax,
     )
 
 
@@ -771,7 +779,7 @@ def write_packed_frames(image: Image, target: Path) -> None:
             raise ValueError(f"{len(packed)} frames of {image.count}")
         plain = Dataset()
         plain.file_meta = FileMetaDataset()
-        plain.file_meta.TransferSyntaxUID = _syntax(path)  # type: ignore[assignment]
+        plain.file_meta.TransferSyntaxUID = pixels.syntax  # type: ignore[assignment]
         plain.file_meta.MediaStorageSOPClassUID = plain.SOPClassUID = PLAIN_STORAGE  # type: ignore[assignment]
         plain.file_meta.MediaStorageSOPInstanceUID = plain.SOPInstanceUID = "2.25.1"  # type: ignore[assignment]
         plain.Rows, plain.Columns = image.frames[0].shape

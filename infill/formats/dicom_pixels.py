@@ -100,7 +100,7 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
     -----
     Numbers stay whole if all scales are, and become floating-point numbers otherwise. Frames of MONOCHROME1 are not
     turned into their negative: that is how they are shown, and their values are what is stored. Padding stays where it
-    lies below everything else; otherwise it would count as solid, and becomes the least value of the rest.
+    lies low; in the upper half of the other values it would count as solid, and becomes the least of them.
     """
     by_path = {image.path: image for image in images}
     kind = _kind(by_path, frames)
@@ -164,16 +164,17 @@ def _kind(images: dict[Path, Image], frames: Sequence[Frame]) -> np.dtype[Any]:
 
 
 def _without_padding(values: NDArray[Any], padded: list[tuple[int, NDArray[np.bool_]]], path: Path) -> tuple[str, ...]:
-    """Set padding to the least of the other values, if it is above that; return what there is to say of it."""
+    """Set padding to the least of the other values, if it lies in their upper half; return what there is to say."""
     if not padded:
         return ()
     masks = dict(padded)
     others = [values[k][~masks[k]] if k in masks else values[k] for k in range(len(values))]
-    least = min((each.min() for each in others if each.size), default=None)
-    if least is None or max(values[k][mask].max() for k, mask in padded) <= least:
+    ends = [(float(each.min()), float(each.max())) for each in others if each.size]
+    highest = max(float(values[k][mask].max()) for k, mask in padded)
+    least = min((low for low, _ in ends), default=highest)
+    if 2 * highest <= least + max((high for _, high in ends), default=highest):
         return ()
     count = sum(int(mask.sum()) for _, mask in padded)
-    highest = max(values[k][mask].max() for k, mask in padded)
     for k, mask in padded:
         values[k][mask] = least
     return (f"{path}: {count} cells hold a value for no pixel (up to {highest:g}); they are taken as {least:g}",)
