@@ -22,6 +22,7 @@ from pydicom.uid import RLELossless
 
 from infill import Volume, read_volume
 from infill.errors import FormatError, InfillError, ParameterError
+from infill.formats import dicom_pixels
 from infill.smoothing.sources import read_source
 from tests.handmade_dicom import (
     AXIAL,
@@ -605,6 +606,27 @@ def test_packed_frames_are_the_same(packing: str, tmp_path: Path) -> None:
     assert found.warnings == ()
 
 
+def test_packed_slices_of_a_folder_are_unpacked_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not one by one, each in a process: two ways of packing are two."""
+    called = []
+    unpack = dicom_pixels.unpacked_frames
+    monkeypatch.setattr(dicom_pixels, "unpacked_frames", lambda *words: called.append(words) or unpack(*words))
+    each = [{"RescaleSlope": str(k + 1), "RescaleIntercept": "0"} for k in range(COUNT)]
+    files = slices(body(), places(), each=each)
+    plain = read_volume(save_all(deepcopy(files), tmp_path / "plain"))
+    (tmp_path / "packed").mkdir()
+    for k, made in enumerate(files):
+        made.PixelData, syntax = packed(body()[k : k + 1], "JPEG2000" if k % 2 else "JPEG", tmp_path)
+        made["PixelData"].VR = "OB"
+        made["PixelData"].is_undefined_length = True
+        made.file_meta = FileMetaDataset()
+        made.file_meta.TransferSyntaxUID = syntax
+        made.save_as(tmp_path / "packed" / f"{k * 7 % COUNT}.dcm", enforce_file_format=True)
+    found = read_volume(tmp_path / "packed")
+    assert np.array_equal(found.values, plain.values)
+    assert len(called) == 2
+
+
 def packed(stored: np.ndarray, packing: str, folder: Path, broken: float = 1.0) -> tuple[bytes, str]:
     """Return packed frames, the third of them cut off at a part of its length."""
     from pydicom import dcmread
@@ -624,7 +646,8 @@ def packed(stored: np.ndarray, packing: str, folder: Path, broken: float = 1.0) 
         if not read.file_meta.TransferSyntaxUID.is_encapsulated:
             pytest.skip(f"ITK here does not write {packing}")
         frames.append(next(generate_frames(read.PixelData, number_of_frames=1)))
-    frames[2] = frames[2][: int(broken * len(frames[2]))]
+    if broken < 1:
+        frames[2] = frames[2][: int(broken * len(frames[2]))]
     return encapsulate(frames), read.file_meta.TransferSyntaxUID
 
 
