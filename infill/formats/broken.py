@@ -107,7 +107,7 @@ def is_ours(error: BaseException) -> bool:
 
 def one_line(error: Exception) -> str:
     """Return the text of an error on one line, truncated if too long."""
-    words = " ".join(str(error).split())
+    words = "".join(each if each.isprintable() else "?" for each in " ".join(str(error).split()))
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
     return words if len(words) <= 200 else words[:200] + "…"

@@ -209,7 +209,7 @@ def _lines(printed: str) -> tuple[str, ...]:
 def _error(path: Path, kind: str, text: str, *, ours: bool) -> InfillError:
     if ours:
         found = getattr(errors, kind, FormatError)
-        return found(text)  # type: ignore[no-any-return]
+        return found(text)
     if kind == "MemoryError" or "bad_alloc" in text or "allocate memory" in text:
         return MemoryLimitError(f"{path} needs more memory than there is; check it, or give a smaller one")
     return FormatError(f"cannot read {path} ({text}); check the file, or save it again")
@@ -273,7 +273,7 @@ def _write(file: IO[bytes], values: NDArray[Any]) -> dict[str, Any]:
     file.write(b"\0" * (-at % ALIGNED))
     at += -at % ALIGNED
     plain = np.ascontiguousarray(values)
-    file.write(memoryview(plain.reshape(-1)).cast("B") if plain.size else b"")
+    file.write(plain.reshape(-1).view(np.uint8).data if plain.size else b"")
     return {"shape": plain.shape, "dtype": plain.dtype.str, "at": at}
 
 

@@ -1,6 +1,7 @@
 """What the header of a DICOM file says of its frames, by pydicom (extra `medical`), and where its pixels are.
 
-    functional groups   per frame or shared: Plane Position, Plane Orientation, Pixel Measures, Pixel Value Transformation
+    functional groups   of each frame or all: Plane Position, Plane Orientation, Pixel Measures, Pixel Value
+                        Transformation
     top level           the same for a file of one frame; Grid Frame Offset Vector of a dose; Slice Vector and Spacing
                         Between Slices of nuclear medicine
     Segment Sequence    numbers, names and colours of the segments
@@ -18,7 +19,7 @@ import os
 import unicodedata
 import warnings
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -27,7 +28,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import SMALLER, told_broken
+from infill.formats.broken import SMALLER, one_line, told_broken
 from infill.formats.label_tables import Colour, Segment
 from infill.machine import available_memory, require_memory
 
@@ -162,6 +163,8 @@ class Pixels:
         Whether numbers may be negative, have their low byte first, and were written as 16-bit words.
     deflated : bool
         Whether all of the file is packed.
+    syntax : str
+        UID of how it is written.
     """
 
     begin: int
@@ -174,6 +177,7 @@ class Pixels:
     little: bool
     words: bool
     deflated: bool
+    syntax: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -264,24 +268,27 @@ def read_image(path: Path) -> Image | None:
     FormatError
         If the file is broken, cut off or not DICOM.
     """
-    with _parsed(path) as (header, pixels):
+    with _complaints(path):
+        header, pixels = _header(path)
         if pixels is None or header.get("Rows") is None:
             return None
         return _image(path, header, pixels)
 
 
 @contextlib.contextmanager
-def _parsed(path: Path) -> Iterator[tuple[Dataset, Pixels | None]]:
-    """Yield the header of a file and how its pixels are stored, if it has any; complaints about either are ours."""
-    from pydicom.errors import InvalidDicomError
+def _complaints(path: Path) -> Iterator[None]:
+    """Turn what pydicom complains of in a file into an error of ours."""
+    from pydicom.errors import BytesLengthException, InvalidDicomError
 
     try:
         # What it warns of are elements that do not matter here: those that do are checked.
         with warnings.catch_warnings(), told_broken(path, "is broken or cut off", "copy or save it again"):
             warnings.simplefilter("ignore")
-            yield _header(path)
-    except InvalidDicomError as error:
-        raise FormatError(f"{path} is not DICOM; check that it is the right file") from error
+            yield
+    except (BytesLengthException, InvalidDicomError, OSError) as error:
+        if isinstance(error, OSError) and error.errno is not None:  # of the file system, not of what is in the file
+            raise
+        raise FormatError(f"{path} is broken or not DICOM ({one_line(error)}); copy or save it again") from error
 
 
 def _header(path: Path) -> tuple[Dataset, Pixels | None]:
@@ -308,6 +315,7 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
             header = read_partial(file, stop_when=at_pixels, force=True)
             implicit = bool(header.original_encoding[0])
             little = header.original_encoding[1] is not False
+            syntax = str(header.file_meta.get("TransferSyntaxUID", ""))
             implicit = implicit or syntax == ImplicitVRLittleEndian
         if not found:
             return header, None
@@ -328,6 +336,7 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
         little=little,
         words=vr != "OB",
         deflated=deflated,
+        syntax=syntax,
     )
 
 
@@ -746,7 +755,7 @@ def plain_bytes(image: Image) -> memoryview:
     """Return the bytes of frames that are not packed one by one."""
     pixels = image.pixels
     assert pixels.length is not None
-    with told_broken(image.path, "is broken or cut off", "copy or save it again"):
+    with _complaints(image.path):
         if pixels.deflated:
             return memoryview(_inflated(image.path))[pixels.begin : pixels.begin + pixels.length]
         with image.path.open("rb") as file:
@@ -754,28 +763,26 @@ def plain_bytes(image: Image) -> memoryview:
             return memoryview(file.read(pixels.length))
 
 
-def write_packed_frames(image: Image, target: Path) -> None:
-    """Write the frames of a file that are packed one by one into a file that says nothing else of them.
+def write_packed_frames(images: Sequence[Image], target: Path) -> None:
+    """Write the frames of files that are packed one by one, and alike, into a file that says nothing else of them.
 
-    So the values that a reader unpacks are those that are stored, in the order in which they are stored.
+    So the values that a reader unpacks are those that are stored, in the order in which they are stored, and it is
+    called once for all slices of a folder.
     """
     from pydicom import Dataset, dcmwrite
     from pydicom.dataset import FileMetaDataset
-    from pydicom.encaps import encapsulate, generate_frames
+    from pydicom.encaps import encapsulate
 
-    pixels, path = image.pixels, image.path
-    with _parsed(path), path.open("rb") as file:
-        file.seek(pixels.begin)
-        packed = list(generate_frames(file, number_of_frames=image.count))
-        if len(packed) != image.count:
-            raise ValueError(f"{len(packed)} frames of {image.count}")
-        plain = Dataset()
+    first = images[0]
+    packed = [frame for image in images for frame in _packed_frames(image)]
+    plain, pixels = Dataset(), first.pixels
+    with _complaints(first.path):
         plain.file_meta = FileMetaDataset()
-        plain.file_meta.TransferSyntaxUID = _syntax(path)  # type: ignore[assignment]
+        plain.file_meta.TransferSyntaxUID = pixels.syntax  # type: ignore[assignment]
         plain.file_meta.MediaStorageSOPClassUID = plain.SOPClassUID = PLAIN_STORAGE  # type: ignore[assignment]
         plain.file_meta.MediaStorageSOPInstanceUID = plain.SOPInstanceUID = "2.25.1"  # type: ignore[assignment]
-        plain.Rows, plain.Columns = image.frames[0].shape
-        plain.NumberOfFrames = image.count
+        plain.Rows, plain.Columns = first.frames[0].shape
+        plain.NumberOfFrames = len(packed)
         plain.SamplesPerPixel, plain.PhotometricInterpretation = 1, "MONOCHROME2"
         plain.BitsAllocated, plain.BitsStored, plain.HighBit = pixels.allocated, pixels.stored, pixels.high
         plain.PixelRepresentation = int(pixels.signed)
@@ -783,3 +790,14 @@ def write_packed_frames(image: Image, target: Path) -> None:
         plain["PixelData"].VR = "OB"
         plain["PixelData"].is_undefined_length = True
         dcmwrite(target, plain, enforce_file_format=True)
+
+
+def _packed_frames(image: Image) -> list[bytes]:
+    from pydicom.encaps import generate_frames
+
+    with _complaints(image.path), image.path.open("rb") as file:
+        file.seek(image.pixels.begin)
+        packed = list(generate_frames(file, number_of_frames=image.count))
+        if len(packed) != image.count:
+            raise ValueError(f"{len(packed)} frames of {image.count}")
+        return packed

@@ -297,7 +297,7 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
     off = float(np.linalg.norm(places[order] - even, axis=1).max() / step)
     if not off <= UNEVEN:
         return Uneven(off=off, why=_why(steps, along[order]), doubled=bool((steps < UNEVEN * steps.max()).any()))
-    step = _stated(frames, step, off * step)
+    step = float(f"{_stated(frames, step, off * step):.12g}")  # 3, not 3.0000000000000004
     centre = middle - (len(frames) - 1) / 2 * step * normal
     return Stack(
         frames=tuple(frames[k] for k in order),

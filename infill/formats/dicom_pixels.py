@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -54,22 +54,34 @@ def stored_numbers(image: Image) -> Numbers:
     """
     require_grey(image)
     pixels, shape = image.pixels, (image.count, *image.frames[0].shape)
-    require_memory(2 * math.prod(shape) * max(1, pixels.allocated // 8), None, SMALLER)
     if pixels.length is None:
-        with tempfile.TemporaryDirectory(prefix="infill-") as folder:
-            plain = Path(folder) / "frames.dcm"
-            write_packed_frames(image, plain)
-            values, said = unpacked_frames(plain, image.path)
-        if values.shape != shape:
-            raise FormatError(f"{image.path} holds frames {values.shape} and says {shape}; save it again")
-        return Numbers(
-            values=values, warnings=tuple(f"{image.path}: {printable(line)} (while unpacking)" for line in said)
-        )
+        return _unpacked_together([image])[image.path]
+    require_memory(2 * math.prod(shape) * max(1, pixels.allocated // 8), None, SMALLER)
     held = np.frombuffer(plain_bytes(image), dtype=np.uint8)
-    return Numbers(values=_unpacked(held, pixels, math.prod(shape)).reshape(shape))
+    return Numbers(values=_of_bytes(held, pixels, math.prod(shape)).reshape(shape))
 
 
-def _unpacked(held: NDArray[np.uint8], pixels: Pixels, count: int) -> NDArray[Any]:
+def _unpacked_together(images: Sequence[Image]) -> dict[Path, Numbers]:
+    """Return the stored numbers of files whose frames are packed one by one, and in the same way."""
+    first = images[0]
+    path = first.path if len(images) == 1 else first.path.parent
+    shape = (sum(image.count for image in images), *first.frames[0].shape)
+    require_memory(2 * math.prod(shape) * max(1, first.pixels.allocated // 8), None, SMALLER)
+    with tempfile.TemporaryDirectory(prefix="infill-") as folder:
+        plain = Path(folder) / "frames.dcm"
+        write_packed_frames(images, plain)
+        values, said = unpacked_frames(plain, path)
+    if values.shape != shape:
+        raise FormatError(f"{path} holds frames {values.shape} and says {shape}; save it again")
+    warnings = tuple(f"{path}: {printable(line)} (while unpacking)" for line in said)
+    found, begin = {}, 0
+    for image in images:
+        found[image.path] = Numbers(values=values[begin : begin + image.count], warnings=warnings)
+        begin += image.count
+    return found
+
+
+def _of_bytes(held: NDArray[np.uint8], pixels: Pixels, count: int) -> NDArray[Any]:
     """Return the numbers in the bytes of a file: of the bits that are used, with their sign."""
     order = "<" if pixels.little else ">"
     if pixels.allocated <= 8 and not pixels.little and pixels.words:  # bytes were written as words
@@ -100,18 +112,23 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
     -----
     Numbers stay whole if all scales are, and become floating-point numbers otherwise. Frames of MONOCHROME1 are not
     turned into their negative: that is how they are shown, and their values are what is stored. Padding stays where it
-    lies below everything else; otherwise it would count as solid, and becomes the least value of the rest.
+    lies low; in the upper half of the other values it would count as solid, and becomes the least of them.
     """
-    by_path = {image.path: image for image in images}
+    wanted = {frame.path for frame in frames}
+    by_path = {image.path: image for image in images if image.path in wanted}
     kind = _kind(by_path, frames)
     rows, columns = frames[0].shape
     require_memory(len(frames) * rows * columns * kind.itemsize, None, SMALLER)
     found = np.empty((len(frames), rows, columns), dtype=kind)
     padded: list[tuple[int, NDArray[np.bool_]]] = []
     warnings: list[str] = []
+    unpacked: dict[Path, Numbers] = {}
     for path in dict.fromkeys(frame.path for frame in frames):
         image = by_path[path]
-        stored = stored_numbers(image)
+        if path not in unpacked and image.pixels.length is None:
+            require_grey(image)
+            unpacked |= _unpacked_together([each for each in by_path.values() if _is_packed_alike(image, each)])
+        stored = unpacked.pop(path) if path in unpacked else stored_numbers(image)
         warnings += [line for line in stored.warnings if line not in warnings]
         for k, frame in enumerate(frames):
             if frame.path != path:
@@ -124,6 +141,13 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
             found[k] = _scaled(numbers, image, frame, kind)
     warnings += _without_padding(found, padded, frames[0].path)
     return Numbers(values=found, warnings=tuple(warnings))
+
+
+def _is_packed_alike(one: Image, other: Image) -> bool:
+    """Return whether the frames of two files can be unpacked together."""
+    if not other.frames or one.frames[0].shape != other.frames[0].shape:
+        return False
+    return replace(one.pixels, begin=0) == replace(other.pixels, begin=0)
 
 
 def _scaled(numbers: NDArray[Any], image: Image, frame: Frame, kind: np.dtype[Any]) -> NDArray[Any]:
@@ -164,16 +188,17 @@ def _kind(images: dict[Path, Image], frames: Sequence[Frame]) -> np.dtype[Any]:
 
 
 def _without_padding(values: NDArray[Any], padded: list[tuple[int, NDArray[np.bool_]]], path: Path) -> tuple[str, ...]:
-    """Set padding to the least of the other values, if it is above that; return what there is to say of it."""
+    """Set padding to the least of the other values, if it lies in their upper half; return what there is to say."""
     if not padded:
         return ()
     masks = dict(padded)
     others = [values[k][~masks[k]] if k in masks else values[k] for k in range(len(values))]
-    least = min((each.min() for each in others if each.size), default=None)
-    if least is None or max(values[k][mask].max() for k, mask in padded) <= least:
+    ends = [(float(each.min()), float(each.max())) for each in others if each.size]
+    highest = max(float(values[k][mask].max()) for k, mask in padded)
+    least = min((low for low, _ in ends), default=highest)
+    if 2 * highest <= least + max((high for _, high in ends), default=highest):
         return ()
     count = sum(int(mask.sum()) for _, mask in padded)
-    highest = max(values[k][mask].max() for k, mask in padded)
     for k, mask in padded:
         values[k][mask] = least
     return (f"{path}: {count} cells hold a value for no pixel (up to {highest:g}); they are taken as {least:g}",)

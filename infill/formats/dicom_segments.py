@@ -121,6 +121,8 @@ def _grid(image: Image) -> tuple[Grid, tuple[str, ...]]:
     """Return where the frames of a segmentation lie, and what there is to warn of."""
     if image.photometric not in ("MONOCHROME2", "PALETTE COLOR", "MONOCHROME1", ""):
         raise FormatError(f"{image.path} holds colours ({image.photometric}); save it as a segmentation")
+    if image.unplaced:
+        raise FormatError(f"{image.path} {image.unplaced}; save it as .seg.nrrd")
     frames, warnings = placed_frames(image, None)
     plane = plane_of(frames)
     if isinstance(plane, Uneven) or any(frame.position is None for frame in frames):

@@ -6,6 +6,7 @@ import importlib.util
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
@@ -38,6 +39,13 @@ def unpack_frames(path: str) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     """Read a DICOM file by SimpleITK; return nothing more about it, and its numbers [frame, row, column]."""
     import SimpleITK
 
-    SimpleITK.ProcessObject.SetGlobalWarningDisplay(True)
     image = SimpleITK.ReadImage(path, imageIO="GDCMImageIO")
-    return {}, {"values": SimpleITK.GetArrayViewFromImage(image)}
+    return {}, {"values": np.asarray(_Kept(SimpleITK.GetArrayViewFromImage(image), image))}
+
+
+class _Kept:
+    """The numbers of an image as an array; the image is kept alive as long as the array, so that nothing is copied."""
+
+    def __init__(self, view: NDArray[Any], image: Any) -> None:  # noqa: ANN401 - SimpleITK.Image
+        self.image = image
+        self.__array_interface__ = view.__array_interface__

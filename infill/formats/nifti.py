@@ -231,10 +231,10 @@ def _scaled(path: Path, cells: NDArray[Any], found: _Header) -> NDArray[Any]:
     if not math.isfinite(intercept):
         raise FormatError(f"{path} adds {intercept} to its values (scl_inter); save it again")
     # 24 bits hold all cells of 16 bits.
-    kind = np.float32 if cells.dtype.itemsize <= 2 or cells.dtype.str[1:] == "f4" else np.float64
-    values = cells.astype(kind)
-    values *= kind(slope)
-    values += kind(intercept)
+    exact = cells.dtype.itemsize <= 2 or cells.dtype.str[1:] == "f4"
+    values: NDArray[np.floating[Any]] = cells.astype(np.float32 if exact else np.float64)
+    np.multiply(values, slope, out=values)
+    np.add(values, intercept, out=values)
     return values
 
 

@@ -146,7 +146,7 @@ def read_bytes(
         )
     require_memory(count, None, SMALLER)
     cells = np.empty(count, dtype=np.uint8)
-    target, at = memoryview(cells), 0
+    target, at = cells.data, 0
     try:
         for piece in _unpack(file, packing, held):
             low, high = max(at, skip), min(at + len(piece), skip + count)
@@ -207,7 +207,7 @@ def _unpack(file: BinaryIO, packing: str, left: int) -> Iterator[bytes]:
 def _filled(said: str, file: BinaryIO, count: int) -> NDArray[np.uint8]:
     """Return so many bytes of a file, read without a copy."""
     cells = np.empty(count, dtype=np.uint8)
-    target, at = memoryview(cells), 0
+    target, at = cells.data, 0
     while at < count:
         some = file.readinto(target[at:])  # type: ignore[attr-defined]
         if not some:

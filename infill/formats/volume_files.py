@@ -5,7 +5,8 @@
     .nrrd .nii .mha …   with their place in space
     .mgz .mgh           of FreeSurfer
     .vtk .vti           images of VTK, legacy and XML
-    .dcm, DICOM folder  by SimpleITK (extra `medical`): the only series in it, or the one that is named
+    .dcm                frames of DICOM, where they say they lie, by pydicom (extra `medical`)
+    a DICOM folder      the only series in it, or the one that is named
 
 Values keep their type, and are copied at most once.
 """
