@@ -247,6 +247,7 @@ class Input(TypedDict):
     noise: NotRequired[float]
     slices: NotRequired[int]
     coarse: NotRequired[bool]
+    warnings: NotRequired[list[str]]
     several: NotRequired[bool]
     notes: NotRequired[list[str]]
     grey: NotRequired[bool]

@@ -31,6 +31,8 @@ class Volume:
         Column i is the direction in space of axis i of the grid.
     space : str
         Name of the coordinate system of space: "LPS" (left, posterior, superior) for medical images, else empty.
+    warnings : tuple of str
+        What the reader of the file had to assume, or was told of, a line each.
 
     Raises
     ------
@@ -46,6 +48,7 @@ class Volume:
     origin: tuple[float, ...] = (0.0, 0.0, 0.0)
     direction: ArrayLike = field(default_factory=lambda: np.eye(AXES))
     space: str = ""
+    warnings: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check all sizes."""

@@ -40,6 +40,7 @@ KEPT = {
     "llvmlite": "infill.kernels",
     "SimpleITK": "infill.formats.medical",
     "DracoPy": "infill.formats.draco",
+    "pydicom": "infill.formats.dicom_files",
     "typer": "infill.cli",
     "rich": "infill.cli",
 }

@@ -95,7 +95,7 @@ READERS: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object], str]]
     "npz": (field(".npz"), read_volume, "infill.formats.arrays._axes"),
     "tif": (tiff, read_volume, "infill.formats.slices._tiff_spacing"),
     "png": (pictures, read_volume, "infill.formats.slices._read_png"),
-    "nifti": (nifti, read_volume, "infill.formats.medical._require_whole_nifti"),
+    "nifti": (nifti, read_volume, "infill.formats.nifti._scaled"),
     "mgh": (mgh_file, read_volume, "infill.formats.freesurfer._read"),
     "vtk": (vtk_file, read_volume, "infill.formats.vtk_images._lattice"),
     "vti": (vti_file, read_volume, "infill.formats.vtk_xml._extent"),

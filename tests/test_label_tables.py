@@ -136,7 +136,6 @@ def seg_nrrd(path: Path, fields: str = FIELDS, values: np.ndarray = VALUES) -> P
 
 
 def test_layers_names_and_colours_of_slicer(tmp_path: Path) -> None:
-    pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     found = read_segmentation(seg_nrrd(tmp_path / "a.seg.nrrd"))
     assert found.segments == (
         Segment(value=1, name="Femur, left/right", colour=(0.5, 0.68, 0.0), layer=0),
@@ -153,7 +152,6 @@ def test_layers_names_and_colours_of_slicer(tmp_path: Path) -> None:
 
 
 def test_one_layer_of_slicer_and_a_plain_nrrd(tmp_path: Path) -> None:
-    pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     path = seg_nrrd(tmp_path / "a.seg.nrrd", FIELDS.partition("Segment10")[0], VALUES[0])
     assert [each.name for each in read_segmentation(path).segments] == ["Femur, left/right", "Cartilage"]
     plain = read_segmentation(seg_nrrd(tmp_path / "b.nrrd", "", VALUES[0]))
@@ -177,7 +175,6 @@ def test_an_old_segmentation_has_a_layer_for_each_segment(tmp_path: Path) -> Non
     ],
 )
 def test_a_header_that_is_wrong_is_one_line(fields: str, says: str, tmp_path: Path) -> None:
-    pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     with pytest.raises(FormatError, match=says) as caught:
         read_segmentation(seg_nrrd(tmp_path / "a.seg.nrrd", fields))
     assert "\n" not in str(caught.value)
@@ -185,7 +182,6 @@ def test_a_header_that_is_wrong_is_one_line(fields: str, says: str, tmp_path: Pa
 
 @pytest.mark.parametrize("part", [0.0, 0.3, 0.7, 0.99])
 def test_a_segmentation_that_is_cut_off(part: float, tmp_path: Path) -> None:
-    pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     path = seg_nrrd(tmp_path / "a.seg.nrrd")
     path.write_bytes(path.read_bytes()[: int(part * path.stat().st_size)])
     with pytest.raises(FormatError) as caught:

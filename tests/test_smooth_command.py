@@ -233,8 +233,6 @@ def test_a_ball_in_a_turned_scan_lies_at_its_physical_point(mirror: tuple[int, .
 
 @pytest.mark.parametrize("suffix", [".npz", ".nrrd"])
 def test_the_field_is_written_and_read_back_in_its_place(suffix: str, folder: Path) -> None:
-    if suffix == ".nrrd":
-        pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
     write_field(
         Volume(
             values=BALL.astype(np.uint8), spacing=(0.5, 0.6, 0.7), origin=(10, -20, 30), direction=turn(), space="LPS"

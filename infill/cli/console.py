@@ -11,12 +11,14 @@ from typing import Any, TextIO
 
 import typer
 
+from infill.errors import printable
+
 UNITS = ("B", "kB", "MB", "GB")
 
 
 def say(text: str) -> None:
-    """Print a message to stderr."""
-    typer.echo(text, err=True)
+    """Print a message to stderr; what it quotes of a file or its name cannot steer the terminal."""
+    typer.echo("\n".join(printable(line) for line in text.split("\n")), err=True)
 
 
 def warn(
@@ -28,7 +30,7 @@ def warn(
     line: str | None = None,  # noqa: ARG001
 ) -> None:
     """Print a warning as one line."""
-    say(f"warning: {message}")
+    say(f"warning: {printable(str(message))}")
 
 
 @contextlib.contextmanager
@@ -68,7 +70,7 @@ class _Said(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print one record."""
-        say(record.getMessage())
+        say(printable(record.getMessage()))
 
 
 def is_typed(context: typer.Context, name: str) -> bool:

@@ -37,7 +37,7 @@ Labels = Annotated[
         "--labels",
         metavar="FILE",
         help="Names and colours of the labels: label descriptions of ITK-SNAP, a lookup table of FreeSurfer, a .ctbl "
-        "of 3D Slicer. (default: as in a .seg.nrrd)",
+        "of 3D Slicer. (default: as in a .seg.nrrd or a DICOM segmentation)",
         rich_help_panel=LABELS,
     ),
 ]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from patterns.declared import check_parameters, parameter
 from patterns.declared import parameters as declared
 from patterns.errors import PatternError
@@ -127,7 +127,7 @@ KINDS: Mapping[str, type[Plain]] = {
 
 def unplaced(pattern: str) -> Plain:
     """Return the parameters of a pattern, by its name, or of a drawing, by its path, with their defaults."""
-    return KINDS.get(pattern, Placed)(name=printable(PurePath(pattern).name))
+    return KINDS.get(pattern, Placed)(name=excerpt(PurePath(pattern).name))
 
 
 def placement(pattern: str, parameters: Mapping[str, Any]) -> Plain:

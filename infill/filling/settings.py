@@ -20,8 +20,8 @@ from typing import Any
 
 from infill.errors import UsageError
 from infill.filling.request import AUTO, KEEP, SAME
+from infill.formats.excerpts import quote_value
 from infill.formats.options import parse_number, parse_share, parse_word
-from infill.formats.printable import shown
 
 ENDLESS = 10**9  # layers
 
@@ -87,7 +87,7 @@ def parse_radius(name: str, value: object) -> str | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise UsageError(f"{name} is {shown(value)}; give auto, or a number in mm") from None
+        raise UsageError(f"{name} is {quote_value(value)}; give auto, or a number in mm") from None
 
 
 def parse_share_or_same(name: str, value: object) -> str | float:
@@ -111,7 +111,7 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
         return numbers[0], numbers[-1]
     found = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
     if not found:
-        raise UsageError(f"{name} is {shown(value)}; give a range such as 5-20, or 5-")
+        raise UsageError(f"{name} is {quote_value(value)}; give a range such as 5-20, or 5-")
     first = int(found[1])
     return first, int(found[3]) if found[3] else ENDLESS if found[2] else first
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import zipfile
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, checked_volume, told_broken
+from infill.formats.packed import NOTHING, PADDING
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -22,6 +24,13 @@ def read_npy(path: Path) -> Volume:
     """Return an array [x, y, z], memory-mapped rather than loaded."""
     with told_broken(path):
         values = npy_format.open_memmap(path, mode="r")
+        more = path.stat().st_size - values.offset - values.nbytes
+        if more > PADDING:
+            raise FormatError(f"{path} holds {more} bytes more than its header announces; save one array in it")
+        with path.open("rb") as file:
+            file.seek(-more, os.SEEK_END)
+            if file.read(more).strip(NOTHING):
+                raise FormatError(f"{path} holds {more} bytes more than its header announces; save one array in it")
     return checked_volume(path, values)
 
 
@@ -75,7 +84,10 @@ def _axes(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> int:
 def _member(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> NDArray[Any]:
     require_memory(member.file_size, None, SMALLER)
     with archive.open(member) as file:
-        return np.asarray(npy_format.read_array(file, allow_pickle=False))  # objects could run code
+        values = np.asarray(npy_format.read_array(file, allow_pickle=False))  # objects could run code
+        if file.read(1):  # and the checksum is compared where the end is reached
+            raise ValueError(f"{member.filename} holds more than its header announces")
+    return values
 
 
 def write_npz(volume: Volume, file: BinaryIO) -> None:

@@ -12,7 +12,7 @@ from enum import Enum
 from typing import Any
 
 from infill.errors import ParameterError, UsageError
-from infill.formats.printable import printable, shown
+from infill.formats.excerpts import excerpt, quote_value
 from patterns.declared import Named, parameters
 from patterns.errors import PatternError, PatternUsageError
 from patterns.given import assigned, nearest, value_of
@@ -50,7 +50,7 @@ def table_of(filed: dict[str, Any]) -> Mapping[str, Any]:
     """Take the table of parameters out of what a config file holds, and return it."""
     table = filed.pop(SET, {})
     if not isinstance(table, dict):
-        raise ParameterError(f"{SET} is {shown(table)}; it must be a table: a line [{SET}], lines such as cell = 5")
+        raise ParameterError(f"{SET} is {quote_value(table)}; it must be a table: a line [{SET}], lines such as cell = 5")
     return table
 
 
@@ -86,7 +86,7 @@ def gathered(
     for name in {**filed, **flags}:
         if name not in options and name not in own:
             word = name.replace("_", "-")
-            raise ParameterError(f"{kind.name} has no option {shown(word)}; {nearest(name, [*own, *options])}")
+            raise ParameterError(f"{kind.name} has no option {quote_value(word)}; {nearest(name, [*own, *options])}")
     flagged, top = ({name: value for name, value in each.items() if name not in options} for each in (flags, filed))
     return merged(
         kind,
@@ -101,7 +101,7 @@ def values(kind: Named, named: Mapping[str, Any], source: Source) -> Iterator[Gi
     for word, value in named.items():
         name = word.replace("-", "_")
         if name not in known:
-            raise ParameterError(f"{kind.name} has no parameter {shown(word)}; {nearest(name, known)}")
+            raise ParameterError(f"{kind.name} has no parameter {quote_value(word)}; {nearest(name, known)}")
         yield Given(name=name, value=value_of(kind, name, value), said=_said(name, value, source))
 
 
@@ -167,7 +167,7 @@ def _counts(given: Mapping[str, Given], name: str) -> bool:
 def _said(name: str, value: object, source: Source) -> str:
     """Return a parameter as it was typed."""
     if source is not Source.FLAG:
-        return f"{name} = {printable(str(value))} in {source.value}"
+        return f"{name} = {excerpt(str(value))} in {source.value}"
     word = name.replace("_", "-")
     if isinstance(value, bool):
         return f"--{word}" if value else f"--no-{word}"

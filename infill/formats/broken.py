@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterError
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"
@@ -43,7 +43,6 @@ BROKEN = (
 )
 # Of these, the errors our own code raises for such files: values that are not finite numbers, and truncated files.
 BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
-LONGEST_WORD = 60  # characters of a word of a file in a message
 COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
 
@@ -91,6 +90,16 @@ def told_broken(path: Path, what: str | None = None, advice: str = "save it agai
         raise FormatError(f"{path} {said} ({one_line(error)}); {advice}") from error
 
 
+@contextlib.contextmanager
+def told_unreadable(path: Path) -> Iterator[None]:
+    """Turn an error of the operating system, such as a missing permission, into one of ours."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or one_line(error)
+        raise FormatError(f"cannot read {path}: {reason}; check the file") from error
+
+
 def is_ours(error: BaseException) -> bool:
     """Return whether an error was raised by this package, and not by a library that it calls."""
     names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
@@ -99,29 +108,10 @@ def is_ours(error: BaseException) -> bool:
 
 def one_line(error: Exception) -> str:
     """Return the text of an error on one line, truncated if too long."""
-    words = printable(" ".join(str(error).split()))
+    words = " ".join(str(error).split())
     if isinstance(error, LookupError) or not words:  # whose text is just a key
         words = f"{type(error).__name__}: {words}".removesuffix(": ")
-    return printable(words, 200)
-
-
-def printable(text: str) -> str:
-    r"""Return a text with whatever a terminal would not show, or would obey, written as an escape.
-
-    >>> printable("a\x1b[2Jb")
-    'a\\x1b[2Jb'
-    """
-    return "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
-
-
-def quoted(text: str | bytes) -> str:
-    """Return a word of a file between quotation marks, as a message can hold it.
-
-    >>> quoted(b"1,5")
-    "'1,5'"
-    """
-    shown = printable(text.decode("utf-8", errors="replace") if isinstance(text, bytes) else text)
-    return f"'{shown}'" if len(shown) <= LONGEST_WORD else f"'{shown[:LONGEST_WORD]}…'"
+    return excerpt(words, 200)
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401

@@ -8,6 +8,7 @@ images. Source: "MGH/MGZ volume format" of the FreeSurfer wiki.
 from __future__ import annotations
 
 import gzip
+import logging
 import math
 import struct
 from dataclasses import dataclass
@@ -23,6 +24,7 @@ from infill.formats.frames import chosen
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
+LOG = logging.getLogger("infill")
 HEADER = struct.Struct(">7ih15f")  # version, cells in x, y and z, frames, type, freedom, whether placed, place
 HEADER_BYTES = 284
 VERSION = 1  # in the low byte; newer files keep what the image is for in the others
@@ -92,6 +94,12 @@ def _header(path: Path, head: bytes) -> _Header:
         raise FormatError(f"{path} has no header of FreeSurfer; check that it is an {path.suffix} file")
     if kind not in TYPES:
         raise FormatError(f"{path} holds cells of type {kind}, which are no numbers; save it as integers or floats")
+    if not placed:
+        LOG.warning(
+            "%s does not say the size and the place of its cells; 1 mm is taken, towards left, inferior and anterior: "
+            "give --spacing if it is another",
+            path,
+        )
     numbers = np.array(place if placed else UNPLACED, dtype=np.float64)
     return _Header(
         shape=(nx, ny, nz),

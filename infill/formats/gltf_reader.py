@@ -16,8 +16,7 @@ from urllib.parse import unquote
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError
-from infill.formats.broken import printable
+from infill.errors import FormatError, printable
 from infill.formats.draco import unpack_draco
 from infill.machine import require_memory
 from infill.surfaces.polygons import split_fan, split_strips

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import quoted
+from infill.formats.excerpts import quote_word
 from infill.formats.rows import write_rows
 from infill.formats.text_lines import Lines, are_blank, plain_text, without_breaks, without_comments
 from infill.surface import Surface
@@ -58,12 +58,12 @@ def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
         word = lines.word(number)
         if word.lower() in SURFACES:
             raise lines.error(
-                number, f"{quoted(word)} is a free-form surface", "convert it to polygons before the export"
+                number, f"{quote_word(word)} is a free-form surface", "convert it to polygons before the export"
             )
         if word.lower() == b"call":
             raise lines.error(number, "'call' takes in another file", "export everything into one file")
         if not STATEMENT.fullmatch(word):
-            raise lines.error(number, f"{quoted(word)} begins no line of an OBJ file")
+            raise lines.error(number, f"{quote_word(word)} begins no line of an OBJ file")
 
 
 def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal
 
 from infill.errors import ParameterError, UsageError
-from infill.formats.printable import shown
+from infill.formats.excerpts import quote_value
 from patterns.given import nearest
 
 LONGEST_WORD = 1000  # signs of a name, also of a file
@@ -19,9 +19,9 @@ Reader = Callable[[str, object], Any]
 def parse_word(name: str, value: object) -> str:
     """Return a word, or raise UsageError."""
     if not isinstance(value, str) or not value.strip():
-        raise UsageError(f"{name} is {shown(value)}; it must be a word")
+        raise UsageError(f"{name} is {quote_value(value)}; it must be a word")
     if len(value) > LONGEST_WORD:
-        raise ParameterError(f"{name} is {shown(value)}, of {len(value):,} signs; give a name")
+        raise ParameterError(f"{name} is {quote_value(value)}, of {len(value):,} signs; give a name")
     return value
 
 
@@ -34,26 +34,26 @@ def parse_share(name: str, value: object, advice: str = "give a share such as 20
     if isinstance(value, str):
         found = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
         if not found:
-            raise UsageError(f"{name} is {shown(value)}; {advice}")
+            raise UsageError(f"{name} is {quote_value(value)}; {advice}")
         share = float(found[1]) / (100 if found[2] else 1)
     else:
         share = parse_number(name, value)
     if not 0 < share <= 1:
-        raise ParameterError(f"{name} is {shown(value)}; {advice}, up to 100%")
+        raise ParameterError(f"{name} is {quote_value(value)}; {advice}, up to 100%")
     return share
 
 
 def parse_flag(name: str, value: object) -> bool:
     """Return true or false, or raise UsageError."""
     if not isinstance(value, bool):
-        raise UsageError(f"{name} is {shown(value)}; it must be true or false")
+        raise UsageError(f"{name} is {quote_value(value)}; it must be true or false")
     return value
 
 
 def parse_number(name: str, value: object) -> float:
     """Return a number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise UsageError(f"{name} is {shown(value)}; it must be a number")
+        raise UsageError(f"{name} is {quote_value(value)}; it must be a number")
     return within_floats(name, value)
 
 
@@ -62,16 +62,16 @@ def within_floats(name: str, value: float) -> float:
     try:
         float(value)
     except OverflowError:
-        raise ParameterError(f"{name} is {shown(value)}; give a number below 1e308") from None
+        raise ParameterError(f"{name} is {quote_value(value)}; give a number below 1e308") from None
     return value
 
 
 def parse_whole(name: str, value: object) -> int:
     """Return a whole number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, int):
-        raise UsageError(f"{name} is {shown(value)}; it must be a whole number")
+        raise UsageError(f"{name} is {quote_value(value)}; it must be a whole number")
     if abs(value) > LARGEST_WHOLE:
-        raise ParameterError(f"{name} is {shown(value)}; give a whole number up to {LARGEST_WHOLE:,}")
+        raise ParameterError(f"{name} is {quote_value(value)}; give a whole number up to {LARGEST_WHOLE:,}")
     return value
 
 
@@ -102,9 +102,9 @@ def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[fl
         numbers = ()
     if len(numbers) not in counts:
         wanted = " or ".join(map(str, counts))
-        raise UsageError(f"{name} is {shown(value)}; give {wanted} number(s), with commas between")
+        raise UsageError(f"{name} is {quote_value(value)}; give {wanted} number(s), with commas between")
     if not all(map(math.isfinite, numbers)):
-        raise ParameterError(f"{name} is {shown(value)}; give finite numbers")
+        raise ParameterError(f"{name} is {quote_value(value)}; give finite numbers")
     return numbers
 
 
@@ -119,7 +119,7 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
     try:
         return float(value) if isinstance(value, str) else parse_number(name, value)
     except ValueError:
-        raise UsageError(f"{name} is {shown(value)}; give volume, or a number between -1 and 1") from None
+        raise UsageError(f"{name} is {quote_value(value)}; give volume, or a number between -1 and 1") from None
 
 
 def parsed(command: str, readers: Mapping[str, Reader], given: Mapping[str, object]) -> dict[str, Any]:
@@ -133,5 +133,5 @@ def parsed(command: str, readers: Mapping[str, Reader], given: Mapping[str, obje
     for name in given:
         if name not in readers:
             word = name.replace("_", "-")
-            raise ParameterError(f"{command} has no option {shown(word)}; {nearest(name, readers)}")
+            raise ParameterError(f"{command} has no option {quote_value(word)}; {nearest(name, readers)}")
     return {name: readers[name](name, value) for name, value in given.items()}

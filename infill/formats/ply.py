@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import quoted
+from infill.formats.excerpts import quote_word
 from infill.formats.text_lines import Lines, number_complaint
 from infill.surface import Surface
 from infill.surfaces.polygons import split_polygons, split_strips
@@ -161,7 +161,7 @@ def _header(path: Path, data: bytes) -> tuple[str, list[Element], int]:
             case ["comment" | "obj_info", *_] | []:
                 pass
             case _:
-                shown = quoted(" ".join(words))
+                shown = quote_word(" ".join(words))
                 raise FormatError(
                     f"{path} has a header with the line {shown}, which PLY does not know; export it again"
                 )
@@ -199,7 +199,7 @@ def _whole(path: Path, values: NDArray[Any]) -> NDArray[np.int64]:
 
 def _cut_off(path: Path, element: Element) -> FormatError:
     return FormatError(
-        f"{path} is cut off: it announces {element.rows} of {quoted(element.name)} and holds fewer; "
+        f"{path} is cut off: it announces {element.rows} of {quote_word(element.name)} and holds fewer; "
         "export the mesh again"
     )
 
@@ -348,7 +348,7 @@ def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tup
         if line_starts is not None and smallest and not line_starts[starts].all():
             row = int(np.argmin(line_starts[starts]))
             raise FormatError(
-                f"{path} announces {smallest} number(s) or lists for each {quoted(element.name)}, and row {row} does "
+                f"{path} announces {smallest} number(s) or lists for each {quote_word(element.name)}, and row {row} does "
                 "not begin or end with a line; export the mesh again"
             )
         place = int(starts[-1])

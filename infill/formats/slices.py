@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,27 +16,18 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, checked_volume, one_line, told_broken
+from infill.formats.images import LOG, scale_of
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
 SLICES = {".tif", ".tiff", ".png"}
+UNCOMPRESSED = 1
 GREY_MODES = {"1", "L", "I", "I;16", "I;16L", "I;16B", "F"}
-MILLIMETRES = {
-    "nm": 1e-6,
-    "µm": 1e-3,
-    "μm": 1e-3,
-    "um": 1e-3,
-    "\\u00b5m": 1e-3,
-    "micron": 1e-3,
-    "microns": 1e-3,
-    "micrometer": 1e-3,
-    "mm": 1.0,
-    "millimeter": 1.0,
-    "cm": 10.0,
-    "centimeter": 10.0,
-    "inch": 25.4,
-    "m": 1e3,
-}
+# What a size is stated in where nobody measured: pixels, or whatever is one cell long.
+CELLS = {"", "pixel", "pixels", "px", "voxel", "voxels", "unitless", "reference frame", "none", "null", "?"}
+RESOLUTIONS = {2: "inch", 3: "cm"}
+USUAL_DOTS = {72, 96}  # per inch: what programs write that know no size
+DOTS_APART = 0.01  # of an inch's dots
 
 
 @contextlib.contextmanager
@@ -60,13 +52,13 @@ def _no_complaints(path: Path) -> Iterator[None]:
 
 
 def read_tiff(path: Path) -> Volume:
-    """Return a stack of pages as a volume, with the cell size written by ImageJ or OME."""
+    """Read a stack of pages as a volume, with the cell size that it states."""
     pages, spacing = _tiff_pages(path)
     return checked_volume(path, pages.T, spacing=spacing)
 
 
-def _tiff_pages(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
-    """Return grey pages [(z,) y, x] and the cell size along x, y, z."""
+def _tiff_pages(path: Path, *, first: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
+    """Return grey pages [(z,) y, x] and the cell size along x, y, z, which is not looked for but in the first file."""
     import tifffile
 
     with _no_complaints(path), told_broken(path), tifffile.TiffFile(path) as tiff:
@@ -84,25 +76,131 @@ def _tiff_pages(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
         if len(shape) > AXES:
             raise FormatError(f"{path} has {len(shape)} axes ({axes}, shape {shape}); save one stack of it")
         require_memory(found[0].nbytes, None, SMALLER)
-        return found[0].asarray(), _tiff_spacing(tiff)
+        _require_whole_pages(path, found[0])
+        return found[0].asarray(), _tiff_spacing(path, tiff) if first else ()
 
 
-def _tiff_spacing(tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.TiffFile
-    """Return the cell size along x, y, z in mm, as written by ImageJ or OME; 1 where it is missing."""
+def _require_whole_pages(path: Path, series: Any) -> None:  # noqa: ANN401 - tifffile.TiffPageSeries
+    """Raise FormatError for pages, or pieces of pages, that are not there: tifffile would fill them with zeros."""
+    for number, page in enumerate(series.pages):
+        if page is None:
+            raise FormatError(f"{path} lacks page {number} of its series; save it again")
+        counts, whole = page.databytecounts, page.keyframe
+        if not whole.nbytes:
+            raise FormatError(f"{path} has a page {number} without cells; save it again")
+        if not counts or min(counts) <= 0 or min(page.dataoffsets) <= 0:
+            raise FormatError(f"{path} lacks a piece of its page {number}; save it again")
+        if whole.compression == UNCOMPRESSED and not whole.is_tiled:
+            row = whole.nbytes / whole.imagelength
+            padded = row * whole.rowsperstrip * len(counts)  # the last strip may be as long as all others
+            if not whole.nbytes <= sum(counts) <= max(padded, whole.nbytes):
+                raise FormatError(
+                    f"{path} announces {whole.nbytes} bytes for page {number} and holds {sum(counts)}; save it again"
+                )
+
+
+def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.TiffFile
+    """Return the cell size along x, y, z, mm, as stated by OME, by ImageJ or for a printer; 1 if nothing states it."""
     if tiff.ome_metadata:
-        # Only attributes are read, and the standard parser fetches nothing from outside.
-        pixels = ElementTree.fromstring(tiff.ome_metadata).find(".//{*}Pixels")  # noqa: S314
-        if pixels is None or pixels.get("PhysicalSizeX") is None:
+        return _ome_spacing(path, tiff.ome_metadata)
+    page = tiff.pages[0]
+    per_cell = [_length(page, name) for name in ("XResolution", "YResolution")]
+    stated = RESOLUTIONS.get(int(getattr(page.tags.get("ResolutionUnit"), "value", 0) or 0), "")
+    known = tiff.imagej_metadata
+    if known is None:
+        if not stated:
             return (1.0,) * AXES
-        sizes = [(pixels.get(f"PhysicalSize{axis}"), pixels.get(f"PhysicalSize{axis}Unit", "µm")) for axis in "XYZ"]
-        return tuple(float(size) * MILLIMETRES.get(unit.lower(), 1.0) if size else 1.0 for size, unit in sizes)
-    if tiff.imagej_metadata:
-        unit = MILLIMETRES.get(str(tiff.imagej_metadata.get("unit", "")).lower(), 1.0)
-        values = [getattr(tiff.pages[0].tags.get(name), "value", None) for name in ("XResolution", "YResolution")]
-        fractions = [each if isinstance(each, tuple) and len(each) == 2 else (0, 1) for each in values]
-        per_cell = [lengths / cells if cells else 1.0 for cells, lengths in fractions]
-        return tuple(size * unit for size in (*per_cell, abs(float(tiff.imagej_metadata.get("spacing", 1.0)))))
-    return (1.0,) * AXES
+        return _printed_spacing(path, per_cell, stated)
+    unit = str(known.get("unit", "")).strip()
+    if unit.lower() in CELLS and stated and not _is_usual(per_cell, stated):
+        unit = stated  # as ImageJ itself does
+    units = [unit, *(str(known.get(f"{axis}unit", unit)) for axis in "yz")]
+    depth = known.get("spacing")
+    sizes = [*per_cell, None if depth is None else _positive(depth)]
+    if unit.lower() in CELLS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
+        return (1.0,) * AXES  # nothing was measured
+    scales = [_scale(path, each, axis) for each, axis in zip(units, "xyz", strict=True)]
+    missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
+    if missing and (len(tiff.pages) > 1 or int(known.get("images", 1)) > 1 or missing != ["z"]):
+        LOG.warning(
+            "%s does not say the size of its cells along %s; 1 %s is taken, as ImageJ does: give --spacing if it is "
+            "another",
+            path,
+            " and ".join(missing),
+            unit or "mm",
+        )
+    return tuple(scale * (1.0 if size is None else size) for scale, size in zip(scales, sizes, strict=True))
+
+
+def _ome_spacing(path: Path, text: str) -> tuple[float, ...]:
+    """Return the cell size of OME; where one axis lacks it, that of another."""
+    # Only attributes are read, and the standard parser fetches nothing from outside.
+    pixels = ElementTree.fromstring(text).find(".//{*}Pixels")  # noqa: S314
+    if pixels is None:
+        return (1.0,) * AXES
+    sizes = [
+        None if size is None else size * _scale(path, pixels.get(f"PhysicalSize{axis}Unit", "µm"), axis.lower())
+        for axis in "XYZ"
+        for size in [_positive(pixels.get(f"PhysicalSize{axis}"))]
+    ]
+    return _filled(path, sizes, (pixels.get("SizeZ") or "1") != "1")
+
+
+def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tuple[float, ...]:
+    """Return the cell size of a file that gives dots per inch or cm, as for a printer, and no distance of its pages."""
+    if _is_usual(per_cell, unit):
+        LOG.info(
+            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken: give --spacing", path
+        )
+        return (1.0,) * AXES
+    scale = _scale(path, unit, "x")
+    return _filled(path, [*(None if size is None else size * scale for size in per_cell), None], True)
+
+
+def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[float, ...]:
+    """Return sizes in mm with another one in place of each that is missing, and warn of it."""
+    known = [size for size in sizes if size is not None]
+    if not known:
+        return (1.0,) * AXES
+    missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
+    if missing and (has_depth or missing != ["z"]):
+        LOG.warning(
+            "%s does not say the size of its cells along %s; %.6g mm is taken, as along another axis: give --spacing "
+            "if it is not",
+            path,
+            " and ".join(missing),
+            known[0],
+        )
+    return tuple(known[0] if size is None else size for size in sizes)
+
+
+def _scale(path: Path, unit: str, axis: str) -> float:
+    """Return the mm of a unit; warn, and take mm, where cells or an unknown word stand for it."""
+    return scale_of(path, unit, f"the size of its cells along {axis}") if unit.strip() else 1.0
+
+
+def _length(page: Any, name: str) -> float | None:  # noqa: ANN401 - tifffile.TiffPage
+    """Return the length of a cell by a resolution, cells per length, which is a fraction; None if there is none."""
+    value = getattr(page.tags.get(name), "value", None)
+    if not isinstance(value, tuple) or len(value) != 2 or not value[0]:
+        return None
+    return float(value[1]) / float(value[0])
+
+
+def _is_usual(per_cell: list[float | None], unit: str) -> bool:
+    inches = 1.0 if unit == "inch" else 2.54
+    return all(
+        not size or any(abs(inches / size - dots) < DOTS_APART * dots for dots in USUAL_DOTS) for size in per_cell
+    )
+
+
+def _positive(value: Any) -> float | None:  # noqa: ANN401 - a number or a text
+    """Return the absolute value of a number, or None if it is none, or 0."""
+    try:
+        number = abs(float(value))
+    except (TypeError, ValueError):
+        return None
+    return number if 0 < number < math.inf else None
 
 
 def read_slices(folder: Path, names: list[Path]) -> Volume:
@@ -110,7 +208,7 @@ def read_slices(folder: Path, names: list[Path]) -> Volume:
     pages: NDArray[Any] | None = None
     spacing = (1.0,) * AXES
     for number, name in enumerate(names):
-        page, sizes = _read_png(name) if name.suffix.lower() == ".png" else _tiff_pages(name)
+        page, sizes = _read_png(name) if name.suffix.lower() == ".png" else _tiff_pages(name, first=number == 0)
         if page.ndim != 2:
             raise FormatError(f"{name} has the shape {page.shape}; a folder of slices holds one grey page per file")
         if pages is None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import quoted
+from infill.formats.excerpts import quote_word
 
 Integers = NDArray[np.int64]
 TAB, NEWLINE, RETURN, BLANK = 9, 10, 13, 32
@@ -223,5 +223,5 @@ def number_complaint(word: bytes, *, whole: bool = False) -> str:
         if b"_" not in word:
             return ""
     if not whole and re.fullmatch(rb"[-+]?\d+,\d*(e[-+]?\d+)?", word, re.IGNORECASE):
-        return f"{quoted(word)} has a decimal comma, and numbers in such a file have a decimal point"
-    return f"{quoted(word)} is not a {'whole ' if whole else ''}number"
+        return f"{quote_word(word)} has a decimal comma, and numbers in such a file have a decimal point"
+    return f"{quote_word(word)} is not a {'whole ' if whole else ''}number"

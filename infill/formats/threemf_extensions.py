@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from infill.errors import FormatError
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from infill.formats.threemf_package import Model
 
 SEPARATE = re.compile(r"[\s,]+")
@@ -54,7 +54,7 @@ class Extension:
     def __str__(self) -> str:
         """Return how a message names it."""
         words = name_of(self.namespace) if self.namespace else "which it does not declare"
-        return f"'{printable(self.prefix)}' ({words})"
+        return f"'{excerpt(self.prefix)}' ({words})"
 
 
 def is_harmless(namespace: str) -> bool:
@@ -73,7 +73,7 @@ def name_of(namespace: str) -> str:
     'beam lattices'
     """
     lower = namespace.lower()
-    return next((words for key, words in SHAPES.items() if key in lower), printable(namespace, 80))
+    return next((words for key, words in SHAPES.items() if key in lower), excerpt(namespace, 80))
 
 
 def required(model: Model) -> Iterator[Extension]:

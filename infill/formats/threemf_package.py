@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError
 from infill.formats.broken import told_broken
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from infill.machine import require_memory
 
 AGAIN = "export the mesh again"
@@ -138,7 +138,7 @@ def _check_entries(package: zipfile.ZipFile, path: Path) -> None:
     seen: set[str] = set()
     end = 0
     for each in entries:
-        name = printable(each.filename)
+        name = excerpt(each.filename)
         if (key := part_key(each.filename)) in seen:  # readers do not agree on which of them counts
             raise FormatError(f"{path} holds {name} twice; {AGAIN}")
         seen.add(key)
@@ -221,7 +221,7 @@ def _check_encoding(text: bytes) -> None:
         return
     name = found[1].decode("ascii", "replace")
     if not ENCODINGS.fullmatch(name.strip().lower()):
-        raise ValueError(f"its encoding is {printable(name)}, and 3MF knows UTF-8 and UTF-16")
+        raise ValueError(f"its encoding is {excerpt(name)}, and 3MF knows UTF-8 and UTF-16")
 
 
 class _Target:
@@ -247,7 +247,7 @@ class _Target:
 
     def doctype(self, name: str, public: str | None, system: str | None) -> None:  # noqa: ARG002 - of the parser
         """Refuse it."""
-        raise ValueError(f"it defines a document type, {printable(name)}")
+        raise ValueError(f"it defines a document type, {excerpt(name)}")
 
     def start_ns(self, prefix: str, uri: str) -> None:
         """Note the namespaces of the root."""
@@ -288,7 +288,7 @@ class _Target:
         try:
             numbers.extend((kind(attributes[one]), kind(attributes[two]), kind(attributes[three])))
         except (KeyError, ValueError, OverflowError):
-            said = ", ".join(printable(attributes.get(name, "")) or "nothing" for name in names)
+            said = ", ".join(excerpt(attributes.get(name, "")) or "nothing" for name in names)
             raise FormatError(f"{self._path} holds a number that is not one, among {said}; {AGAIN}") from None
 
     def end(self, tag: str) -> None:

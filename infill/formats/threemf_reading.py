@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.broken import told_broken
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from infill.formats.threemf_extensions import check_required, is_harmless, name_of
 from infill.formats.threemf_package import (
     AGAIN,
@@ -122,7 +122,7 @@ class _Reading:
             for each in self.model(part).objects:
                 key = object_key(each.get("id"))
                 if key in found:
-                    raise FormatError(f"{self.path} holds two objects {printable(key)}; {AGAIN}")
+                    raise FormatError(f"{self.path} holds two objects {excerpt(key)}; {AGAIN}")
                 found[key] = each
             self.objects[part] = found
         return self.objects[part].get(number)
@@ -133,7 +133,7 @@ class _Reading:
         found: dict[str, list[Volume]] = {}
         for name in sorted(self.parts):
             if PRUSA_CONFIGS.fullmatch(name):
-                with told_broken(self.path, f"has a broken {printable(name)}", AGAIN):
+                with told_broken(self.path, f"has a broken {excerpt(name)}", AGAIN):
                     found = {**prusa_volumes(parsed_xml(self.package.read(self.parts[name]))), **found}
         return found
 
@@ -157,7 +157,7 @@ class _Reading:
         """Yield the volumes of an object and of its components, by depth."""
         part, number = key
         self.placements += 1
-        each, name = self.find(part, number), f"object {printable(number)}"
+        each, name = self.find(part, number), f"object {excerpt(number)}"
         if each is None:
             raise FormatError(f"{self.path} refers to an {name} that it does not hold; {AGAIN}")
         if key in above:
@@ -169,11 +169,11 @@ class _Reading:
         model, chain = self.model(part), (*above, key)
         own, unit = model.root.get("unit"), self.model(self.main).root.get("unit", "millimeter")
         if own is not None and own != unit:  # programs differ in which of them counts
-            self.note(f"{printable(part)} is in {printable(own)}, and read in {unit}, as what is built says")
-        if (said := each.get("name")) and printable(said):
-            name = f"{name} '{printable(said)}'"
+            self.note(f"{excerpt(part)} is in {excerpt(own)}, and read in {unit}, as what is built says")
+        if (said := each.get("name")) and excerpt(said):
+            name = f"{name} '{excerpt(said)}'"
         if not is_part_type(each.get("type")):
-            self.note(f"{name} is of type '{printable(each.get('type', ''))}', no part: it is left out")
+            self.note(f"{name} is of type '{excerpt(each.get('type', ''))}', no part: it is left out")
             return
         if (role := cura_role(settings_of(each, model.core, model.spaces))) != PART:
             self.note(f"{name} is a {role}, no part: it is left out")
@@ -196,8 +196,8 @@ class _Reading:
             raise FormatError(f"{self.path} has {mesh.fault}; {AGAIN}")
         self._count(len(mesh.faces) + len(mesh.vertices))
         role, said = self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
-        if said and printable(said):
-            name = f"object {printable(number)} '{printable(said)}'"
+        if said and excerpt(said):
+            name = f"object {excerpt(number)} '{excerpt(said)}'"
         if role not in (PART, NEGATIVE):
             self.note(f"{name} is a {role}, no part: it is left out")
             return
@@ -216,12 +216,12 @@ class _Reading:
             span = volume.span(len(faces))
             if span is None:
                 raise FormatError(
-                    f"{self.path} has a volume of triangles {printable(volume.first)} to {printable(volume.last)} of "
+                    f"{self.path} has a volume of triangles {excerpt(volume.first)} to {excerpt(volume.last)} of "
                     f"{name}, which has {len(faces):,} from 0 on; {AGAIN}"
                 )
             covered[slice(*span)] = True
             self._count(span[1] - span[0])
-            called = f"volume '{printable(volume.name)}'" if printable(volume.name) else "a volume"
+            called = f"volume '{excerpt(volume.name)}'" if excerpt(volume.name) else "a volume"
             called = f"{called} of {name}"
             if volume.role in (PART, NEGATIVE):
                 used, corners = np.unique(faces[slice(*span)], return_inverse=True)
@@ -314,13 +314,13 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
             raise FormatError(f"{path} has nothing to build in it; {AGAIN}")
         unit = main.root.get("unit", "millimeter").strip().lower()
         if unit not in UNITS:
-            raise FormatError(f"{path} is in '{printable(unit)}', and 3MF knows {', '.join(UNITS)}; {AGAIN}")
+            raise FormatError(f"{path} is in '{excerpt(unit)}', and 3MF knows {', '.join(UNITS)}; {AGAIN}")
         surfaces: list[Surface] = []
         with told_broken(path, "holds a number that is not one", AGAIN):
             for item in main.items:
                 key = reading.reference(item, reading.main)
                 if is_unprinted(item.get("printable")):
-                    reading.note(f"object {printable(key[1])} is not to be printed: it is left out")
+                    reading.note(f"object {excerpt(key[1])} is not to be printed: it is left out")
                     continue
                 volumes = list(reading.placed(key, _transform(item.get("transform", IDENTITY))))
                 surfaces.extend(reading.without_negatives(volumes))

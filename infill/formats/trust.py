@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from infill.errors import FormatError
+from infill.formats.excerpts import excerpt
 from infill.formats.modules import names_code
-from infill.formats.printable import printable
 
 FILES = ("pattern", "by", "labels")  # options whose value may be the name of a file
 ELSEWHERE = re.compile(r"[\\/]{2}|[A-Za-z]:|~")  # another machine, another drive, another home
@@ -44,12 +44,12 @@ def check_trusted(options: Mapping[str, Any], source: Path, *, trust: bool = Fal
         word = name.replace("_", "-")
         if code and names_code(text):
             raise FormatError(
-                f"{source} asks to run code: {word} = '{printable(text)}'; look at that code, then give --trust, or "
+                f"{source} asks to run code: {word} = '{excerpt(text)}'; look at that code, then give --trust, or "
                 f"type --{word} yourself"
             )
         if name in FILES and _leads_elsewhere(text, source):
             raise FormatError(
-                f"{source} asks to read a file from elsewhere: {word} = '{printable(text)}'; give --trust, or type "
+                f"{source} asks to read a file from elsewhere: {word} = '{excerpt(text)}'; give --trust, or type "
                 f"--{word} yourself"
             )
 
@@ -60,7 +60,7 @@ def _texts(value: object, name: str = "") -> Iterator[tuple[str, str]]:
         yield name, value
     elif isinstance(value, Mapping):
         for key, each in value.items():
-            yield from _texts(each, name or printable(str(key)))
+            yield from _texts(each, name or excerpt(str(key)))
     elif isinstance(value, (list, tuple)):
         for each in value:
             yield from _texts(each, name)

@@ -1,6 +1,9 @@
-"""The unit of the coordinates of a mesh or of points: stated by the format, or guessed from the size of the part."""
+"""Units of length: the words for them in files, and the unit of coordinates that come without one."""
 
 from __future__ import annotations
+
+import re
+import unicodedata
 
 UNITS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}  # mm
 # Formats that state their unit and come out in mm: mm per unit of a file written in the usual way. They are not
@@ -9,6 +12,85 @@ STATED = {".3mf": 1.0, ".glb": 1000.0, ".gltf": 1000.0}
 # Printed parts are 2 mm to 2 m long. A part in metres therefore reads as less than 2, and one in µm as more than 2000.
 SMALLEST, LARGEST = 2.0, 2000.0
 IN_INCHES = 0.5  # that is 13 to 51 mm: likelier than half a metre to two metres
+
+INCH = 25.4
+SYMBOLS = {
+    "fm": 1e-12,
+    "pm": 1e-9,
+    "å": 1e-7,
+    "nm": 1e-6,
+    "μ": 1e-3,
+    "μm": 1e-3,
+    "um": 1e-3,
+    "mm": 1.0,
+    "cm": 10.0,
+    "dm": 100.0,
+    "m": 1e3,
+    "dam": 1e4,
+    "hm": 1e5,
+    "km": 1e6,
+    "thou": INCH / 1000,
+    "mil": INCH / 1000,
+    "mils": INCH / 1000,
+    "li": INCH / 12,
+    "pt": INCH / 72,
+    "in": INCH,
+    '"': INCH,
+    "''": INCH,
+    "″": INCH,
+    "”": INCH,
+    "ft": 12 * INCH,
+    "'": 12 * INCH,
+    "′": 12 * INCH,
+    "yd": 36 * INCH,
+}
+WORDS = {
+    "angstrom": 1e-7,
+    "ångström": 1e-7,
+    "ångstrom": 1e-7,
+    "micron": 1e-3,
+    "inch": INCH,
+    "inche": INCH,  # of inches
+    "foot": 12 * INCH,
+    "feet": 12 * INCH,
+    "yard": 36 * INCH,
+}
+PREFIXES = {
+    "femto": 1e-12,
+    "pico": 1e-9,
+    "nano": 1e-6,
+    "micro": 1e-3,
+    "milli": 1.0,
+    "centi": 10.0,
+    "deci": 100.0,
+    "": 1e3,
+    "deca": 1e4,
+    "hecto": 1e5,
+    "kilo": 1e6,
+}
+METRE = re.compile(r"(femto|pico|nano|micro|milli|centi|deci|deca|hecto|kilo|)[- ]?(?:met(?:er|re))s?")
+# Prefixes that differ by case alone from others: Mm is a million metres and mm a thousandth.
+LARGE_PREFIXES = {"Mm", "Pm", "Ym", "Zm", "Em", "Tm", "Gm"}
+ESCAPED = re.compile(r"\\u([0-9a-fA-F]{4})")  # as ImageJ writes what is not ASCII
+
+
+def millimetres(word: str) -> float | None:
+    """Return how many mm a unit of length has, or None for a word that is no known unit.
+
+    >>> millimetres("µm"), millimetres("Micrometers"), millimetres("inch"), millimetres("pixel")
+    (0.001, 0.001, 25.4, None)
+    """
+    plain = ESCAPED.sub(lambda found: chr(int(found[1], 16)), word).strip().strip("\0").strip()
+    if plain in LARGE_PREFIXES:
+        return None
+    # Two characters stand for micro, two for ångström; NFKC makes one of each. A prime must not become letters.
+    text = unicodedata.normalize("NFKC", plain).lower() if plain not in SYMBOLS else plain
+    text = text if text in SYMBOLS else text.rstrip(".")
+    if text in SYMBOLS:
+        return SYMBOLS[text]
+    if metre := METRE.fullmatch(text.replace("μ", "micro")):
+        return PREFIXES[metre[1]]
+    return WORDS.get(text, WORDS.get(text.removesuffix("s")))
 
 
 def guess_unit(largest: float) -> str:

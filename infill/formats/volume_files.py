@@ -2,9 +2,10 @@
 
     .npy .npz           [x, y, z], or [z, y, x] where the file says so
     .tif .tiff          pages are z, rows y, columns x; likewise a folder of .tif or .png slices
-    .nrrd .nii .mha …   by SimpleITK (extra `medical`), with their place in space
+    .nrrd .nii .mha …   with their place in space
     .mgz .mgh           of FreeSurfer
     .vtk .vti           images of VTK, legacy and XML
+    .dcm                frames of DICOM, where they say they lie, by pydicom (extra `medical`)
     a DICOM folder      the only series in it, or the one that is named
 
 Values keep their type, and are copied at most once.
@@ -14,39 +15,53 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
 from infill.formats.arrays import read_npy, read_npz, write_npz
-from infill.formats.broken import not_empty, one_line
+from infill.formats.broken import not_empty, told_unreadable
+from infill.formats.dicom import read_dicom
 from infill.formats.freesurfer import read_mgh
-from infill.formats.medical import read_dicom, read_medical, write_nrrd
+from infill.formats.metaimage import read_meta_image
+from infill.formats.nifti import read_nifti
+from infill.formats.nrrd import read_nrrd, write_nrrd
 from infill.formats.slices import SLICES, natural, read_slices, read_tiff
 from infill.formats.vtk_images import read_vtk
 from infill.formats.vtk_xml import read_vti
 from infill.formats.whole_files import whole_file
-from infill.volume import Volume
+from infill.grid import spacing_of
+from infill.volume import AXES, Volume
+
+DICOM = ".dcm"
 
 
 def read_volume(
-    path: str | os.PathLike[str], *, array: str | None = None, series: str | None = None, frame: int | None = None
+    path: str | os.PathLike[str],
+    *,
+    array: str | None = None,
+    series: str | None = None,
+    frame: int | None = None,
+    spacing: float | tuple[float, ...] | None = None,
 ) -> Volume:
     """Return the volume that a file or a folder holds.
 
     Parameters
     ----------
     path : str or Path
-        .npy, .npz, .tif, .tiff, .mgz, .mgh, .vtk, .vti; with SimpleITK also .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd,
-        .dcm; a folder of .tif or .png slices, taken in the order of the numbers in their names; a folder of DICOM
-        slices.
+        .npy, .npz, .tif, .tiff, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, .mgz, .mgh, .vtk, .vti; with SimpleITK also
+        .dcm; a folder of .tif or .png slices, taken in the order of the numbers in their names; a
+        folder of DICOM slices.
     array : str, optional
         Name of the array to read, if an .npz holds several with three axes.
     series : str, optional
         UID of the series to read, if a DICOM folder holds several.
     frame : int, optional
         Which volume to read, counted from 0, of a file that holds several: a series in time, or several numbers per
-        cell. Medical images and those of FreeSurfer and VTK have frames.
+        cell. Medical images, DICOM folders, and images of FreeSurfer and VTK have frames.
+    spacing : float or (hx, hy, hz), optional
+        Cell size, mm, in the place of what the file says; some DICOM files do not say it.
 
     Returns
     -------
@@ -70,34 +85,64 @@ def read_volume(
         raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
     if series is not None and not source.is_dir():
         raise ParameterError(f"series is {series!r}, and {source} is no folder; give the one that holds the series")
-    if frame is not None and (source.is_dir() or (suffix and suffix not in FRAMED)):
-        raise ParameterError(
-            f"frame is {frame!r}, and only {', '.join(FRAMED)} hold frames, not {source}; leave it out"
-        )
-    try:
+    if frame is not None and not source.is_dir() and suffix and suffix not in FRAMED:
+        raise _no_frames(frame, source)
+    size = None if spacing is None else spacing_of(spacing, AXES)
+    volume = _read(source, suffix, array=array, series=series, frame=frame, size=size)
+    return volume if size is None else replace(volume, spacing=size)
+
+
+def _no_frames(frame: int, source: Path) -> ParameterError:
+    return ParameterError(f"frame is {frame!r}, and only {', '.join(FRAMED)} hold frames, not {source}; leave it out")
+
+
+def _read(
+    source: Path,
+    suffix: str,
+    *,
+    array: str | None,
+    series: str | None,
+    frame: int | None,
+    size: tuple[float, ...] | None,
+) -> Volume:
+    with told_unreadable(source):
         if source.is_dir():
-            return _read_folder(source, series)
+            return _read_folder(source, series, frame, size)
         if not source.is_file():
             raise FormatError(f"there is no file {source}; check the name")
         not_empty(source)
         if not suffix:
             known = ", ".join(READERS)
             raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {known} or a folder of slices")
+        if suffix == DICOM:
+            return read_dicom(source, frame, spacing=size)
         if frame is not None:
             return FRAMED[suffix](source, frame)
         return read_npz(source, array) if suffix == ".npz" else READERS[suffix](source)
-    except OSError as error:
-        reason = error.strerror or one_line(error)
-        raise FormatError(f"cannot read {source}: {reason}; check the file") from error
 
 
-def _read_folder(folder: Path, series: str | None) -> Volume:
-    names = sorted((each for each in folder.iterdir() if each.is_file() and each.name[0] != "."), key=natural)
+def holds_dicom(path: Path, series: str | None = None) -> bool:
+    """Return whether `read_volume` reads a path as DICOM: a file by its suffix, a folder by those of its files."""
+    if not path.is_dir():
+        return path.is_file() and path.stat().st_size > 0 and path.suffix.lower() == DICOM
+    names = _names(path)
+    slices = any(each.suffix.lower() in SLICES for each in names)
+    return bool(names) and (not slices or series is not None or any(each.suffix.lower() == DICOM for each in names))
+
+
+def _names(folder: Path) -> list[Path]:
+    return sorted((each for each in folder.iterdir() if each.is_file() and each.name[0] != "."), key=natural)
+
+
+def _read_folder(folder: Path, series: str | None, frame: int | None, size: tuple[float, ...] | None) -> Volume:
+    names = _names(folder)
     if not names:
         raise FormatError(f"{folder} holds no files; give the folder with the slices in it")
+    if holds_dicom(folder, series):
+        return read_dicom(folder, frame, series=series, spacing=size)
+    if frame is not None:
+        raise _no_frames(frame, folder)
     slices = [each for each in names if each.suffix.lower() in SLICES]
-    if not slices or series is not None or any(each.suffix.lower() == ".dcm" for each in names):
-        return read_dicom(folder, series)
     if len({each.suffix.lower()[:4] for each in slices}) > 1:
         raise FormatError(f"{folder} holds slices as .png and as .tif; keep only those of one scan")
     return read_slices(folder, slices)
@@ -141,7 +186,10 @@ def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
 
 
 FRAMED: dict[str, Callable[..., Volume]] = {
-    **dict.fromkeys((".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm"), read_medical),
+    **dict.fromkeys((".nrrd", ".nhdr"), read_nrrd),
+    **dict.fromkeys((".nii", ".nii.gz"), read_nifti),
+    **dict.fromkeys((".mha", ".mhd"), read_meta_image),
+    DICOM: read_dicom,
     **dict.fromkeys((".mgz", ".mgh", ".mgh.gz"), read_mgh),
     ".vtk": read_vtk,
     ".vti": read_vti,

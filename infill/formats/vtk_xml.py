@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, told_broken
 from infill.formats.frames import chosen
-from infill.formats.vtk_images import Lattice, numbers_in
+from infill.formats.vtk_images import LOG, Lattice, numbers_in
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -81,6 +81,8 @@ def _coding(path: Path, root: ElementTree.Element, appended: memoryview, tag: re
 def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int | None) -> Volume:
     """Return the volume that the pieces of an image make up."""
     extent = _extent(image.get("WholeExtent", ""))
+    if image.get("Spacing") is None:
+        LOG.warning("%s does not say the size of its cells; 1 mm is taken: give --spacing if it is another", path)
     spacing = _numbers(image.get("Spacing", "1 1 1"), AXES)
     direction = _numbers(image.get("Direction", "1 0 0 0 1 0 0 0 1"), AXES * AXES).reshape(AXES, AXES)
     first = _numbers(image.get("Origin", "0 0 0"), AXES) + direction @ (spacing * extent[:, 0])
@@ -169,10 +171,14 @@ def _unpacked(raw: memoryview, coding: _Coding, needed: int, *, in_base64: bool)
     packed = head(0, 3 + blocks)[3:]
     # The head is turned into base64 by itself, what is packed after it in one go.
     begin = math.ceil((3 + blocks) * word / BASE64_IN) * BASE64_OUT if in_base64 else (3 + blocks) * word
-    data, parts, most = _some(raw, begin, sum(packed), in_base64), [], max(1, size, last)
+    data, parts = _some(raw, begin, sum(packed), in_base64), []
     at = 0
-    for length in packed:
-        parts.append(zlib.decompressobj().decompress(data[at : at + length], most))
+    for number, length in enumerate(packed):
+        stream = zlib.decompressobj()
+        expected = last if last and number == blocks - 1 else size
+        parts.append(stream.decompress(data[at : at + length], expected + 1))  # its checksum is read with its end
+        if len(parts[-1]) != expected or not stream.eof:
+            raise ValueError(f"a block of {len(parts[-1])} bytes or more where there should be {expected}")
         at += length
     return b"".join(parts)
 

@@ -20,8 +20,8 @@ from typing import TYPE_CHECKING, Any
 
 from infill.errors import ParameterError, UsageError
 from infill.formats.assignments import SET, gathered, table_of
+from infill.formats.excerpts import quote_value
 from infill.formats.options import LONGEST_WORD, within_floats
-from infill.formats.printable import shown
 from infill.formats.toml import read_toml, toml_rows
 from patterns import PATTERNS, Pattern, parameter_values
 
@@ -162,7 +162,7 @@ def parse_size(size: object) -> tuple[float, float]:
     except (TypeError, ValueError, OverflowError):
         lengths = []
     if len(lengths) not in (1, 2):
-        raise UsageError(f"size is {shown(size)}; give millimetres as 60x40, or 60 for a square")
+        raise UsageError(f"size is {quote_value(size)}; give millimetres as 60x40, or 60 for a square")
     return lengths[0], lengths[-1]
 
 
@@ -175,7 +175,7 @@ def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks
     else:
         wanted, fits = "a number", _is_number(value)
     if not fits:
-        raise UsageError(f"{name} is {shown(value)}; it must be {wanted}")
+        raise UsageError(f"{name} is {quote_value(value)}; it must be {wanted}")
     return within_floats(name, value) if wanted == "a number" else value
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
 
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from infill.surface import Surface
 
 LONGEST = 1000  # signs of a sentence or a value
@@ -93,13 +93,13 @@ class PrintedVolume:
         """Return the volume of a mesh."""
         edges = mesh.edges
         return cls(
-            name=printable(name),
-            role=printable(role),
+            name=excerpt(name),
+            role=excerpt(role),
             triangles=len(mesh.faces),
             closed=edges is not None and not edges.surplus.any(),
             outward=edges is not None and mesh.volume > 0,
             shared=0 if edges is None else int((edges.faces > 2).sum()),
-            settings={printable(key): printable(value, LONGEST) for key, value in settings.items()},
+            settings={excerpt(key): excerpt(value, LONGEST) for key, value in settings.items()},
         )
 
     @property
@@ -110,12 +110,12 @@ class PrintedVolume:
 
 def as_problem(text: str) -> Finding:
     """Return what a slicer loses or refuses."""
-    return Finding(kind=Kind.PROBLEM, text=printable(text, LONGEST))
+    return Finding(kind=Kind.PROBLEM, text=excerpt(text, LONGEST))
 
 
 def as_warning(text: str) -> Finding:
     """Return what may surprise."""
-    return Finding(kind=Kind.WARNING, text=printable(text, LONGEST))
+    return Finding(kind=Kind.WARNING, text=excerpt(text, LONGEST))
 
 
 def of_filling(name: str, settings: Mapping[str, str], density: str, known: set[str], slicer: str) -> Iterator[Finding]:

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from infill.errors import FormatError
 from infill.formats.broken import readable, told_broken
-from infill.formats.printable import printable
+from infill.formats.excerpts import excerpt
 from infill.formats.threemf_extensions import Extension, is_harmless, name_of, required
 from infill.formats.threemf_package import (
     Model,
@@ -249,7 +249,7 @@ def read_package(path: Path) -> Package:
         unit=model.root.get("unit", "millimeter"),
         extensions=tuple(required(model)),
         metadata={
-            printable(each.get("name", "")): printable(each.text or "") for each in model.below(model.root, "metadata")
+            excerpt(each.get("name", "")): excerpt(each.text or "") for each in model.below(model.root, "metadata")
         },
         prefix=next((prefix for prefix, uri in model.spaces.items() if prefix and f"{{{uri}}}" == model.core), "")
         if "" not in model.spaces
@@ -269,8 +269,8 @@ def read_package(path: Path) -> Package:
 
 def key_of(part: str, number: str | None) -> str:
     """Return how an object is known in the package: by its number, and by its file, if that is another one."""
-    plain = printable(object_key(number))
-    return f"{plain} of {printable(part)}" if part else plain
+    plain = excerpt(object_key(number))
+    return f"{plain} of {excerpt(part)}" if part else plain
 
 
 def _key(element: ElementTree.Element, part: str, main: str) -> str:
@@ -290,13 +290,13 @@ def _body(model: Model, element: ElementTree.Element, part: str, main: str, path
             raise FormatError(f"{path} has {found[1].fault}; {AGAIN}")
         mesh = Surface(vertices=found[1].vertices, faces=found[1].faces)
     return Body(
-        number=printable(object_key(element.get("id"))),
-        name=printable(element.get("name", "")),
-        kind=printable(element.get("type", "")),
+        number=excerpt(object_key(element.get("id"))),
+        name=excerpt(element.get("name", "")),
+        kind=excerpt(element.get("type", "")),
         mesh=mesh,
         components=tuple(_key(each, part, main) for each in model.below(element, "components/component")),
         settings={
-            printable(key, 200): printable(value)
+            excerpt(key, 200): excerpt(value)
             for key, value in settings_of(element, model.core, model.spaces).items()
         },
         foreign=tuple(dict.fromkeys(name_of(space) for space, _ in foreign if not is_harmless(space))),

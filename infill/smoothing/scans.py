@@ -62,7 +62,12 @@ def ways_of_volume(
             solid = replace(scan, values=np.asarray(scan.values) > 0)
         if not np.asarray(solid.values).any():
             raise ParameterError(f"voxel is {voxel:g} mm, and nothing of the solid fills half of one; give less")
-    facts = {"source": "volume", "segmentation": used, "coarse": voxel is not None}
+    facts = {
+        "source": "volume",
+        "segmentation": used,
+        "coarse": voxel is not None,
+        "warnings": list(scan.warnings),
+    }
     return ways_of_scan(scan, solid, used, facts, request, grey=grey, phase=phase)
 
 

@@ -95,7 +95,7 @@ def read_source(
     if found == "volume":
         if units is not None:
             raise ParameterError("units is for meshes and points; give the spacing of a volume in mm")
-        return _placed(read_volume(source, array=array, series=series, frame=frame), spacing, roi)
+        return _placed(read_volume(source, array=array, series=series, frame=frame, spacing=spacing), spacing, roi)
     own = {"spacing": spacing, "array": array, "series": series, "frame": frame, "roi": roi}
     if any(each is not None for each in own.values()):
         names = " and ".join(name for name, each in own.items() if each is not None)
@@ -139,7 +139,7 @@ def read_labelled(
     found = kind or _kind_of(source)
     if found != "volume":
         raise ParameterError(f"labels are those of a volume, and {source} is read as {found}; leave them out")
-    read = read_segmentation(source, array=array, series=series, frame=frame)
+    read = read_segmentation(source, array=array, series=series, frame=frame, spacing=spacing)
     return replace(read, layers=tuple(_placed(layer, spacing, roi, varied=False) for layer in read.layers))
 
 

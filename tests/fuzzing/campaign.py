@@ -14,8 +14,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tests.fuzzing.worker import make_case, seeds_of
 from tests.fuzzing.targets import TARGETS
+from tests.fuzzing.worker import make_case, seeds_of
 
 HANGS = 90.0  # s after which a case is given up, and its process with it: a judge's own time included
 ROOT = Path(__file__).resolve().parents[2]

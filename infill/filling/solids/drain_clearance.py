@@ -1,7 +1,7 @@
 """How far a hole straight down out of a part stays from its skin, the face that it leaves through left aside.
 
-    mouth      the smooth face around the place where the axis leaves, as far as it looks down
-    other skin everything else: sides, bolt holes, chamfers, whatever lies above or below
+mouth      the smooth face around the place where the axis leaves, as far as it looks down
+other skin everything else: sides, bolt holes, chamfers, whatever lies above or below
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Drains: round holes by which powder and resin leave the voids of a part, each with walls around it.
 
-    lowest place of every void, straight down  ->  branches for the others  ->  vents  ->  holes taken out of the solid
+lowest place of every void, straight down  ->  branches for the others  ->  vents  ->  holes taken out of the solid
 """
 
 from __future__ import annotations

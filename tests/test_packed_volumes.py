@@ -1,0 +1,298 @@
+"""Nothing of a volume is made up: what is cut off, damaged, or not what its header announces is refused."""
+
+from __future__ import annotations
+
+import gzip
+import zipfile
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from infill.errors import FormatError, MemoryLimitError
+from infill.formats.segmentations import read_segmentation
+from infill.formats.volume_files import read_volume
+from tests import volume_writers as w
+from tests.volume_writers import WAYS, Written
+
+SHAPE = (6, 7, 8)
+VALUES = np.random.default_rng(4).integers(-500, 500, SHAPE).astype("i2")
+PACKED = [name for name, way in WAYS.items() if way(VALUES).packed is not None]
+
+
+def save(folder: Path, written: Written) -> Path:
+    for name, data in written.files().items():
+        (folder / name).write_bytes(data)
+    return folder / written.name
+
+
+def refused(path: Path, says: str = "") -> str:
+    with pytest.raises(FormatError, match=says or None) as caught:
+        read_volume(path)
+    said = str(caught.value)
+    assert "\n" not in said
+    assert said.isprintable()
+    assert len(said) < 500
+    assert "; " in said
+    assert str(path) in said
+    return said
+
+
+def flip(data: bytes, at: int, bit: int = 0) -> bytes:
+    return data[:at] + bytes([data[at] ^ (1 << bit)]) + data[at + 1 :]
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_whole_file_is_read(way: str, tmp_path: Path) -> None:
+    volume = read_volume(save(tmp_path, WAYS[way](VALUES)))
+    assert np.array_equal(volume.values, VALUES)
+    assert volume.values.dtype == VALUES.dtype
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_file_that_is_cut_off_anywhere_is_refused(way: str, tmp_path: Path) -> None:
+    """Whichever of its files: all but a few last bytes, that say nothing, are needed.
+
+    A digit less is another number, and what ends with its cells may begin with anything.
+    """
+    written = WAYS[way](VALUES)
+    path = save(tmp_path, written)
+    lost = 120 if "text" in way or "from the end" in way else 0
+    for name, data in written.files().items():
+        if name == written.name and written.beside:
+            continue  # a header without its end has lost fields, not cells
+        unneeded = len(b"\n</AppendedData></VTKFile>\n") + 1 if "vti" in way else 20 if "tif" in way else 2
+        for end in (0, 1, len(data) // 3, len(data) // 2, len(data) - 60 - lost, len(data) - unneeded - 1 - lost):
+            if 0 <= end < len(data):
+                (tmp_path / name).write_bytes(data[:end])
+                refused(path)
+        (tmp_path / name).write_bytes(data)
+
+
+@pytest.mark.parametrize("way", PACKED)
+def test_a_bit_that_is_flipped_in_packed_cells_is_seen_by_its_checksum(way: str, tmp_path: Path) -> None:
+    """In 40 places, the last bytes too, which are the checksum; nothing but the true cells may be read."""
+    written = WAYS[way](VALUES)
+    path = save(tmp_path, written)
+    assert written.packed is not None
+    name, begin, count = written.packed
+    data = written.files()[name]
+    told = 0
+    places = np.random.default_rng(1).integers(0, count, 34).tolist() + list(range(count - 6, count))
+    for at in places:
+        (tmp_path / name).write_bytes(flip(data, begin + at, at % 8))
+        try:
+            values = read_volume(path).values
+        except FormatError:
+            told += 1
+        else:  # a name or a time within the header of gzip, which is no part of the cells
+            assert np.array_equal(values, VALUES)
+    assert told >= 30
+
+
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("shape", [(6, 7, 9), (6, 7, 16), (6, 7, 7), (6, 7, 4), (6, 14, 8), (3, 7, 8)])
+def test_other_sizes_than_the_cells_have_are_refused(way: str, shape: tuple[int, ...], tmp_path: Path) -> None:
+    """More or fewer: the header of another volume, and these cells."""
+    if way.startswith(("npz", "tif", "npy")) or "from the end" in way:
+        pytest.skip("its sizes are checked by another test, or anything may stand before its cells")
+    if ("list" in way or "numbered" in way) and shape[2] < SHAPE[2]:
+        pytest.skip("its header lists fewer files, and those are whole")
+    if way.startswith(("mgh", "mgz", "vtk")) and np.prod(shape) < VALUES.size:
+        pytest.skip("more may follow the cells of this format")
+    written, other = WAYS[way](VALUES), WAYS[way](np.resize(VALUES, shape))
+    if written.beside:
+        path = save(tmp_path, Written(name=written.name, data=other.data, beside=written.beside))
+    elif way.startswith("nii.gz"):
+        plain, head = gzip.decompress(written.data), gzip.decompress(other.data)
+        path = save(tmp_path, Written(name=written.name, data=gzip.compress(head[:348] + plain[348:])))
+    elif way.startswith("mgz"):
+        plain, head = gzip.decompress(written.data), gzip.decompress(other.data)
+        path = save(tmp_path, Written(name=written.name, data=gzip.compress(head[:284] + plain[284:])))
+    else:
+        path = save(tmp_path, Written(name=written.name, data=swap_head(way, written.data, shape)))
+    refused(path)
+
+
+def swap_head(way: str, data: bytes, shape: tuple[int, ...]) -> bytes:
+    """Return a file with other sizes in its header, and the same cells."""
+    new, old = " ".join(map(str, shape)).encode(), b"6 7 8"
+    if way.startswith("nii"):
+        order, at, kind = ("big" if "big" in way else "little"), (16 if " 2" in way else 40), (8 if " 2" in way else 2)
+        sizes = b"".join(size.to_bytes(kind, order) for size in shape)
+        return data[: at + kind] + sizes + data[at + 4 * kind :]
+    if way.startswith("mgh"):
+        return data[:4] + b"".join(size.to_bytes(4, "big") for size in shape) + data[16:]
+    if way.startswith("vti"):
+        old, new = b"0 5 0 6 0 7", b" ".join(f"0 {size - 1}".encode() for size in shape)
+    assert old in data
+    return data.replace(old, new)
+
+
+@pytest.mark.parametrize("way", [name for name in WAYS if name.startswith(("nrrd", "nhdr", "mha", "mhd", "nii"))])
+def test_sizes_that_no_file_could_hold_are_refused_at_once(way: str, tmp_path: Path) -> None:
+    written = WAYS[way](VALUES)
+    data = gzip.decompress(written.data) if "nii.gz" in way else written.data
+    huge = swap_head(way, data, (6, 7000, 30000))
+    path = save(
+        tmp_path,
+        Written(name=written.name, data=gzip.compress(huge) if "nii.gz" in way else huge, beside=written.beside),
+    )
+    with pytest.raises((FormatError, MemoryLimitError)):
+        read_volume(path)
+
+
+@pytest.mark.parametrize(
+    "way", ["nrrd raw", "nhdr raw", "mha", "mhd", "nii", "nrrd gzip", "nhdr bzip2", "nii.gz", "npy"]
+)
+@pytest.mark.parametrize(
+    ("more", "fine"), [(b"\0" * 100, True), (b"\n", True), (b"more" * 9, False), (b"1" * 900, False)]
+)
+def test_what_follows_the_cells_is_refused_unless_it_is_nothing(
+    way: str, more: bytes, fine: bool, tmp_path: Path
+) -> None:
+    """Packed or not: files may be filled up to whole blocks."""
+    written = WAYS[way](VALUES)
+    path = save(tmp_path, written)
+    name = next(iter(written.beside), written.name)
+    with (tmp_path / name).open("ab") as file:
+        file.write(more)
+    if fine and not (more == b"\n" and ("gz" in way or "bzip2" in way)):
+        assert np.array_equal(read_volume(path).values, VALUES)
+    elif not fine:
+        refused(path)
+
+
+@pytest.mark.parametrize("by", [-20, -1, 1, 1000])
+def test_a_wrong_size_of_packed_data_is_refused(by: int, tmp_path: Path) -> None:
+    """MetaImage says how many packed bytes there are."""
+    body = zlib.compress(w.flat(VALUES))
+    head = w.meta_head(VALUES, "LOCAL", CompressedData="True", CompressedDataSize=str(len(body) + by))
+    (tmp_path / "a.mha").write_bytes(head + body)
+    refused(tmp_path / "a.mha", "cut off")
+
+
+def test_a_size_of_packed_data_parts_them_from_what_follows(tmp_path: Path) -> None:
+    body = zlib.compress(w.flat(VALUES))
+    head = w.meta_head(VALUES, "LOCAL", CompressedData="True", CompressedDataSize=str(len(body)))
+    (tmp_path / "a.mha").write_bytes(head + body + b"\n")
+    assert np.array_equal(read_volume(tmp_path / "a.mha").values, VALUES)
+    (tmp_path / "a.mha").write_bytes(head + body + body)
+    refused(tmp_path / "a.mha", "more")
+
+
+@pytest.mark.parametrize("name", ["gzip", "bzip2"])
+def test_a_small_file_cannot_unpack_to_all_memory(name: str, tmp_path: Path) -> None:
+    """A stream of 50 MB of zeros behind a header of 336 cells: unpacking stops soon after these."""
+    bomb = w.PACK[name](bytes(5 * 10**7))
+    head = w.nrrd_head(VALUES, name).encode() + b"\n"
+    (tmp_path / "a.nrrd").write_bytes(head + bomb)
+    refused(tmp_path / "a.nrrd", "more bytes than its header announces")
+
+
+@pytest.mark.parametrize("damage", ["cut", "flip", "fewer"])
+def test_all_layers_of_a_segmentation_are_checked(damage: str, tmp_path: Path) -> None:
+    layers = np.random.default_rng(2).integers(0, 3, (2, *SHAPE)).astype("u1")
+    head = w.nrrd_head(
+        layers,
+        "gzip",
+        space_directions="none (1,0,0) (0,0.5,0) (0,0,3)",
+        kinds="list domain domain domain",
+        sizes="2 6 7 9" if damage == "fewer" else "2 6 7 8",
+    )
+    fields = "Segment0_Name:=a\nSegment0_LabelValue:=1\nSegment0_Layer:=0\nSegment1_LabelValue:=1\nSegment1_Layer:=1\n"
+    body = gzip.compress(w.flat(layers))
+    path = tmp_path / "a.seg.nrrd"
+    path.write_bytes(f"{head}{fields}\n".encode() + body)
+    if damage != "fewer":
+        assert [np.array_equal(x.values, y) for x, y in zip(read_segmentation(path).layers, layers, strict=True)] == [
+            1,
+            1,
+        ]
+    bad = {"cut": body[:-9], "flip": flip(body, len(body) // 2), "fewer": body}[damage]
+    path.write_bytes(f"{head}{fields}\n".encode() + bad)
+    with pytest.raises(FormatError, match="cut off|damaged"):
+        read_segmentation(path)
+    with pytest.raises(FormatError, match="cut off|damaged"):
+        read_volume(path, frame=0)
+
+
+@pytest.mark.parametrize("frame", [0, 1, 2])
+@pytest.mark.parametrize("way", ["nii", "nii.gz", "nrrd gzip", "mha packed", "mha"])
+def test_one_frame_is_read_only_from_a_whole_file(way: str, frame: int, tmp_path: Path) -> None:
+    values = np.random.default_rng(3).integers(0, 99, (*SHAPE, 3)).astype("i2")
+    four = {
+        "nii": lambda: w.nifti(values),
+        "nii.gz": lambda: w.nifti(values, packed=True),
+        "nrrd gzip": lambda: w.nrrd(values, "gzip", space_directions="(1,0,0) (0,0.5,0) (0,0,3) none"),
+        "mha packed": lambda: w.mha(values, packed=True, **four_axes()),
+        "mha": lambda: w.mha(values, **four_axes()),
+    }[way]()
+    path = save(tmp_path, four)
+    assert np.array_equal(read_volume(path, frame=frame).values, values[..., frame])
+    path.write_bytes(four.data[:-15])
+    with pytest.raises(FormatError, match="cut off"):
+        read_volume(path, frame=frame)
+
+
+def four_axes() -> dict[str, str]:
+    return {
+        "TransformMatrix": " ".join(map(str, np.eye(4, dtype=int).ravel())),
+        "Offset": "-10 5 100 0",
+        "ElementSpacing": "1 0.5 3 1",
+    }
+
+
+# --- NumPy's ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("packed", [True, False])
+@pytest.mark.parametrize("shape", [b"(6, 7, 7)", b"(6, 7, 9)", b"(6, 1, 8)"])
+def test_an_npz_whose_member_announces_other_sizes(packed: bool, shape: bytes, tmp_path: Path) -> None:
+    """Its checksum fits."""
+    data = w.npy(VALUES).data.replace(b"(6, 7, 8)", shape)
+    with zipfile.ZipFile(tmp_path / "a.npz", "w", zipfile.ZIP_DEFLATED if packed else zipfile.ZIP_STORED) as archive:
+        archive.writestr("values.npy", data)
+    refused(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("shape", [b"(6, 7, 7)", b"(6, 7, 9)"])
+def test_an_npy_that_announces_other_sizes(shape: bytes, tmp_path: Path) -> None:
+    (tmp_path / "a.npy").write_bytes(w.npy(VALUES).data.replace(b"(6, 7, 8)", shape))
+    refused(tmp_path / "a.npy")
+
+
+def test_a_bomb_in_an_npz_is_not_unpacked(tmp_path: Path) -> None:
+    """A member that announces a few bytes and holds 50 MB is left unread behind these."""
+    with zipfile.ZipFile(tmp_path / "a.npz", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("values.npy", w.npy(VALUES).data + bytes(5 * 10**7))
+    refused(tmp_path / "a.npz", "more")
+
+
+# --- TIFF ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("compression", ["zlib", None])
+@pytest.mark.parametrize("tag", ["ImageLength", "ImageWidth"])
+def test_a_page_of_tiff_that_announces_other_sizes(compression: str | None, tag: str, tmp_path: Path) -> None:
+    import tifffile
+
+    path = save(tmp_path, w.tiff(np.repeat(VALUES, 2, axis=2), compression, metadata=None))
+    with tifffile.TiffFile(path, mode="r+") as file:
+        for page in file.pages:
+            page.tags[tag].overwrite(page.tags[tag].value * 3)
+    refused(path)
+
+
+@pytest.mark.parametrize("part", [0.2, 0.5, 0.9])
+def test_a_packed_page_that_is_shortened(part: float, tmp_path: Path) -> None:
+    """Its strip ends early, and the file does not."""
+    import tifffile
+
+    written = w.tiff(VALUES, "zlib", metadata=None)
+    path = save(tmp_path, written)
+    with tifffile.TiffFile(path, mode="r+") as file:
+        tag = file.pages[3].tags["StripByteCounts"]
+        tag.overwrite(int(tag.value[0] * part))
+    refused(path)
