@@ -12,6 +12,7 @@ from infill.slicers.findings import (
     PrintedVolume,
     as_problem,
     as_warning,
+    check_shells,
     in_order,
     of_filling,
     with_walls,
@@ -47,6 +48,7 @@ KEYS = WALL_KEYS["Bambu"] | {
     "bottom_surface_pattern",
     "bridge_flow",
     "enable_support",
+    "ensure_vertical_shell_thickness",
     "infill_combination",
     "infill_direction",
     "internal_solid_infill_line_width",
@@ -89,13 +91,15 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVo
     for number, _ in package.built:
         body = package.bodies.get(number)
         if body is not None:
-            yield from _of_object(package, body, told.get(number), who)
+            yield from _of_object(package, body, told.get(number), slicer)
 
 
 def _of_object(
-    package: Package, body: Body, told: ElementTree.Element | None, who: str
+    package: Package, body: Body, told: ElementTree.Element | None, slicer: str
 ) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
+    who = NAMES[slicer]
+    common = {} if told is None else {key: value for key, value in rows_of(told).items() if key not in RESERVED}
     parts = {} if told is None else {each.get("id", ""): each for each in told.findall("part")}
     members = body.components or (body.number,)
     held = {package.bodies[key].number for key in members if key in package.bodies}
@@ -124,4 +128,6 @@ def _of_object(
         yield from of_filling(name, own, "sparse_infill_density", KEYS, who)
     yield from volumes
     yield from in_order(volumes)
+    shell_keys = ("sparse_infill_density", "minimum_sparse_infill_area")
+    yield from check_shells(volumes, common, shell_keys, who, slicer)
     yield from with_walls(volumes, WALL_KEYS["Bambu"])
