@@ -165,13 +165,13 @@ def check_shells(
             continue
         if share == 0:
             yield as_problem(
-                f"{density} of {volume.name} is {settings[density]}: {slicer} takes the part for a vase, and slopes and "
-                f"domes may lose their solid layers; make it again with --for {again}, or set 0.1% and {area} 0"
+                f"{density} of {volume.name} is {settings[density]}: {slicer} takes the part for a vase, and slopes "
+                f"and domes may lose their solid layers; make it again with --for {again}, or set 0.1% and {area} 0"
             )
         elif 0 < share < 1 and island != 0:
             yield as_warning(
-                f"{volume.name} does not set {area} to 0: {slicer} fills small rooms between walls of the infill to the "
-                f"full; make it again with --for {again}, or set {area} 0"
+                f"{volume.name} does not set {area} to 0: {slicer} fills small rooms between walls of the infill to "
+                f"the full; make it again with --for {again}, or set {area} 0"
             )
 
 
