@@ -18,8 +18,17 @@ from infill.slicers.project import INFILL, PART, Project
 NAMESPACE = "http://schemas.bambulab.com/package/2021"
 CONFIG, INFO = "Metadata/model_settings.config", "Metadata/slice_info.config"
 BAMBU, ORCA = "BambuStudio-02.00.00.00", "OrcaSlicer-2.0.0"
-PART_SETTINGS = {"sparse_infill_density": "0%"}
-INFILL_SETTINGS = {"sparse_infill_density": "100%", "sparse_infill_pattern": "concentric"}
+# As for PrusaSlicer, from which both come: 0 % means a vase, without solid layers behind slopes.
+PART_SETTINGS = {
+    "sparse_infill_density": "0.1%",
+    "sparse_infill_pattern": "hilbertcurve",
+    "minimum_sparse_infill_area": "0",
+}
+INFILL_SETTINGS = {
+    "sparse_infill_density": "100%",
+    "sparse_infill_pattern": "concentric",
+    "minimum_sparse_infill_area": "0",
+}
 PART_ID, INFILL_ID, WHOLE_ID = 1, 2, 3
 MATRIX = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
 

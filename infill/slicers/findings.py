@@ -135,6 +135,49 @@ def of_filling(name: str, settings: Mapping[str, str], density: str, known: set[
             yield as_warning(f"{key} of {name} is no setting of a volume that {slicer} is known to read: it is ignored")
 
 
+def check_shells(
+    volumes: list[PrintedVolume], common: Mapping[str, str], keys: tuple[str, str], slicer: str, again: str
+) -> Iterator[Finding]:
+    """Yield the parts around an infill whose settings lose the solid layers of slopes, or fill small rooms.
+
+    Parameters
+    ----------
+    volumes : list of PrintedVolume
+    common : mapping of str to str
+        Settings of the object, which hold where a volume has none of its own.
+    keys : (str, str)
+        The names of the density, and of the area below which infill is solid.
+    slicer, again : str
+        The name of the slicer, and what ``--for`` takes for it.
+
+    Yields
+    ------
+    Finding
+    """
+    density, area = keys
+    if not any(volume.role == "modifier" for volume in volumes):
+        return
+    for volume in volumes:
+        settings = {**common, **volume.settings}
+        try:
+            share = float(settings.get(density, "nan").removesuffix("%"))
+            island = float(settings.get(area, "nan"))
+        except ValueError:
+            continue  # `of_filling` reports a density that is no number
+        if not volume.prints:
+            continue
+        if share == 0:
+            yield as_problem(
+                f"{density} of {volume.name} is {settings[density]}: {slicer} takes the part for a vase, and slopes "
+                f"and domes may lose their solid layers; make it again with --for {again}, or set 0.1% and {area} 0"
+            )
+        elif 0 < share < 1 and island != 0:
+            yield as_warning(
+                f"{volume.name} does not set {area} to 0: {slicer} fills small rooms between walls of the infill to "
+                f"the full; make it again with --for {again}, or set {area} 0"
+            )
+
+
 def in_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
     """Say which modifiers come before the part that they are to change."""
     last = max((number for number, volume in enumerate(volumes) if volume.prints), default=-1)

@@ -13,6 +13,7 @@ from infill.slicers.findings import (
     PrintedVolume,
     as_problem,
     as_warning,
+    check_shells,
     in_order,
     of_filling,
     with_walls,
@@ -42,6 +43,7 @@ KEYS = WALL_KEYS["Bambu"] | {
     "bottom_surface_pattern",
     "bridge_flow",
     "enable_support",
+    "ensure_vertical_shell_thickness",
     "infill_combination",
     "infill_direction",
     "internal_solid_infill_line_width",
@@ -84,11 +86,15 @@ def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVo
     for item in package.items:
         body = package.bodies.get(item.key)
         if body is not None and item.prints:
-            yield from _of_object(package.tree(item.key), body, told.get(item.key), who)
+            yield from _of_object(package.tree(item.key), body, told.get(item.key), slicer)
 
 
-def _of_object(tree: Tree, body: Body, told: ElementTree.Element | None, who: str) -> Iterator[PrintedVolume | Finding]:
+def _of_object(
+    tree: Tree, body: Body, told: ElementTree.Element | None, slicer: str
+) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
+    who = NAMES[slicer]
+    common = {} if told is None else {key: value for key, value in rows_of(told).items() if key not in RESERVED}
     parts = {} if told is None else {object_key(each.get("id")): each for each in told.findall("part")}
     held = {leaf.body.number for leaf in tree.leaves}
     for number in parts:
@@ -114,4 +120,6 @@ def _of_object(tree: Tree, body: Body, told: ElementTree.Element | None, who: st
         yield from of_filling(name, own, "sparse_infill_density", KEYS, who)
     yield from volumes
     yield from in_order(volumes)
+    shell_keys = ("sparse_infill_density", "minimum_sparse_infill_area")
+    yield from check_shells(volumes, common, shell_keys, who, slicer)
     yield from with_walls(volumes, WALL_KEYS["Bambu"])

@@ -13,6 +13,7 @@ from infill.slicers.findings import (
     PrintedVolume,
     as_problem,
     as_warning,
+    check_shells,
     in_order,
     of_filling,
     with_walls,
@@ -227,6 +228,8 @@ def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> I
     if covered < len(mesh.faces):
         yield as_problem(f"{len(mesh.faces) - covered:,} triangles of {whole} are in no volume: they are left out")
     yield from in_order(volumes)
+    shell_keys = ("fill_density", "solid_infill_below_area")
+    yield from check_shells(volumes, common, shell_keys, "PrusaSlicer", "prusaslicer")
     yield from with_walls(volumes, WALL_KEYS["PrusaSlicer"])
 
 
