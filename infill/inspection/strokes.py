@@ -43,7 +43,7 @@ class Strokes:
 
     sums: Floats = field(default_factory=lambda: np.zeros((1, len(SUMS))))
     lengths: NDArray[np.int64] = field(default_factory=lambda: np.zeros((1, BINS), dtype=np.int64))
-    flow: Floats = field(default_factory=lambda: np.zeros(1))  # mm of filament per s, at most
+    flow: Floats = field(default_factory=lambda: np.zeros(1))  # mm³/s, at most
     # What waits for the next move that draws: seconds, travel, retractions.
     leading: Floats = field(default_factory=lambda: np.zeros(3))
     last: Floats = field(default_factory=lambda: np.zeros(5))  # direction, feature, whether it drew
@@ -62,7 +62,8 @@ class Strokes:
         begins_back = back & ~np.concatenate([[self.drew_back], back[:-1]])
         self.drew_back = bool(back[-1])
         seconds = plan.seconds + steps.pause
-        self._lead(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), begins_back)
+        retracts = begins_back + steps.retractions
+        self._lead(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), retracts)
         along, length, pushed, at = delta[draws, :3], distance[draws], pushed[draws], feature[draws]
         joined = self._joined(draws, feature)
         direction = along / length[:, None]
@@ -76,6 +77,7 @@ class Strokes:
             "segments": np.ones(len(at)),
             "short": length < SHORT,
             "paths": ~joined,
+            "retractions": steps.retractions[draws],
             "turns": turn > SHARP,
             "turning": turn,
         }
@@ -84,14 +86,14 @@ class Strokes:
         place = np.clip((np.log10(length) - LOWEST) * DECADE, 0, BINS - 1).astype(np.intp)
         self.lengths += np.bincount(at * BINS + place, minlength=self.lengths.size).reshape(self.lengths.shape)
         certain = length >= SHORT
-        np.maximum.at(self.flow, at[certain], (pushed / length * plan.peak[draws])[certain])
+        np.maximum.at(self.flow, at[certain], (pushed * steps.section[draws] / length * plan.peak[draws])[certain])
         if len(at):
             self.last[:3] = direction[-1]
         self.last[3:] = feature[-1], draws[-1]
 
-    def finish(self, pause: float) -> None:
-        """Count what led nowhere, and a last pause, for the feature in force at the end."""
-        self.leading[0] += pause
+    def finish(self, pause: float, retractions: int = 0) -> None:
+        """Count what led nowhere, and a last pause and retraction, for the feature in force at the end."""
+        self.leading += [pause, 0, retractions]
         self._count(np.array([int(self.last[3])]), self.leading[None])
         self.leading[:] = 0
 
@@ -120,7 +122,7 @@ class Strokes:
         feature: NDArray[np.intp],
         seconds: Floats,
         travel: Floats,
-        back: NDArray[np.bool_],
+        back: NDArray[np.intp],
     ) -> None:
         """Count moves that do not draw for the feature of the next one that does."""
         number = np.arange(len(draws))
