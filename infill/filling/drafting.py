@@ -118,7 +118,7 @@ def _drawn(
             tally.before += before
             tally.after += after
             for first, last in estimates(new.text):
-                tally.lines.append((draft.tell() + first, new.text[first:last], tally.saved))
+                tally.lines.append((draft.tell() + first, new.text[first:last]))
             draft.write(new.text)
             tags = batch.marks.after
             done += len(batch.table.data)

@@ -18,6 +18,7 @@ from infill.gcode.table import DIAMETER, MOST_TOOLS
 
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
+SMOOTHIE: Final = Limits(model="junction", junction_deviation=0.05)
 CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate takes
     model="vector-jerk",
     feedrate=(1e6, 1e6, 1e6, 1e6),
@@ -59,7 +60,17 @@ _SLICER: Final = re.compile(
     re.MULTILINE,
 )
 _FLAVOUR: Final = re.compile(rb"^;FLAVOR:([^\r\n]*)", re.MULTILINE)
-_VOLUMETRIC: Final = {b"ultigcode", b"marlin(volumetric)", b"marlin (volumetric)", b"reprap (volumetric)", b"reprap(volumetric)"}
+_VOLUMETRIC: Final = {
+    b"ultigcode",
+    b"marlin(volumetric)",
+    b"marlin (volumetric)",
+    b"reprap (volumetric)",
+    b"reprap(volumetric)",
+}
+# What only RepRapFirmware knows, and feed rates that no machine reaches in mm/s.
+_BY_MINUTE: Final = re.compile(
+    rb"^\s*(?:M566\b|M203\b[^;\n]*[XY]\s*[3-9]\d{3}|M203\b[^;\n]*[XY]\s*\d{5})", re.MULTILINE
+)
 _UNIT_OF_TIME: Final = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 
 
@@ -89,6 +100,8 @@ class FoundLimits:
         mm, of the filaments by tool, from the beginning.
     start : tuple of Limits and mapping
         Limits and sources before any command: what Klipper returns to.
+    firmware : str
+        As `commanded` takes it.
     """
 
     limits: Limits
@@ -101,12 +114,13 @@ class FoundLimits:
     volumetric: bool
     diameters: tuple[float, ...]
     start: tuple[Limits, Mapping[str, str]]
+    firmware: str
 
     def after(self, code: str, line: bytes) -> FoundLimits:
         """Return what is in force after a command."""
         if code == "RESET_VELOCITY_LIMIT":
             return replace(self, limits=self.start[0], sources=self.start[1])
-        limits = commanded(self.limits, code, line, feedrate_unit=self.feedrate_unit)
+        limits = commanded(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
         if self.fixed:
             limits = replace(limits, **self.fixed)
         named = _SETS.get(code) or [name for name in self.sources if _says(line, name)]
@@ -141,7 +155,7 @@ def found_limits(
     for text in (head, tail):
         settings |= {name.decode(): value.decode("latin-1").strip() for name, value in _SETTING.findall(text)}
     flavour = settings.get("gcode_flavor", "")
-    by_minute = flavour in ("reprapfirmware", "sprinter")
+    by_minute = flavour in ("reprapfirmware", "sprinter") or _BY_MINUTE.search(head) is not None
     named = _SLICER.search(head)
     slicer = b" ".join(named.groups()).decode("latin-1") if named else ""
     start, found = _start(flavour, head, slicer), {}
@@ -159,6 +173,7 @@ def found_limits(
         limits=limits,
         sources=sources,
         start=(limits, sources),
+        firmware=flavour if flavour in ("repetier", "smoothie") else "",
         volumetric=volumetric,
         diameters=diameters,
         fixed=fixed,
@@ -196,8 +211,10 @@ def _says(line: bytes, name: str) -> bool:
 
 def _start(flavour: str, head: bytes, slicer: str) -> Limits:
     """Return what is assumed until the file says more."""
-    if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head:
+    if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head.upper():
         return KLIPPER
+    if flavour == "smoothie":
+        return SMOOTHIE
     return CURA if slicer.startswith("Cura") else MARLIN
 
 

@@ -17,7 +17,9 @@ JERKS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
-LIMITING_CODES: Final = frozenset({"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT", "RESET_VELOCITY_LIMIT"})
+LIMITING_CODES: Final = frozenset(
+    {"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT", "RESET_VELOCITY_LIMIT"}
+)
 _MAY_BE_ZERO: Final = {
     "jerk",
     "minimum_feedrate",
@@ -94,7 +96,7 @@ class Limits:
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
-def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0) -> Limits:
+def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0, firmware: str = "") -> Limits:
     """Return the limits after a line of G-code; the same ones if it sets none.
 
     Parameters
@@ -106,11 +108,18 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
         The whole line.
     feedrate_unit : float
         What a number of M203 is in mm/s: RepRapFirmware counts in mm/min.
+    firmware : str
+        "repetier", whose M203 to M205 are no limits, or "smoothie", whose M205 X is the junction deviation; "" else.
 
     >>> commanded(Limits(), "M204", b"M204 P900 T1500").acceleration
     900.0
     """
+    if firmware == "repetier" and code in ("M203", "M204", "M205"):
+        return limits
     match code:
+        case "M205" if firmware == "smoothie":
+            value = _words(line).get("X", 0.0)
+            return replace(limits, junction_deviation=value) if value > 0 else limits
         case "M201":
             return replace(limits, axis_acceleration=_axes(limits.axis_acceleration, _words(line), 1.0))
         case "M203":

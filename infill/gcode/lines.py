@@ -190,7 +190,10 @@ def _values(
         return values, np.zeros(values.shape, dtype=bool)
     what = np.frombuffer(text.tobytes().translate(_SORTS), dtype=np.uint8)  # much quicker than an array of places
     marks = np.flatnonzero(what == _END)
-    ends, stops = start[1:].copy(), start[1:].copy()  # of the words: where a comment or a checksum begins; a comment alone
+    ends, stops = (
+        start[1:].copy(),
+        start[1:].copy(),
+    )  # of the words: where a comment or a checksum begins; a comment alone
     if len(marks):
         for until, some in ((ends, marks), (stops, marks[text[marks] == SEMICOLON])):
             of, earliest = np.unique(np.searchsorted(start, some, side="right") - 1, return_index=True)

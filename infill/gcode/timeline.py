@@ -142,6 +142,7 @@ class Timeline:
         self.unread = Unread()
         self.macros: dict[str, None] = {}  # in the order of the file
         self._stopped = self._drawn_back = False
+        self.moved = False  # a move was read
         self._lines = self._bytes = 0  # read so far
         self._speed = self._stored_speed = 1.0
         self._flow: dict[int | None, float] = {None: 1.0}  # by tool
@@ -154,15 +155,14 @@ class Timeline:
         """Read the file from the beginning and yield moves with their plan."""
         waiting: list[Steps] = []
         entry: float | None = None
-        moved = False
         for steps in self._steps():
             if len(steps):
-                moved = True
+                self.moved = True
                 waiting = [chained([*waiting, steps])]
                 settled, plan, entry = settle(waiting[0].moves, self._limits, entry, ends=False)
                 yield part(waiting[0], slice(settled)), plan
                 waiting = [part(waiting[0], slice(settled, None))]
-        if not moved:
+        if not self.moved:
             raise FormatError(self.trouble or "the file has no moves; give a file of G-code that a slicer wrote")
         settled, plan, _ = settle(waiting[0].moves, self._limits, entry, ends=True)
         yield waiting[0], plan
@@ -228,9 +228,9 @@ class Timeline:
                         self.macros[code] = None
             if table.unread[line]:
                 continue
-            if table.kind[line] != ODD and may_move(code, table.text(line, line + 1)):
-                unread.append(line)
-            elif code == "M101" and not table.after.letters:  # the extruder turns by itself from here on
+            if (table.kind[line] != ODD and may_move(code, table.text(line, line + 1))) or (
+                code == "M101" and not table.after.letters
+            ):
                 unread.append(line)
         self._count(table, unread)
         return _Orders(setting=setting, stop=stop, pause=pause, retractions=retractions, speed=speed, flow=flow)

@@ -29,17 +29,112 @@ _CHECKSUM: Final = re.compile(rb"\*\s*\d+\s*$")
 # Codes that neither move the tool along a path nor change how the path is meant, or that the machine does on its own
 # without telling where: homing, levelling, dwelling, offsets of tools.
 STILL_CODES: Final = frozenset(
-    "G4 G10 G11 G17 G18 G19 G20 G21 G28 G29 G29.1 G29.2 G30 G31 G32 G33 G34 G35 G38.2 G38.3 G38.4 G38.5 G40 G49 G53 G54 "
-    "G60 G61.1 G64 G80 G90 G90.1 G91 G91.1 G92 G92.1 G92.9 G94 G99 G130 G161 G162 G180 G292 G380 G381 G382 G383 G425 "
-    "G392 G150.1 G150.2 G150.3 G39.3 G39.4 G39.1".split()
+    f"G{number}"
+    for number in (
+        4,
+        10,
+        11,
+        17,
+        18,
+        19,
+        20,
+        21,
+        28,
+        29,
+        29.1,
+        29.2,
+        30,
+        31,
+        32,
+        33,
+        34,
+        35,
+        38.2,
+        38.3,
+        38.4,
+        38.5,
+        39.1,
+        39.3,
+        39.4,
+        40,
+        49,
+        53,
+        54,
+        60,
+        61.1,
+        64,
+        80,
+        90,
+        90.1,
+        91,
+        91.1,
+        92,
+        92.1,
+        92.9,
+        94,
+        99,
+        130,
+        150.1,
+        150.2,
+        150.3,
+        161,
+        162,
+        180,
+        292,
+        380,
+        381,
+        382,
+        383,
+        392,
+        425,
+    )
 )
 # Their text may hold anything.
 _TEXTS: Final = frozenset(
-    "M16 M20 M23 M28 M30 M32 M33 M36 M37 M38 M98 M117 M118 M118.1 M291 M300 M486 M550 M551 M552 M559 M560 M587 M588 M589 "
-    "M701 M702 M928 M929 M1002 M862 M862.1 M862.2 M862.3 M862.5 M862.6".split()
+    f"M{number}"
+    for number in (
+        16,
+        20,
+        23,
+        28,
+        30,
+        32,
+        33,
+        36,
+        37,
+        38,
+        98,
+        117,
+        118,
+        118.1,
+        291,
+        300,
+        486,
+        550,
+        551,
+        552,
+        559,
+        560,
+        587,
+        588,
+        589,
+        701,
+        702,
+        862,
+        862.1,
+        862.2,
+        862.3,
+        862.5,
+        862.6,
+        928,
+        929,
+        1002,
+    )
 )
 _INNER_MOVE: Final = re.compile(rb"[\s\d][Gg]\s*0*[0-35](?![\d.])")
-_AXIS_FIRST: Final = re.compile(rb"\s*(?:[Nn]\d+\s*)?(?:[XYZEAB]\s*[-+.\d\[{]|[Gg]\s+0*[0-35]\b|[XYZEAB]\d*=)", re.IGNORECASE)
+_AXIS_FIRST: Final = re.compile(
+    rb"\s*(?:[Nn]\d+\s*)?(?:[XYZEAB]\s*[-+.\d\[{]|[Gg]\s+0*[0-35]\b|[XYZEAB]\d*=)", re.IGNORECASE
+)
 _MOVING_WORDS: Final = frozenset({"FORCE_MOVE", "MANUAL_STEPPER", "MANUAL_STEPPERS"})
 _MACRO: Final = re.compile(r"[A-Z_][A-Z_]{2,}[A-Z0-9_]*")
 # Klipper's own commands, and those of common plug-ins, that move nothing.

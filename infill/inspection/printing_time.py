@@ -8,14 +8,14 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from infill.errors import FormatError, UsageError
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import USED, FoundLimits
 from infill.gcode.limits import Limits, Model
 from infill.gcode.timeline import Timeline
-from infill.inspection.sliced_file import SlicedFile, opened
+from infill.inspection.sliced_file import SlicedFile, SlicedText, opened
 from infill.inspection.strokes import Strokes
 
 
@@ -230,10 +230,25 @@ def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -
         As `given_limits` returns it.
     """
     with file.text(plate) as given:
-        told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
-        timeline = Timeline(given.text, fixed, {**given.settings, **told})
-        timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
-        yield timeline
+        yield timeline_of_text(given, fixed=fixed)
+
+
+def timeline_of_text(
+    given: SlicedText, text: BinaryIO | None = None, fixed: Mapping[str, Any] | None = None
+) -> Timeline:
+    """Return the moves of a print, or of another text in its place, with what its file tells outside the text.
+
+    Parameters
+    ----------
+    given : SlicedText
+    text : binary file, optional
+    fixed : mapping, optional
+        As `given_limits` returns it.
+    """
+    told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
+    timeline = Timeline(text or given.text, fixed, {**given.settings, **told})
+    timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
+    return timeline
 
 
 def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
