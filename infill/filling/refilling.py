@@ -239,6 +239,7 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.filling.planning import planned
     from infill.filling.rules import rules_of
     from infill.filling.support import largest_deviation, samples
+    from infill.filling.timing import PrintClock
     from infill.gcode.survey import survey
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
@@ -257,25 +258,25 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
-    tally, rules = drafted(given.text, draft, found, rules, plan, progress)
+    clock = PrintClock(given)
+    tally, rules = drafted(given.text, draft, found, rules, plan, progress, clock)
     if found.begin.volumetric:
         tally.count_millimetres([math.pi / 4 * diameter**2 for diameter in found.begin.diameters])
-    change, edits = _told(given, draft, found, tally)
+    before = clock.finish()
+    places = [place for place, _ in tally.lines]
+    after = PrintClock(given, draft, places, like=clock).read() if tally.replaced else before
+    change, edits = _told(given, found, tally, before, after)
     edits = [*edits, _stamp(draft, tally)] if tally.replaced else []
     metadata = retold(given.metadata, change)
     return _Done(found=found, draft=draft, tally=tally, rules=rules, edits=tuple(sorted(edits)), metadata=metadata)
 
 
 def _told(
-    given: SlicedText, draft: BinaryIO, found: Survey, tally: Tally
+    given: SlicedText, found: Survey, tally: Tally, before: PrintTime, after: PrintTime
 ) -> tuple[Change, list[tuple[int, int, bytes]]]:
-    """Plan the print before and after, put that into the tally, and return what lines of the draft tell of it now."""
-    from infill.filling.timing import print_time
-
+    """Put what the print takes into the tally, and return by how much that changed, and the lines that tell of it."""
     lines = [line for _, line in tally.lines]
     outside = [b"; %s = %s" % item for item in given.metadata]
-    before = print_time(given)
-    after = print_time(given, draft, [place for place, _ in tally.lines]) if tally.replaced else before
     change = Change(
         seconds=after.seconds,
         first_layer=after.first_layer,

@@ -9,12 +9,13 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.errors import FormatError
 from infill.gcode.bounds import Moves
 from infill.gcode.dialect import role_of
 from infill.gcode.limits import Limits
-from infill.gcode.planner import plan
+from infill.gcode.planner import Plan, plan
 from infill.gcode.sections import SPARSE
+from infill.gcode.table import State, Table
+from infill.gcode.timeline import Steps
 from infill.inspection.printing_time import timeline_of_text
 from infill.inspection.sliced_file import SlicedText
 from infill.inspection.strokes import Strokes as Sums
@@ -82,8 +83,6 @@ class PrintTime:
         Up to the end of the first layer.
     elapsed : (N,) float64
         Up to each of the places that were asked for, s.
-    filament : float
-        Laid, mm.
     unread, first_unread : int
         Lines that may move or extrude and are not understood, and the number of the first.
     """
@@ -92,13 +91,12 @@ class PrintTime:
     infill: float = 0.0
     first_layer: float = 0.0
     elapsed: Floats
-    filament: float = 0.0
     unread: int = 0
     first_unread: int = 0
 
 
-def print_time(given: SlicedText, text: BinaryIO | None = None, places: Sequence[int] = ()) -> PrintTime:
-    """Plan a print.
+class PrintClock:
+    """The time of a print, batch by batch.
 
     Parameters
     ----------
@@ -108,36 +106,65 @@ def print_time(given: SlicedText, text: BinaryIO | None = None, places: Sequence
         Its text, if it is another one by now.
     places : sequence of int, ascending
         Bytes of the text at which to tell the time.
+    like : PrintClock, optional
+        Of the same file, with the same limits from the beginning.
     """
-    sums, asked = Sums(), np.asarray(places, dtype=np.int64)
-    elapsed = np.zeros(len(asked))
-    first_layer = total = 0.0
-    known = 0  # of the places
-    timeline = timeline_of_text(given, text)
-    try:
-        for steps, done in timeline:
-            if not len(steps):
-                continue
-            sums.add(steps, done)
-            seconds = done.seconds + steps.pause
-            gone = np.concatenate([[0.0], np.cumsum(seconds)])
-            first_layer += float(seconds[steps.layer < 2].sum())
-            here = slice(known, known := int(np.searchsorted(asked, steps.place[-1], side="right")))
-            elapsed[here] = total + gone[np.searchsorted(steps.place, asked[here], side="left")]
-            total += float(gone[-1])
-    except FormatError:
-        if timeline.moved:
-            raise
-    sums.finish(timeline.pause, timeline.retractions)
-    elapsed[known:] = total
-    infill = [number for number, name in enumerate(timeline.features) if role_of(name) == SPARSE]
-    by_feature = sums.total("seconds")
-    return PrintTime(
-        seconds=float(by_feature.sum()),
-        infill=float(by_feature[[number for number in infill if number < len(by_feature)]].sum()),
-        first_layer=first_layer,
-        elapsed=elapsed,
-        filament=float(sums.total("filament").sum()),
-        unread=timeline.unread.lines,
-        first_unread=timeline.unread.first,
-    )
+
+    def __init__(
+        self,
+        given: SlicedText,
+        text: BinaryIO | None = None,
+        places: Sequence[int] = (),
+        *,
+        like: PrintClock | None = None,
+    ) -> None:
+        self._timeline = timeline_of_text(given, text, found=None if like is None else like.found)
+        self.found = self._timeline.found
+        self.begin: State = self._timeline.state
+        self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
+        self._elapsed = np.zeros(len(self._asked))
+        self._first_layer = self._total = 0.0
+        self._known = 0  # of the places
+
+    def add(self, table: Table) -> None:
+        """Take the next lines of the print."""
+        self._count(*self._timeline.follow(table))
+
+    def read(self) -> PrintTime:
+        """Read the whole print."""
+        for table in self._timeline.tables():
+            self.add(table)
+        return self.finish()
+
+    def finish(self) -> PrintTime:
+        """Return the time of all lines that were added."""
+        if self._timeline.moved:
+            self._count(*self._timeline.rest())
+        return self._result()
+
+    def _count(self, steps: Steps, done: Plan) -> None:
+        if not len(steps):
+            return
+        self._sums.add(steps, done)
+        seconds = done.seconds + steps.pause
+        gone = np.concatenate([[0.0], np.cumsum(seconds)])
+        self._first_layer += float(seconds[steps.layer < 2].sum())
+        first, self._known = self._known, int(np.searchsorted(self._asked, steps.place[-1], side="right"))
+        here = slice(first, self._known)
+        self._elapsed[here] = self._total + gone[np.searchsorted(steps.place, self._asked[here], side="left")]
+        self._total += float(gone[-1])
+
+    def _result(self) -> PrintTime:
+        timeline, sums = self._timeline, self._sums
+        sums.finish(timeline.pause, timeline.retractions)
+        self._elapsed[self._known :] = self._total
+        seconds = sums.total("seconds")
+        roles = [role_of(name) for name in timeline.features[: len(seconds)]]
+        return PrintTime(
+            seconds=float(seconds.sum()),
+            infill=float(sum(each for role, each in zip(roles, seconds.tolist(), strict=False) if role == SPARSE)),
+            first_layer=self._first_layer,
+            elapsed=self._elapsed,
+            unread=timeline.unread.lines,
+            first_unread=timeline.unread.first,
+        )

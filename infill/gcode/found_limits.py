@@ -68,9 +68,7 @@ _VOLUMETRIC: Final = {
     b"reprap(volumetric)",
 }
 # What only RepRapFirmware knows, and feed rates that no machine reaches in mm/s.
-_BY_MINUTE: Final = re.compile(
-    rb"^\s*(?:M566\b|M203\b[^;\n]*[XY]\s*[3-9]\d{3}|M203\b[^;\n]*[XY]\s*\d{5})", re.MULTILINE
-)
+_BY_MINUTE: Final = re.compile(rb"^(?:M566\b|M203\b[^;\n]*[XY]\s*[3-9]\d{3}|M203\b[^;\n]*[XY]\s*\d{5})", re.MULTILINE)
 _UNIT_OF_TIME: Final = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 
 
@@ -155,7 +153,9 @@ def found_limits(
     for text in (head, tail):
         settings |= {name.decode(): value.decode("latin-1").strip() for name, value in _SETTING.findall(text)}
     flavour = settings.get("gcode_flavor", "")
-    by_minute = flavour in ("reprapfirmware", "sprinter") or _BY_MINUTE.search(head) is not None
+    by_minute = flavour in ("reprapfirmware", "sprinter") or (
+        (b"M566" in head or b"M203" in head) and _BY_MINUTE.search(head) is not None
+    )
     named = _SLICER.search(head)
     slicer = b" ".join(named.groups()).decode("latin-1") if named else ""
     start, found = _start(flavour, head, slicer), {}

@@ -5,7 +5,7 @@ The file is read in batches; what the planner has not settled yet waits for the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
@@ -16,16 +16,18 @@ from infill.errors import FormatError
 from infill.gcode.bounds import Floats, Moves
 from infill.gcode.chords import arc_chords
 from infill.gcode.columns import chained, part
-from infill.gcode.dialect import tag_of
+from infill.gcode.dialect import TAGS, tag_of
 from infill.gcode.found_limits import FoundLimits, found_limits
 from infill.gcode.limits import LIMITING_CODES, Limits
 from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, Command
-from infill.gcode.planner import Plan, settle
+from infill.gcode.planner import NOTHING, Plan, settle
 from infill.gcode.table import State, Table, firmware_retraction, read
 from infill.gcode.unusual_moves import is_macro, may_move
 
 BATCH: Final = 1 << 22  # bytes
 ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings
+WORD: Final = 4  # bytes that tell a tag from most other comments
+TELLING: Final = sorted({int.from_bytes(tag[:WORD], "little") for tag in TAGS if TAGS[tag] in ("role", "layer")})
 SHOWN: Final = 60  # bytes of a line that is not understood
 MOST_MACROS: Final = 100  # names that are remembered
 MOST_SHARE: Final = 1000.0  # per cent, of M220 and M221
@@ -124,6 +126,8 @@ class Timeline:
         Fields of `Limits` that hold instead of what the file says.
     settings : mapping, optional
         What the slicer tells outside the text.
+    found : FoundLimits, optional
+        What the file tells, if it is known.
 
     Raises
     ------
@@ -132,7 +136,11 @@ class Timeline:
     """
 
     def __init__(
-        self, file: BinaryIO, fixed: Mapping[str, Any] | None = None, settings: Mapping[str, str] | None = None
+        self,
+        file: BinaryIO,
+        fixed: Mapping[str, Any] | None = None,
+        settings: Mapping[str, str] | None = None,
+        found: FoundLimits | None = None,
     ) -> None:
         self._file = file
         self.features: list[bytes] = [b""]
@@ -143,29 +151,56 @@ class Timeline:
         self.macros: dict[str, None] = {}  # in the order of the file
         self._stopped = self._drawn_back = False
         self.moved = False  # a move was read
+        self._waiting: Steps | None = None
+        self._entry: float | None = None
+        self._feature = 0
         self._lines = self._bytes = 0  # read so far
         self._speed = self._stored_speed = 1.0
         self._flow: dict[int | None, float] = {None: 1.0}  # by tool
-        head, tail = _ends(file)
-        self.found: FoundLimits = found_limits(head, tail, fixed, settings)
+        self.found = found or found_limits(*_ends(file), fixed, settings)
         self.state = State(volumetric=self.found.volumetric, diameters=self.found.diameters)
         self._limits: list[Limits] = [self.found.limits]
 
     def __iter__(self) -> Iterator[tuple[Steps, Plan]]:
         """Read the file from the beginning and yield moves with their plan."""
-        waiting: list[Steps] = []
-        entry: float | None = None
-        for steps in self._steps():
-            if len(steps):
-                self.moved = True
-                waiting = [chained([*waiting, steps])]
-                settled, plan, entry = settle(waiting[0].moves, self._limits, entry, ends=False)
-                yield part(waiting[0], slice(settled)), plan
-                waiting = [part(waiting[0], slice(settled, None))]
-        if not self.moved:
+        for table in self.tables():
+            yield self.follow(table)
+        yield self.rest()
+
+    def tables(self) -> Iterator[Table]:
+        """Read the file from the beginning; each table must be followed before the next is read."""
+        self._file.seek(0)
+        for data in _batches(self._file):
+            yield read(data, self.state)
+
+    def follow(self, table: Table) -> tuple[Steps, Plan]:
+        """Take the next lines of the file, for those who read it themselves, and plan what can be planned by now."""
+        self.state = table.after
+        orders = self._obeyed(table)
+        which, layer, self._feature = self._tagged(table, self._feature)
+        steps = self._moves(table, orders, which, layer)
+        self._lines += len(table)
+        self._bytes += len(table.data)
+        if not len(steps):
+            return steps, NOTHING
+        self.moved = True
+        waiting = chained([self._waiting, steps]) if self._waiting is not None else steps
+        settled, plan, self._entry = settle(waiting.moves, self._limits, self._entry, ends=False)
+        self._waiting = part(waiting, slice(settled, None))
+        return part(waiting, slice(settled)), plan
+
+    def rest(self) -> tuple[Steps, Plan]:
+        """Plan what is left at the end of the file.
+
+        Raises
+        ------
+        FormatError
+            If the file has no moves.
+        """
+        if self._waiting is None:
             raise FormatError(self.trouble or "the file has no moves; give a file of G-code that a slicer wrote")
-        settled, plan, _ = settle(waiting[0].moves, self._limits, entry, ends=True)
-        yield waiting[0], plan
+        _, plan, _ = settle(self._waiting.moves, self._limits, self._entry, ends=True)
+        return self._waiting, plan
 
     @property
     def trouble(self) -> str:
@@ -176,18 +211,6 @@ class Timeline:
             f"no line that extrudes can be read: {self.unread.lines} are not understood, the first is line "
             f"{self.unread.first}, {self.unread.text!r}; slice it for Marlin or Klipper"
         )
-
-    def _steps(self) -> Iterator[Steps]:
-        feature = 0
-        self._file.seek(0)
-        for data in _batches(self._file):
-            table = read(data, self.state)
-            self.state = table.after
-            orders = self._obeyed(table)
-            which, layer, feature = self._tagged(table, feature)
-            yield self._moves(table, orders, which, layer)
-            self._lines += len(table)
-            self._bytes += len(data)
 
     def _obeyed(self, table: Table) -> _Orders:
         """Follow the commands."""
@@ -268,7 +291,7 @@ class Timeline:
     def _tagged(self, table: Table, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
         """Return feature and layer of every line, and the last feature."""
         lines, features, layers = [0], [feature], [self.layers]
-        for line in np.flatnonzero(table.kind == COMMENT).tolist():
+        for line in _comments(table, TELLING):
             tag = tag_of(table.data[table.start[line] : table.start[line + 1]])
             if tag is None:
                 continue
@@ -334,6 +357,16 @@ class Timeline:
             section=table.section[line],
             place=self._bytes + table.start[line],
         )
+
+
+def _comments(table: Table, beginnings: Sequence[int]) -> list[int]:
+    """Return the comments that begin with one of several words of four bytes."""
+    lines = np.flatnonzero(table.kind == COMMENT)
+    text = np.frombuffer(table.data, dtype=np.uint8)
+    lines = lines[table.start[lines] + WORD <= len(text)]
+    begin = table.start[lines]
+    words = sum(text[begin + byte].astype(np.int64) << (8 * byte) for byte in range(WORD))
+    return [int(line) for line in lines[np.isin(words, beginnings)]]
 
 
 def _since(values: NDArray[Any], line: NDArray[np.intp]) -> NDArray[Any]:

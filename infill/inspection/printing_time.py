@@ -234,7 +234,10 @@ def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -
 
 
 def timeline_of_text(
-    given: SlicedText, text: BinaryIO | None = None, fixed: Mapping[str, Any] | None = None
+    given: SlicedText,
+    text: BinaryIO | None = None,
+    fixed: Mapping[str, Any] | None = None,
+    found: FoundLimits | None = None,
 ) -> Timeline:
     """Return the moves of a print, or of another text in its place, with what its file tells outside the text.
 
@@ -244,9 +247,11 @@ def timeline_of_text(
     text : binary file, optional
     fixed : mapping, optional
         As `given_limits` returns it.
+    found : FoundLimits, optional
+        What the file tells, if it is known.
     """
     told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
-    timeline = Timeline(text or given.text, fixed, {**given.settings, **told})
+    timeline = Timeline(text or given.text, fixed, {**given.settings, **told}, found)
     timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
     return timeline
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,10 +37,16 @@ SUMS: Final = (
 class Strokes:
     """Sums over the moves seen so far, one row a feature.
 
+    Parameters
+    ----------
+    times_only : bool
+        Sum up seconds, travel and retractions, and nothing of the shape of paths.
+
     A move that draws pushes filament on its way. What lies before it, travel, retraction and pause, counts for its
     feature: it is what leads there. A path is a run of moves that draw for one feature.
     """
 
+    times_only: bool = False
     sums: Floats = field(default_factory=lambda: np.zeros((1, len(SUMS))))
     lengths: NDArray[np.int64] = field(default_factory=lambda: np.zeros((1, BINS), dtype=np.int64))
     flow: Floats = field(default_factory=lambda: np.zeros(1))  # mm³/s, at most
@@ -64,6 +70,11 @@ class Strokes:
         seconds = plan.seconds + steps.pause
         retracts = begins_back + steps.retractions
         self._lead(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), retracts)
+        if self.times_only:
+            for name, values in (("seconds", seconds), ("retractions", steps.retractions)):
+                self._sum(name, feature[draws], values[draws])
+            self.last[3] = feature[-1]
+            return
         along, length, pushed, at = delta[draws, :3], distance[draws], pushed[draws], feature[draws]
         joined = self._joined(draws, feature)
         direction = along / length[:, None]
@@ -82,7 +93,7 @@ class Strokes:
             "turning": turn,
         }
         for name, values in columns.items():
-            self.sums[:, SUMS.index(name)] += np.bincount(at, weights=values, minlength=len(self.sums))
+            self._sum(name, at, values)
         place = np.clip((np.log10(length) - LOWEST) * DECADE, 0, BINS - 1).astype(np.intp)
         self.lengths += np.bincount(at * BINS + place, minlength=self.lengths.size).reshape(self.lengths.shape)
         certain = length >= SHORT
@@ -138,7 +149,10 @@ class Strokes:
 
     def _count(self, feature: NDArray[np.intp], rows: Floats) -> None:
         for name, values in zip(("seconds", "travel", "retractions"), rows.T, strict=True):
-            self.sums[:, SUMS.index(name)] += np.bincount(feature, weights=values, minlength=len(self.sums))
+            self._sum(name, feature, values)
+
+    def _sum(self, name: str, feature: NDArray[np.intp], values: NDArray[Any]) -> None:
+        self.sums[:, SUMS.index(name)] += np.bincount(feature, weights=values, minlength=len(self.sums))
 
     def _joined(self, draws: NDArray[np.bool_], feature: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return, for the moves that draw, whether each goes on with the path of the move before it."""
