@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from infill.gcode.bodies import Body, Ways, bodies, composed, exchanged, unlawful, ways_of
-from infill.gcode.estimates import Change, estimates, said_seconds, told_anew
+from infill.gcode.estimates import Change, estimates, finished, said_seconds, told_anew
 from infill.gcode.lines import MOVE
 from infill.gcode.sections import FILAMENT_UNIT, Strokes, Tags, marked, strokes
 from infill.gcode.splicing import Redrawn, Spliced, differing, spliced, unlike
@@ -628,6 +628,8 @@ TOLD = [
     b"; estimated printing time (normal mode) = 1d 2h 3m 4s",
     b"; estimated printing time (silent mode) = 58m 30s",
     b"; estimated printing time (normal mode) = 7s",
+    b"; estimated first layer printing time (normal mode) = 1m 2s",
+    b"; total estimated time: 34m 27s",
     b"; model printing time: 28m 12s; total estimated time: 34m 27s",
     b";TIME:1234",
     b";PRINT.TIME:99",
@@ -650,7 +652,6 @@ NOT_TOLD = [
     b"; filament_cost = 25",
     b"; filament_diameter = 1.75",
     b"; total filament used for wipe tower [g] = 0.00",
-    b"; estimated first layer printing time (normal mode) = 1m 2s",
     b";TIME",
     b";TIMELAPSE:1",
     b"G1 X1 ;TIME:5",
@@ -668,18 +669,19 @@ def test_lines_that_tell_are_found_and_no_others(end: bytes) -> None:
 
 
 @pytest.mark.parametrize("line", TOLD)
-@pytest.mark.parametrize("total", [0.0, 5000.0])
-def test_no_change_is_told_as_it_was(line: bytes, total: float) -> None:
-    assert told_anew(line, 0.0, Change(), total) == line
-    assert told_anew(line, 0.0, Change(tools=(1.0, 1.0)), total) == line
+def test_of_a_print_without_moves_time_is_told_as_it_was(line: bytes) -> None:
+    assert told_anew(line, 0.0, Change()) == line
+    assert told_anew(line, 7.0, Change(tools=(1.0, 1.0))) == line
 
 
 @settings(max_examples=60)
-@given(st.sampled_from(TOLD), st.floats(-1e5, 1e5), st.floats(0, 1), st.floats(0.1, 3), st.floats(0, 1e5))
-@example(b";TIME:1234", 5000.0, 1.0, 1.0, 0.0)
-def test_no_time_is_ever_negative(line: bytes, saved: float, share: float, filament: float, total: float) -> None:
-    change = Change(seconds=saved, filament=filament, tools=(filament, 1.0))
-    new = told_anew(line, saved * share, change, total)
+@given(
+    st.sampled_from(TOLD), st.floats(0.01, 1e6), st.floats(0, 1), st.floats(0.1, 3), st.sampled_from([b"", b"PRQST"])
+)
+@example(b";TIME:1234", 0.2, 1.0, 1.0, b"")
+def test_no_time_is_ever_negative(line: bytes, seconds: float, share: float, filament: float, done: bytes) -> None:
+    change = Change(seconds=seconds, ratio=0.9, silent=2 * seconds, filament=filament, tools=(filament, 1.0))
+    new = told_anew(line, seconds * share, change, done)
     assert b"-" not in new
     assert b"\n" not in new
     assert re.sub(rb"[\d.]+[dhms]?", b"", new).split() == re.sub(rb"[\d.]+[dhms]?", b"", line).split()
@@ -693,28 +695,53 @@ def test_no_time_is_ever_negative(line: bytes, saved: float, share: float, filam
         ] == decimals
 
 
-@given(st.integers(1, 400_000), st.integers(0, 300_000))
-@example(86_400, 0)
-@example(3600, 1)
-def test_a_time_is_less_by_what_is_saved(seconds: int, saved: int) -> None:
-    line = b"; estimated printing time (normal mode) = %ds" % seconds
-    spelled = told_anew(line, 0.0, Change(), 0.0)
-    assert said_seconds(spelled) == seconds
-    assert told_anew(spelled, 0.0, Change(), 0.0) == spelled
-    assert said_seconds(told_anew(spelled, 0.0, Change(seconds=saved), 0.0)) == max(1, seconds - saved)
-    assert said_seconds(told_anew(b";TIME:%d" % seconds, 0.0, Change(seconds=saved), 0.0)) == max(1, seconds - saved)
+@given(st.integers(1, 400_000))
+@example(86_400)
+@example(3600)
+def test_a_time_is_what_was_planned(seconds: int) -> None:
+    for line in (b"; estimated printing time (normal mode) = 1h 2s", b";TIME:5", b"; model printing time: 1d 1m 1s"):
+        new = told_anew(line, 0.0, Change(seconds=float(seconds)))
+        assert said_seconds(new) == seconds
+        assert told_anew(new, 0.0, Change(seconds=float(seconds))) == new
 
 
-@given(st.integers(600, 100_000), st.floats(0, 0.5), st.floats(0, 1))
-def test_progress_runs_from_nothing_to_all(total: int, part: float, at: float) -> None:
-    """The old share and time left, at a place where so much of the saving is made as of the time is gone."""
-    saved = part * total
-    line = b"M73 P%d R%d" % (round(100 * at), round(total * (1 - at) / 60))
-    new = re.fullmatch(rb"M73 P(\d+) R(\d+)", told_anew(line, saved * at, Change(seconds=saved), total))
-    assert new is not None
-    # Each number is rounded twice: to the whole in the line before, and after.
-    assert int(new[1]) == pytest.approx(100 * at, abs=0.5 + 0.5 / (1 - part))
-    assert int(new[2]) == pytest.approx((total - saved) * (1 - at) / 60, abs=1)
+@given(st.lists(st.floats(0, 1), min_size=1, max_size=30), st.floats(1, 400_000), st.integers(0, 2))
+def test_progress_runs_from_all_that_is_left_to_nothing(at: list[float], total: float, decimals: int) -> None:
+    """Of a print of any length, the share done rises and what is left falls, from the whole to nothing."""
+    change = Change(seconds=total, silent=1.5 * total)
+    places = [0.0, *sorted(at), 1.0]
+    lines = [b"M73 P%.*f R9 Q3 S%.*f" % (decimals, 4, decimals, 9)] * (len(places) - 1) + [b"M73 P100 R0 Q100 S0"]
+    new = [
+        told_anew(line, share * total, change, done)
+        for line, share, done in zip(lines, places, finished(lines), strict=True)
+    ]
+    for letter, sign in ((b"P", 1), (b"Q", 1), (b"R", -1), (b"S", -1)):
+        values = [sign * float(re.search(letter + rb"([\d.]+)", line)[1]) for line in new]  # type: ignore[index]
+        assert values == sorted(values)
+    assert new[-1] == b"M73 P100 R0 Q100 S0"
+    first = {found[1]: float(found[2]) for found in re.finditer(rb"([RS])([\d.]+)", new[0])}
+    # Whole minutes, cut off after whole seconds were rounded; S has decimals here.
+    assert first[b"R"] == (total + 0.5) // 60
+    assert 60 * first[b"S"] == pytest.approx(1.5 * total, abs=60 * 10.0**-decimals + 0.5)
+
+
+@pytest.mark.parametrize(
+    ("lines", "done"),
+    [
+        ([b"M73 P0 R5", b"M73 P100 R0"], [b"", b"PR"]),
+        ([b"M73 P0 R5", b"M73 P100 R0", b"M73 Q100 S0"], [b"", b"PR", b"QS"]),
+        ([b"M73 P100 R0", b"M73 P100 R0", b"M73 L9"], [b"", b"PR", b""]),
+        ([b"M73 P0", b"M73 P98"], [b"", b""]),  # goes on afterwards
+        ([b";TIME_ELAPSED:5.0", b"; a remark", b";TIME_ELAPSED:7.0"], [b"", b"", b"T"]),
+        ([b";TIME:9"], [b""]),
+        ([], []),
+    ],
+)
+def test_what_is_done_in_the_end(lines: list[bytes], done: list[bytes]) -> None:
+    assert finished(lines) == done
+
+
+HOUR = Change(seconds=3600.0, first_layer=60.0, ratio=0.9, first_ratio=0.5, silent=7200.0, prepared=300.0)
 
 
 @pytest.mark.parametrize(
@@ -726,18 +753,43 @@ def test_progress_runs_from_nothing_to_all(total: int, part: float, at: float) -
         (b"; total filament weight [g] : 4.00,2.00", Change(tools=(0.5,)), b"; total filament weight [g] : 2.00,2.00"),
         (b"; total filament length [mm] : 100.0", Change(filament=0.9), b"; total filament length [mm] : 90.0"),
         (b";Filament used: 2.00000m, 1m", Change(tools=(0.25, 2.0)), b";Filament used: 0.50000m, 2m"),
-        (b";TIME_ELAPSED:100.500000", Change(seconds=90.0), b";TIME_ELAPSED:70.500000"),
-        (b"M73 P50 R60 ; P50 R60", Change(seconds=630.0), b"M73 P54 R50 ; P50 R60"),
-        (b"M73 C5 L3 D9", Change(seconds=600.0), b"M73 C5 L3 D9"),
+        (b";TIME_ELAPSED:100.500000", HOUR, b";TIME_ELAPSED:900.000000"),
+        (b"M73 P50 R61 ; P50 R60", HOUR, b"M73 P25 R48 ; P50 R60"),
+        (b"M73 P5.0 R6.5", HOUR, b"M73 P25.0 R48.7"),
+        (b"M73 Q50 S60", HOUR, b"M73 Q25 S90"),
+        (b"M73 C5 L3 D9", HOUR, b"M73 C4 L3 D8"),
+        (b"; estimated printing time (silent mode) = 5s", HOUR, b"; estimated printing time (silent mode) = 2h 0m 0s"),
+        (
+            b"; estimated first layer printing time (normal mode) = 5s",
+            HOUR,
+            b"; estimated first layer printing time (normal mode) = 1m 0s",
+        ),
+        (
+            b"; estimated first layer printing time (silent mode) = 1m 50s",
+            HOUR,
+            b"; estimated first layer printing time (silent mode) = 55s",
+        ),
         (
             b"; model printing time: 1h 1m 0s; total estimated time: 2h 0m 0s",
-            Change(seconds=120.0),
-            b"; model printing time: 59m 0s; total estimated time: 1h 58m 0s",
+            HOUR,
+            b"; model printing time: 1h 0m 0s; total estimated time: 1h 5m 0s",
         ),
+        (b"; total estimated time: 2h 0m 0s", HOUR, b"; total estimated time: 1h 5m 0s"),
     ],
 )
 def test_what_is_told(line: bytes, change: Change, told: bytes) -> None:
-    assert told_anew(line, 30.0, change, 7200.0) == told
+    assert told_anew(line, 900.0, change) == told
+
+
+def test_what_is_not_planned_follows_what_is() -> None:
+    """The time of a silent mode, and what the slicer counts beside the moves."""
+    lines = [
+        b"; estimated printing time (silent mode) = 1h 0m 0s",
+        b"; model printing time: 50m 0s; total estimated time: 57m 0s",
+        b"M73 Q0 S999",
+    ]
+    assert Change(ratio=0.5).told_by(lines) == Change(ratio=0.5, silent=1800.0, prepared=420.0)
+    assert Change(ratio=0.5).told_by([b"M73 Q0 S30", b"M73 Q5 S20"]).silent == 900.0
 
 
 def test_filament_is_told_by_what_the_print_says_of_its_tools() -> None:

@@ -382,7 +382,7 @@ def test_arcs_are_driven(tmp_path: Path) -> None:
         (b"\x89PNG\r\n\0\0", "is not text"),
         (b"import sys\nprint(1)\n", "has no moves"),
         (b"G28\nM104 S200\nG1 F300\n", "has no moves"),
-        (b"G20\nG1 X1 Y1\nG1 X2\n", "inches"),
+        (b"G1 X{a} E1\nG1 X{b} E1\n", "no line that extrudes can be read: 2"),
     ],
 )
 def test_what_is_not_gcode_is_one_line(tmp_path: Path, content: bytes, says: str) -> None:
@@ -509,7 +509,7 @@ def test_columns_are_cut_and_joined(tmp_path: Path) -> None:
 
 def test_every_limiting_code_does_something() -> None:
     words = {"M204": "S1", "M205": "X1", "SET_VELOCITY_LIMIT": "ACCEL=1"}
-    for code in LIMITING_CODES:
+    for code in LIMITING_CODES - {"RESET_VELOCITY_LIMIT"}:  # which takes the others back
         line = f"{code} {words.get(code, 'X1')}".encode()
         assert commanded(Limits(), code, line) != Limits()
 

@@ -247,6 +247,7 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
     if sections["replaced"]:
+        rows["print"] = _print(filament, seconds)
         before, after = filament["infill_before_mm"], filament["infill_after_mm"]
         rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
         density = filament["density_for_the_same_percent"]
@@ -255,7 +256,8 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
             if filament["ratio_with_density_same"] > ALIKE:
                 rows["filament"] += ", or give --density same"
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]
-        rows["time"] = f"{_span(after)} of infill, {after / before - 1:+.1%} ({_span(before)})"
+        if before:
+            rows["time"] = f"{_span(after)} of infill, {after / before - 1:+.1%} ({_span(before)})"
         contact = report["contact"]
         if contact["measured_mm"]:
             rows["support"] = (
@@ -267,6 +269,25 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
     if path:
         rows["wrote"] = path
     return table(rows, title=name)
+
+
+def _print(filament: dict[str, Any], seconds: dict[str, Any]) -> str:
+    """Return what the whole print takes now, and in brackets what it took, by the same planner."""
+    now, old = seconds["print_after_s"], seconds["print_before_s"]
+    grams, was = filament["print_after_g"], filament["print_before_g"]
+    if grams is None or was is None:
+        grams, was, unit = filament["print_after_mm"] / 1000, filament["print_before_mm"] / 1000, "m"
+    else:
+        unit = "g"
+    change = f", {now / old - 1:+.1%}" if old else ""
+    said = f"; the slicer said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
+    return f"{_clock(now)} and {grams:.2f} {unit}{change} ({_clock(old)} and {was:.2f} {unit}{said})"
+
+
+def _clock(seconds: float) -> str:
+    """Return a time to the second, as `infill motion` tells it."""
+    whole = round(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
 
 
 def _span(seconds: float) -> str:

@@ -153,12 +153,24 @@ def _summary(path: Path, found: Motion) -> str:
         "slicer": found.slicer or "unknown",
         "its estimate": "none" if found.estimate is None else _clock(found.estimate),
         "layers": f"{found.layers}",
-        "filament": f"{found.filament / 1000:.2f} m, {found.retractions} retraction(s)",
+        "filament": f"{found.filament / 1000:.2f} m, {found.retractions} retraction(s){_counted(found)}",
         "laid, travelled": f"{found.length / 1000:.1f} m, {found.travel / 1000:.1f} m",
         "model": found.limits["model"],
         "limits": limits,
     }
+    if found.unread_lines:
+        rows["NOT READ"] = (
+            f"{found.unread_lines} line(s) that may move or extrude are left out; the first is line "
+            f"{found.first_unread_line}: {found.first_unread_text}"
+        )
+    if found.macros:
+        rows["macros"] = f"{', '.join(found.macros)}: what the printer does there is not known and left out"
     return table(rows, title=str(path))
+
+
+def _counted(found: Motion) -> str:
+    """Say how a file counts filament, if it is in mm³."""
+    return f"; E in mm³, of filament {found.filament_diameter:g} mm thick" if found.volumetric else ""
 
 
 def _plate(found: Motion) -> str:

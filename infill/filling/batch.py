@@ -96,9 +96,9 @@ def batch_of(table: Table, tags: Tags) -> Batch:
     return Batch(table=table, marks=marks, infill=strokes(table, marks))
 
 
-def read_batches(file: BinaryIO) -> Iterator[Batch]:
-    """Yield a print in batches, from where the file stands to its end."""
-    state, tags = State(), Tags()
+def read_batches(file: BinaryIO, begin: State | None = None) -> Iterator[Batch]:
+    """Yield a print in batches, from where the file stands to its end; `begin` is how its words are meant before it."""
+    state, tags = begin or State(), Tags()
     for text in batches(file):
         batch = batch_of(read(text, state), tags)
         yield batch

@@ -20,6 +20,7 @@ from infill.filling.request import AUTO, KEEP, Progress
 from infill.filling.rules import Rules
 from infill.filling.support import LEAST_SHARE, kept_length, kept_shares, smaller_deviation
 from infill.filling.tally import Tally
+from infill.filling.timing import PrintClock
 from infill.formats.whole_files import told
 from infill.gcode.estimates import estimates
 from infill.gcode.survey import Survey
@@ -33,7 +34,13 @@ MOST_THREADS = 4  # more of them would only take memory: one reads what all the 
 
 
 def drafted(
-    file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, plan: Plan | None, progress: Progress | None
+    file: BinaryIO,
+    draft: BinaryIO,
+    found: Survey,
+    rules: Rules,
+    plan: Plan | None,
+    progress: Progress | None,
+    clock: PrintClock | None = None,
 ) -> tuple[Tally, Rules]:
     """Write the new text to a draft, and return what was done, by which rules.
 
@@ -45,6 +52,8 @@ def drafted(
     plan : Plan, optional
         Of a pattern of ours; None for the slicer's own paths.
     progress : callable, optional
+    clock : PrintClock, optional
+        Takes the lines of the file as they are read.
 
     Raises
     ------
@@ -54,10 +63,10 @@ def drafted(
         If the draft cannot be written.
     """
 
-    def drawn(rules: Rules, plan: Plan | None) -> Tally:
-        return _drawn(file, draft, found, rules, plan, progress)
+    def drawn(rules: Rules, plan: Plan | None, clock: PrintClock | None = None) -> Tally:
+        return _drawn(file, draft, found, rules, plan, progress, clock)
 
-    tally = drawn(rules, plan)
+    tally = drawn(rules, plan, clock)
     if plan is not None and plan.density is None and not plan.fixed and found.small:
         tally = _evened(tally, plan, lambda other: drawn(rules, other))
     last = 0.0
@@ -102,13 +111,20 @@ def _evened(tally: Tally, plan: Plan, again: Callable[[Plan], Tally]) -> Tally:
 
 
 def _drawn(
-    file: BinaryIO, draft: BinaryIO, found: Survey, rules: Rules, plan: Plan | None, progress: Progress | None
+    file: BinaryIO,
+    draft: BinaryIO,
+    found: Survey,
+    rules: Rules,
+    plan: Plan | None,
+    progress: Progress | None,
+    clock: PrintClock | None,
 ) -> Tally:
     """Write the new text to a draft."""
     file.seek(0)
     draft.seek(0)
     draft.truncate()
     tally, memory, below, tags = Tally(), Memory(), None, None
+    begin = None if clock is None else clock.begin
     done = shown = 0
 
     def work(batch: Batch) -> Refilled:
@@ -117,13 +133,15 @@ def _drawn(
     # Our own paths continue those of the layer below, so that batches come one after another.
     threads = min(thread_count(), MOST_THREADS) if plan is None else 1
     with told(Path("a temporary file")):
-        for batch, new in in_order(work, read_batches(file), threads=threads):
+        for batch, new in in_order(work, read_batches(file, begin), threads=threads):
+            if clock is not None:
+                clock.add(batch.table)
             before, after, below = measured_contact(batch, new, below, rules.stride)
             tally.add(new.tally)
             tally.before += before
             tally.after += after
             for first, last in estimates(new.text):
-                tally.lines.append((draft.tell() + first, new.text[first:last], tally.saved))
+                tally.lines.append((draft.tell() + first, new.text[first:last]))
             draft.write(new.text)
             tags = batch.marks.after
             done += len(batch.table.data)

@@ -43,21 +43,19 @@ def write_print(
         file.writelines(texts[None])
 
 
-def retold(metadata: Iterable[tuple[bytes, bytes]], change: Change, said: float) -> dict[str, str]:
+def retold(metadata: Iterable[tuple[bytes, bytes]], change: Change) -> dict[str, str]:
     """Return the values of metadata that tell time or filament as they hold after a change.
 
     Parameters
     ----------
     metadata : iterable of (name, value)
     change : Change
-    said : float
-        Seconds that the print was said to take.
     """
     anew = {}
     for name, value in metadata:
         line = b"; %s = %s" % (name, value)
         if any(estimates(line)):
-            new = told_anew(line, 0.0, change, said).partition(b" = ")[2]
+            new = told_anew(line, 0.0, change).partition(b" = ")[2]
             anew[name.decode("utf-8", "surrogateescape")] = new.decode("utf-8", "surrogateescape")
     return anew
 

@@ -22,13 +22,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from infill.filling.prints import copy_mode, pieces, retold, write_print
 from infill.filling.request import AUTO, KEEP, Progress, Request
 from infill.formats.whole_files import check_target, scratch, whole_file
-from infill.gcode.estimates import Change, said_seconds, told_anew
+from infill.gcode.estimates import Change, finished, said_grams, said_millimetres, said_seconds, told_anew
 from infill.inspection.sliced_file import SlicedText, opened
 from infill.version import __version__
 
 if TYPE_CHECKING:
     from infill.filling.rules import Rules
-    from infill.filling.tally import Tally
+    from infill.filling.tally import Tally, Whole
+    from infill.filling.timing import PrintTime
     from infill.gcode.survey import Survey
 
 HEAD = 1 << 16  # bytes in which the header ends
@@ -248,11 +249,12 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.filling.rules import rules_of
     from infill.filling.support import largest_deviation, samples
     from infill.filling.telling import loses_filament
+    from infill.filling.timing import PrintClock
     from infill.gcode.survey import survey
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
-    found = survey(given.text, more=family is not None and not family.prismatic)
-    found = replace(found, settings={**found.settings, **given.settings}, slicer=found.slicer or given.slicer)
+    found = survey(given.text, more=family is not None and not family.prismatic, settings=given.settings)
+    found = replace(found, slicer=found.slicer or given.slicer)
     if found.stamped:
         return _Done(found=found, draft=draft)
     if progress is not None:
@@ -266,32 +268,69 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
         rules = rules if plan is not None else rules.rounded_by(0.0)
     elif request.smooth_radius == AUTO and some:
         rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
-    tally, rules = drafted(given.text, draft, found, rules, plan, progress)
+    clock = PrintClock(given)
+    tally, rules = drafted(given.text, draft, found, rules, plan, progress, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
         by_itself = by_itself.rounded_by(largest_deviation(some, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
             remedy, _ = drafted(given.text, trial, found, by_itself, None, progress)
-    said = max((said_seconds(line) for _, line, _ in tally.lines), default=0.0)
-    said = max(said, *(said_seconds(b"; %s = %s" % item) for item in given.metadata), 0.0)
-    change = Change(seconds=tally.saved, filament=tally.filament_ratio, tools=tally.tool_ratios)
-    change = change.as_told([line for _, line, _ in tally.lines], tally.change, _section(found))
-    edits: list[tuple[int, int, bytes]] = []
-    if tally.replaced:
-        edits = [(place, len(line), told_anew(line, saved, change, said)) for place, line, saved in tally.lines]
-        edits.append(_stamp(draft, tally))
-    metadata = retold(given.metadata, change, said)
+    if found.begin.volumetric:
+        for each in [tally] if remedy is None else [tally, remedy]:
+            each.count_millimetres([math.pi / 4 * diameter**2 for diameter in found.begin.diameters])
+    before = clock.finish()
+    places = [place for place, _ in tally.lines]
+    after = PrintClock(given, draft, places, like=clock).read() if tally.replaced else before
+    change, edits = _told(given, found, tally, before, after)
+    edits = [*edits, _stamp(draft, tally)] if tally.replaced else []
+    metadata = retold(given.metadata, change)
     return _Done(
         found=found, draft=draft, tally=tally, rules=rules, remedy=remedy, edits=tuple(sorted(edits)), metadata=metadata
     )
 
 
-def _section(found: Survey) -> float:
-    """Return the section of the filament, mm², if the print counts filament by volume, else 1."""
-    volumetric = found.settings.get("use_volumetric_e", "0") not in ("0", "")
-    diameter = found.number("filament_diameter") or 1.75
-    return math.pi / 4 * diameter**2 if volumetric else 1.0
+def _told(
+    given: SlicedText, found: Survey, tally: Tally, before: PrintTime, after: PrintTime
+) -> tuple[Change, list[tuple[int, int, bytes]]]:
+    """Put what the print takes into the tally, and return by how much that changed, and the lines that tell of it."""
+    lines = [line for _, line in tally.lines]
+    outside = [b"; %s = %s" % item for item in given.metadata]
+    change = Change(
+        seconds=after.seconds,
+        first_layer=after.first_layer,
+        ratio=after.seconds / before.seconds if before.seconds else 1.0,
+        first_ratio=after.first_layer / before.first_layer if before.first_layer else 1.0,
+        filament=tally.filament_ratio,
+        tools=tally.tool_ratios,
+    )
+    change = change.told_by([*lines, *outside]).as_told(lines, tally.change)
+    new = lines
+    if tally.replaced:
+        times = zip(lines, after.elapsed.tolist(), finished(lines), strict=True)
+        new = [told_anew(line, elapsed, change, done) for line, elapsed, done in times]
+    told = [told_anew(line, 0.0, change) for line in outside] if tally.replaced else outside
+    used = sum(tally.filament.values())
+    tally.print_before = _whole(before, [*lines, *outside], used, found)
+    tally.print_after = _whole(after, [*new, *told], used + sum(tally.change.values()), found)
+    tally.slicer_seconds = max(
+        (said_seconds(line) for line in (*lines, *outside) if b"silent" not in line), default=0.0
+    )
+    tally.unread, tally.first_unread = before.unread, before.first_unread
+    edits = [(place, len(line), text) for (place, line), text in zip(tally.lines, new, strict=True)]
+    return change, edits
+
+
+def _whole(time: PrintTime, lines: Sequence[bytes], used: float, found: Survey) -> Whole:
+    """Return what a print takes: filament as its lines tell it, or else as it was counted."""
+    from infill.filling.tally import Whole
+
+    filament = said_millimetres(lines)
+    filament = used if filament is None else filament
+    grams, density = said_grams(lines), found.number("filament_density")
+    if grams is None and density:
+        grams = filament * math.pi / 4 * found.begin.diameter**2 / 1000 * density
+    return Whole(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
 
 
 def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,6 +61,34 @@ class Amounts:
         )
 
 
+@dataclass(frozen=True, kw_only=True)
+class Whole:
+    """What a whole print takes.
+
+    Parameters
+    ----------
+    seconds, infill_seconds : float
+        As `infill motion` plans them.
+    filament : float
+        mm
+    grams : float or None
+        None if the print tells neither grams nor a density.
+    """
+
+    seconds: float = 0.0
+    infill_seconds: float = 0.0
+    filament: float = 0.0
+    grams: float | None = 0.0
+
+    def __add__(self, other: Whole) -> Whole:
+        return Whole(
+            seconds=self.seconds + other.seconds,
+            infill_seconds=self.infill_seconds + other.infill_seconds,
+            filament=self.filament + other.filament,
+            grams=None if self.grams is None or other.grams is None else self.grams + other.grams,
+        )
+
+
 @dataclass(kw_only=True)
 class Tally:
     """What was done so far.
@@ -79,10 +108,16 @@ class Tally:
     corners : int
     radii : Histogram
         Of the arcs.
-    lines : list of (place, line, seconds)
-        Lines that tell time or filament, where they stand in the draft, and what was saved before them.
+    lines : list of (place, line)
+        Lines that tell time or filament, and where they stand in the draft.
     before, after : Contact
         What holds the infill up.
+    print_before, print_after : Whole
+        Before and after.
+    slicer_seconds : float
+        What the print said of its time; 0 if it said nothing.
+    unread, first_unread : int
+        Lines that may move or extrude and are not understood, and the number of the first in its print.
     """
 
     layers: int = 0
@@ -96,14 +131,14 @@ class Tally:
     change: dict[int, float] = field(default_factory=dict)
     corners: int = 0
     radii: Histogram = field(default_factory=Histogram)
-    lines: list[tuple[int, bytes, float]] = field(default_factory=list)
+    lines: list[tuple[int, bytes]] = field(default_factory=list)
     before: Contact = field(default_factory=Contact)
     after: Contact = field(default_factory=Contact)
-
-    @property
-    def saved(self) -> float:
-        """Seconds."""
-        return self.infill.seconds - self.infill_after.seconds
+    print_before: Whole = field(default_factory=Whole)
+    print_after: Whole = field(default_factory=Whole)
+    slicer_seconds: float = 0.0
+    unread: int = 0
+    first_unread: int = 0
 
     @property
     def filament_ratio(self) -> float:
@@ -157,6 +192,31 @@ class Tally:
         self.lines += other.lines
         self.before += other.before
         self.after += other.after
+        self.print_before += other.print_before
+        self.print_after += other.print_after
+        self.slicer_seconds += other.slicer_seconds
+        self.unread += other.unread
+        self.first_unread = self.first_unread or other.first_unread
+
+    def count_millimetres(self, sections: Sequence[float]) -> None:
+        """Count filament in mm, where the print counts it in mm³.
+
+        Parameters
+        ----------
+        sections : sequence of float
+            Of the filaments by tool, mm²; further tools have the last one.
+        """
+
+        def section(tool: int) -> float:
+            return sections[min(tool, len(sections) - 1)]
+
+        volume = sum(self.filament.values())
+        for amounts in (self.filament, self.change):
+            amounts.update({tool: value / section(tool) for tool, value in amounts.items()})
+        length = sum(self.filament.values())
+        usual = volume / length if length > 0 and volume > 0 else section(0)
+        self.infill = replace(self.infill, filament=self.infill.filament / usual)
+        self.infill_after = replace(self.infill_after, filament=self.infill_after.filament / usual)
 
 
 def _add(sums: dict[int, float], tools: Places, values: Floats) -> None:

@@ -56,6 +56,7 @@ def report_of_refill(
     if tally is None or rules is None:
         return report
     report["print"]["layers"] = tally.layers
+    report["print"]["unread_lines"] = tally.unread
     report["sections"] = {"all": tally.sections, "replaced": tally.replaced, "kept": dict(sorted(tally.kept.items()))}
     report["rounding"] = {
         "deviation_mm": _finite(rules.rounding.deviation),
@@ -70,13 +71,23 @@ def report_of_refill(
     report["filament"] = {
         "infill_before_mm": before.filament,
         "infill_after_mm": after.filament,
+        "print_before_mm": tally.print_before.filament,
+        "print_after_mm": tally.print_after.filament,
+        "print_before_g": tally.print_before.grams,
+        "print_after_g": tally.print_after.grams,
         "print_ratio": tally.filament_ratio,
         "density_for_the_same_percent": round(density / ratio, 2)
         if keeps and density and ratio >= LEAST_LENGTH
         else None,
         "ratio_with_density_same": tally.widened / before.filament if keeps and before.filament else None,
     }
-    report["time"] = {"infill_before_s": before.seconds, "infill_after_s": after.seconds}
+    report["time"] = {
+        "slicer_s": tally.slicer_seconds or None,
+        "print_before_s": tally.print_before.seconds,
+        "print_after_s": tally.print_after.seconds,
+        "infill_before_s": tally.print_before.infill_seconds,
+        "infill_after_s": tally.print_after.infill_seconds,
+    }
     report["contact"] = contact_section(tally)
     report["problems"] = _problems(report, tally)
     if keeps_paths and loses_filament(tally):
@@ -134,6 +145,11 @@ def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
     if failed:
         found.append(f"{failed} sections were kept because a check of the new text failed")
+    if tally.unread:
+        found.append(
+            f"{tally.unread} lines that may move or extrude were not understood, the first is line {tally.first_unread}; "
+            "they stay as they are, and the times leave them out"
+        )
     contact = report["contact"]
     if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
         found.append(

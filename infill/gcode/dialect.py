@@ -48,6 +48,11 @@ TAGS: Final[dict[bytes, str]] = {
     b"; stop printing object": "object end",
 }
 
+BEGINNING: Final = min(map(len, TAGS))  # bytes
+_BY_BEGINNING: Final = {
+    prefix[:BEGINNING]: [each for each in TAGS.items() if each[0].startswith(prefix[:BEGINNING])] for prefix in TAGS
+}
+
 ROLES: Final[dict[str, tuple[bytes, ...]]] = {
     "sparse infill": (b"Internal infill", b"Sparse infill", b"FILL"),
     "solid infill": (b"Solid infill", b"Internal solid infill", b"Floating vertical shell", b"SKIN"),
@@ -128,7 +133,7 @@ def tag_of(comment: bytes) -> tuple[str, bytes] | None:
     >>> tag_of(b";LAYER_CHANGE\n"), tag_of(b";LAYER:12"), tag_of(b";LAYER_COUNT:99")
     (('layer', b''), ('layer', b'12'), None)
     """
-    for prefix, meaning in TAGS.items():
+    for prefix, meaning in _BY_BEGINNING.get(comment[:BEGINNING], ()):
         if comment.startswith(prefix):
             return meaning, comment[len(prefix) :].strip()
     return None

@@ -14,10 +14,11 @@ from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from infill.gcode.limits import JERKS, Axes, Limits, Model, commanded
+from infill.gcode.table import DIAMETER, MOST_TOOLS
 
-DIAMETER: Final = 1.75  # mm of filament, where the file does not say
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
+SMOOTHIE: Final = Limits(model="junction", junction_deviation=0.05)
 CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate takes
     model="vector-jerk",
     feedrate=(1e6, 1e6, 1e6, 1e6),
@@ -58,6 +59,16 @@ _SLICER: Final = re.compile(
     rb"^; ?(?:generated (?:by|with)|Generated with)?[ :]*(\w+(?:Slicer|Studio|SteamEngine)) ?v?([\d.]+\S*)",
     re.MULTILINE,
 )
+_FLAVOUR: Final = re.compile(rb"^;FLAVOR:([^\r\n]*)", re.MULTILINE)
+_VOLUMETRIC: Final = {
+    b"ultigcode",
+    b"marlin(volumetric)",
+    b"marlin (volumetric)",
+    b"reprap (volumetric)",
+    b"reprap(volumetric)",
+}
+# What only RepRapFirmware knows, and feed rates that no machine reaches in mm/s.
+_BY_MINUTE: Final = re.compile(rb"^(?:M566\b|M203\b[^;\n]*[XY]\s*[3-9]\d{3}|M203\b[^;\n]*[XY]\s*\d{5})", re.MULTILINE)
 _UNIT_OF_TIME: Final = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 
 
@@ -81,6 +92,14 @@ class FoundLimits:
         mm
     estimate : float or None
         The slicer's own estimate, s.
+    volumetric : bool
+        E counts mm³ from the beginning.
+    diameters : tuple of float
+        mm, of the filaments by tool, from the beginning.
+    start : tuple of Limits and mapping
+        Limits and sources before any command: what Klipper returns to.
+    firmware : str
+        As `commanded` takes it.
     """
 
     limits: Limits
@@ -90,10 +109,16 @@ class FoundLimits:
     slicer: str
     filament_diameter: float
     estimate: float | None
+    volumetric: bool
+    diameters: tuple[float, ...]
+    start: tuple[Limits, Mapping[str, str]]
+    firmware: str
 
     def after(self, code: str, line: bytes) -> FoundLimits:
         """Return what is in force after a command."""
-        limits = commanded(self.limits, code, line, feedrate_unit=self.feedrate_unit)
+        if code == "RESET_VELOCITY_LIMIT":
+            return replace(self, limits=self.start[0], sources=self.start[1])
+        limits = commanded(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
         if self.fixed:
             limits = replace(limits, **self.fixed)
         named = _SETS.get(code) or [name for name in self.sources if _says(line, name)]
@@ -128,7 +153,9 @@ def found_limits(
     for text in (head, tail):
         settings |= {name.decode(): value.decode("latin-1").strip() for name, value in _SETTING.findall(text)}
     flavour = settings.get("gcode_flavor", "")
-    by_minute = flavour in ("reprapfirmware", "sprinter")
+    by_minute = flavour in ("reprapfirmware", "sprinter") or (
+        (b"M566" in head or b"M203" in head) and _BY_MINUTE.search(head) is not None
+    )
     named = _SLICER.search(head)
     slicer = b" ".join(named.groups()).decode("latin-1") if named else ""
     start, found = _start(flavour, head, slicer), {}
@@ -141,15 +168,41 @@ def found_limits(
     sources = {
         name: "given" if name in fixed else "settings" if name in found else "assumed" for name in USED[limits.model]
     }
+    volumetric, diameters = filament_of(head, settings)
     return FoundLimits(
         limits=limits,
         sources=sources,
+        start=(limits, sources),
+        firmware=flavour if flavour in ("repetier", "smoothie") else "",
+        volumetric=volumetric,
+        diameters=diameters,
         fixed=fixed,
         feedrate_unit=1 / 60 if by_minute else 1.0,
         slicer=slicer,
-        filament_diameter=_first(settings.get("filament_diameter")) or DIAMETER,
+        filament_diameter=diameters[0],
         estimate=_estimate(settings, head, tail),
     )
+
+
+def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[float, ...]]:
+    """Return whether E counts mm³ before any command says so, and the diameters of the filaments by tool, mm.
+
+    Parameters
+    ----------
+    head : bytes
+        The beginning of the file: Cura names its flavour there, and two of them count mm³.
+    settings : mapping
+        Of the slicer.
+
+    >>> filament_of(b";FLAVOR:UltiGCode", {}), filament_of(b"", {"filament_diameter": "2.85,1.75"})
+    ((True, (1.75,)), (False, (2.85, 1.75)))
+    """
+    flavour = _FLAVOUR.search(head)
+    volumetric = flavour is not None and flavour[1].strip().lower() in _VOLUMETRIC
+    if "use_volumetric_e" in settings:
+        volumetric = settings["use_volumetric_e"].strip() not in ("0", "", "nil", "false")
+    numbers = [_first(text) or DIAMETER for text in settings.get("filament_diameter", "").replace(";", ",").split(",")]
+    return volumetric, tuple(numbers[:MOST_TOOLS])
 
 
 def _says(line: bytes, name: str) -> bool:
@@ -158,8 +211,10 @@ def _says(line: bytes, name: str) -> bool:
 
 def _start(flavour: str, head: bytes, slicer: str) -> Limits:
     """Return what is assumed until the file says more."""
-    if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head:
+    if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head.upper():
         return KLIPPER
+    if flavour == "smoothie":
+        return SMOOTHIE
     return CURA if slicer.startswith("Cura") else MARLIN
 
 

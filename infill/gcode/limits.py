@@ -17,7 +17,9 @@ JERKS: Final = ("jerk", "vector-jerk")
 MODELS: Final[tuple[str, ...]] = get_args(Model)
 Axes = tuple[float, float, float, float]
 INFINITE: Final = float("inf")
-LIMITING_CODES: Final = frozenset({"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT"})
+LIMITING_CODES: Final = frozenset(
+    {"M201", "M203", "M204", "M205", "M566", "SET_VELOCITY_LIMIT", "RESET_VELOCITY_LIMIT"}
+)
 _MAY_BE_ZERO: Final = {
     "jerk",
     "minimum_feedrate",
@@ -26,7 +28,9 @@ _MAY_BE_ZERO: Final = {
     "minimum_cruise_ratio",
 }
 _ZERO_WORDS: Final = {"SQUARE_CORNER_VELOCITY", "MINIMUM_CRUISE_RATIO"}
-_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*([-+]?(?:\d+\.?\d*|\.\d+))", re.IGNORECASE)
+_PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*[\"']?\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?)", re.IGNORECASE)
+_CODE: Final = re.compile(rb"\s*(?:[Nn]\d+\s*)?[A-Za-z]\d+(?:\.\d+)?")
+_REMARK: Final = re.compile(rb"\([^()]*\)|[;*].*", re.DOTALL)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,7 +96,7 @@ class Limits:
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
-def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0) -> Limits:
+def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0, firmware: str = "") -> Limits:
     """Return the limits after a line of G-code; the same ones if it sets none.
 
     Parameters
@@ -104,11 +108,18 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
         The whole line.
     feedrate_unit : float
         What a number of M203 is in mm/s: RepRapFirmware counts in mm/min.
+    firmware : str
+        "repetier", whose M203 to M205 are no limits, or "smoothie", whose M205 X is the junction deviation; "" else.
 
     >>> commanded(Limits(), "M204", b"M204 P900 T1500").acceleration
     900.0
     """
+    if firmware == "repetier" and code in ("M203", "M204", "M205"):
+        return limits
     match code:
+        case "M205" if firmware == "smoothie":
+            value = _words(line).get("X", 0.0)
+            return replace(limits, junction_deviation=value) if value > 0 else limits
         case "M201":
             return replace(limits, axis_acceleration=_axes(limits.axis_acceleration, _words(line), 1.0))
         case "M203":
@@ -126,9 +137,10 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
 
 
 def _words(line: bytes) -> dict[str, float]:
-    """Return the numbers of a command by letter, without its own and without what is not above 0."""
-    code = line.split(b";", 1)[0].split(None, 1)
-    found = re.findall(rb"([A-Za-z])\s*([-+]?(?:\d+\.?\d*|\.\d+))", code[1] if len(code) > 1 else b"")
+    """Return the numbers of a command by letter, without its own."""
+    text = _REMARK.sub(b"", line)
+    code = _CODE.match(text)
+    found = re.findall(rb"([A-Za-z])\s*([-+]?(?:\d+\.?\d*|\.\d+))", text[code.end() :] if code else b"")
     return {letter.decode().upper(): float(number) for letter, number in found}
 
 

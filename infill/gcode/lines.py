@@ -9,11 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.numbers import MOST_DIGITS, SEMICOLON, SPACE, TAB, read_numbers
+from infill.gcode.numbers import MINUS, MOST_DIGITS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
+from infill.gcode.unusual_moves import read_move
 
 Floats = NDArray[np.float64]
 
-# What a line is. Only MOVE and ARC are ever drawn; ODD is a line that could not be read for certain.
+# What a line is. Only MOVE and ARC are ever drawn; ODD is a line that is spelled in an unusual way: if it can be read, it
+# has values like the others, but its text holds more than they tell; if not, it is `unread`.
 OTHER, MOVE, ARC, COMMENT, BLANK, ODD = range(6)
 WORDS = "XYZEFIJ"
 _LETTERS = np.full(256, -1, dtype=np.int8)
@@ -23,8 +25,14 @@ _LETTER, _END = 1, 2  # what begins a word, and what ends the words of a line: a
 _SORTS = bytes(
     _END if byte in b";(*" else _LETTER if byte | 0x20 >= ord("a") or byte in b'=":' else 0 for byte in range(256)
 )
-_COMMAND = re.compile(rb"\s*(?:[Nn]\d+\s*)?([A-Za-z])(\d{1,6}(?:\.\d{1,3})?)")
-_WORD = re.compile(rb"([A-Za-z])([-+]?(?:\d+\.?\d*|\.\d+))?")
+_LINE_NUMBER = re.compile(rb"\s*(?:[Nn]\d+(?![\d.])\s*)?")
+_COMMAND = re.compile(rb"([A-Za-z])(\d{1,6}(?:\.\d{1,3})?)")
+_MOVE = re.compile(rb"\s*(?:[Nn]\d+\s*)?[Gg]\s*0*[0-3](?![\d.])")
+LONGEST_MOVE = 4096  # bytes of a line that is read one at a time
+_REMARKS = re.compile(rb"\s*(?:\([^()]*\)\s*)*(?:\*\s*\d+\s*)?")
+_WORD = re.compile(rb"([A-Za-z])[ \t]*([-+]?(?:\d+\.?\d*|\.\d+))?")
+_NAME = re.compile(rb"\bNAME\s*=\s*\"?([^\s\";]+)", re.IGNORECASE)
+_BRACKETS = re.compile(rb"\([^()]*\)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,14 +44,17 @@ class Command:
     line : int
         Its number in the table.
     code : str
-        Such as "M204" or "T0"; for a line that does not begin with one, its first word.
+        Such as "M204" or "T0"; for a line that does not begin with one, its first word in capitals.
     words : dict
         The numbers by letter, None where a letter has no number; read only for codes that take such words.
+    name : str
+        What Klipper's commands that save and restore a state call it.
     """
 
     line: int
     code: str
     words: dict[str, float | None]
+    name: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,6 +77,10 @@ class Lines:
         Which of these words the line has.
     commands : tuple of Command
         The lines that are OTHER or ODD.
+    unread : (N,) bool
+        Moves and arcs that could not be read.
+    further : dict of int to dict of str to float
+        By line, the words K, R, P, A and B of those ODD lines that have one.
     """
 
     start: NDArray[np.int64]
@@ -75,6 +90,8 @@ class Lines:
     values: Floats
     given: NDArray[np.bool_]
     commands: tuple[Command, ...]
+    unread: NDArray[np.bool_]
+    further: dict[int, dict[str, float]]
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -99,8 +116,19 @@ def lines_of(data: bytes) -> Lines:
     start = start[: lines + 1]
     kind, code, begin, numbered = _kinds(text, start)
     values, given = _values(text, start, kind, begin)
+    unread, further = _unusual(data, start, kind, code, values, given)
     commands = tuple(_commands(data, start, kind))
-    return Lines(start=start, kind=kind, code=code, numbered=numbered, values=values, given=given, commands=commands)
+    return Lines(
+        start=start,
+        kind=kind,
+        code=code,
+        numbered=numbered,
+        values=values,
+        given=given,
+        commands=commands,
+        unread=unread,
+        further=further,
+    )
 
 
 def _kinds(
@@ -162,10 +190,14 @@ def _values(
         return values, np.zeros(values.shape, dtype=bool)
     what = np.frombuffer(text.tobytes().translate(_SORTS), dtype=np.uint8)  # much quicker than an array of places
     marks = np.flatnonzero(what == _END)
-    ends = start[1:].copy()  # of the words: where a comment or a checksum begins
+    ends, stops = (
+        start[1:].copy(),
+        start[1:].copy(),
+    )  # of the words: where a comment or a checksum begins; a comment alone
     if len(marks):
-        of, earliest = np.unique(np.searchsorted(start, marks, side="right") - 1, return_index=True)
-        ends[of] = marks[earliest]
+        for until, some in ((ends, marks), (stops, marks[text[marks] == SEMICOLON])):
+            of, earliest = np.unique(np.searchsorted(start, some, side="right") - 1, return_index=True)
+            until[of] = some[earliest]
     begin = np.minimum(begin, ends)
     # Words begin at a letter; everything in between is digits, signs, points and spaces, or the line is odd.
     other = np.flatnonzero(what == _LETTER)
@@ -173,13 +205,21 @@ def _values(
     some = moving[of]
     place, line = other[: len(of)][some], of[some]
     inside = (place >= begin[line]) & (place < ends[line])
+    strange = np.zeros(lines, dtype=bool)
+    for behind in np.unique(line[(place >= ends[line]) & (place < stops[line])]).tolist():
+        strange[behind] = not _REMARKS.fullmatch(text[ends[behind] : stops[behind]].tobytes())
     place, line = place[inside], line[inside]
     word = _LETTERS[text[place]]
     after = place + 1
     spaced = text[np.minimum(after, len(text) - 1)] == SPACE
     number, good = read_numbers(text, after + spaced)
     known = word >= 0
-    strange = np.zeros(lines, dtype=bool)
+    # An E behind a digit is a word, as Marlin and Klipper take it, unless it looks like an exponent.
+    exponent = np.flatnonzero(word == WORDS.index("E"))
+    front, back = text[place[exponent] - 1], text[after[exponent]]
+    digit = _is_digit(front) | (front == POINT)
+    doubtful = digit & ((text[place[exponent]] == ord("e")) | (back == MINUS) | (back == PLUS))
+    strange[line[exponent[doubtful]]] = True
     strange[line[~known | ~good]] = True
     flat = line[known] * len(WORDS) + word[known]
     values.ravel()[flat] = number[known]
@@ -195,22 +235,63 @@ def _values(
     return values, given
 
 
+def _unusual(
+    data: bytes,
+    start: NDArray[np.int64],
+    kind: NDArray[np.uint8],
+    code: NDArray[np.int8],
+    values: Floats,
+    given: NDArray[np.bool_],
+) -> tuple[NDArray[np.bool_], dict[int, dict[str, float]]]:
+    """Read ODD lines one by one into `code`, `values` and `given`; return the moves among them that cannot be read.
+
+    Returns
+    -------
+    unread : (N,) bool
+    further : dict of int to dict of str to float
+    """
+    unread = np.zeros(len(kind), dtype=bool)
+    further: dict[int, dict[str, float]] = {}
+    lacking = (kind == ARC) & ~(given[:, WORDS.index("I")] | given[:, WORDS.index("J")])
+    kind[lacking] = ODD
+    values[lacking], given[lacking] = np.nan, False
+    for line in np.flatnonzero(kind == ODD).tolist():
+        text = data[start[line] : start[line + 1]]
+        found = read_move(text) if len(text) <= LONGEST_MOVE else None
+        if found is None:
+            unread[line] = _MOVE.match(text) is not None
+            continue
+        code[line], words = found
+        for letter, value in words.items():
+            if letter in WORDS:
+                values[line, WORDS.index(letter)] = value
+                given[line, WORDS.index(letter)] = True
+            else:
+                further.setdefault(line, {})[letter] = value
+    return unread, further
+
+
 def _commands(data: bytes, start: NDArray[np.int64], kind: NDArray[np.uint8]) -> Iterator[Command]:
     for line in np.flatnonzero((kind == OTHER) | (kind == ODD)).tolist():
         text = data[start[line] : min(start[line + 1], start[line] + 4096)]
-        found = _COMMAND.match(text)
+        number = _LINE_NUMBER.match(text)
+        place = number.end() if number else 0
+        found = _COMMAND.match(text, place)
         if found is None:
-            word = text.split(None, 1)
-            yield Command(line=line, code=word[0].decode("latin-1") if word else "", words={})
+            word = text[place:].split(None, 1)
+            code = word[0].decode("latin-1").upper() if word else ""
+            label = _NAME.search(word[1]) if code.endswith("_GCODE_STATE") and len(word) > 1 else None
+            yield Command(line=line, code=code, words={}, name=label[1].decode("latin-1") if label else "")
             continue
-        letter, number = found[1].decode().upper(), found[2].decode()
-        code = letter + (number if "." in number else str(int(number)))
+        letter, digits = found[1].decode().upper(), found[2].decode()
+        code = letter + (digits if "." in digits else str(int(digits)))
         words = {} if letter == "T" else _numbers(text[found.end() :].split(b";", 1)[0])
         yield Command(line=line, code=code, words=words)
 
 
 def _numbers(text: bytes) -> dict[str, float | None]:
     """Return the numbers of a command by letter."""
+    text = _BRACKETS.sub(b" ", text) if b"(" in text else text
     return {
         found[1].decode().upper(): float(found[2]) if found[2] and len(found[2]) <= MOST_DIGITS else None
         for found in _WORD.finditer(text)

@@ -156,7 +156,7 @@ def _place(bit: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 _ENDS = np.zeros(256, dtype=bool)
 _ENDS[[SPACE, TAB, NEWLINE, RETURN, SEMICOLON, OPENING, STAR]] = True
-_ENDS[list(b"ABCDFGHIJKLMNOPQRSTUVWXYZabcdfghijklmnopqrstuvwxyz")] = True  # no E: 1E5 is no number here
+_ENDS[list(b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")] = True  # E too: numbers have no exponents here
 
 
 def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Rows:

@@ -355,7 +355,7 @@ def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
     with np.errstate(invalid="ignore"):
         drawn = (table.kind == MOVE) & (table.extruded > 0) & (length > 0) & np.isfinite(length)
     drawn &= (table.z == z0) | ~table.given[:, 2]
-    drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~_strange(table)
+    drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~table.unsure & ~_strange(table)
     passive = ((table.kind == COMMENT) & ~marks.tagged) | (table.kind == BLANK)
     for command in table.commands:
         passive[command.line] |= command.code in TALK

@@ -203,6 +203,10 @@ def _alike(one: object, other: object) -> bool:
         second = vars(other)[name]
         if name == "e" and vars(one)["relative_e"]:
             continue
+        if isinstance(value, str | tuple):
+            if value != second:
+                return False
+            continue
         if value != second and not (math.isnan(value) and math.isnan(second)) and abs(value - second) > 1e-4:
             return False
     return True

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 from infill.errors import FormatError
+from infill.gcode.found_limits import filament_of
 from infill.gcode.stream import LAYER_TAG, LONGEST_LINE
 from infill.gcode.table import State, read
 
@@ -89,7 +90,7 @@ class Survey:
         return None
 
 
-def survey(file: BinaryIO, *, more: bool = False) -> Survey:
+def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | None = None) -> Survey:
     """Look at a print; the file is left at its beginning.
 
     Parameters
@@ -97,6 +98,8 @@ def survey(file: BinaryIO, *, more: bool = False) -> Survey:
     file : binary file
     more : bool
         Look at more places: where layers differ, a few do not tell how much infill there is.
+    settings : mapping, optional
+        What the slicer tells outside the text.
 
     Raises
     ------
@@ -109,14 +112,16 @@ def survey(file: BinaryIO, *, more: bool = False) -> Survey:
     _check(head, size)
     file.seek(max(0, size - TAIL))
     tail = file.read(TAIL)
-    settings = {
+    told = {
         name.decode(): value.decode("utf-8", "replace").strip()
         for text in (head, tail if size > HEAD else b"")
         for name, value in _SETTING.findall(text)
     }
     slicer = _SLICER.search(head[:8192])
     first = LAYER_TAG.search(head)
-    before = read(head[: first.start()] if first else head[: head.rfind(b"\n") + 1], State()).after
+    volumetric, diameters = filament_of(head, {**told, **(settings or {})})
+    unmoved = State(volumetric=volumetric, diameters=diameters)
+    before = read(head[: first.start()] if first else head[: head.rfind(b"\n") + 1], unmoved).after
     begin = State(
         relative=before.relative,
         relative_e=before.relative_e,
@@ -124,6 +129,8 @@ def survey(file: BinaryIO, *, more: bool = False) -> Survey:
         tool=before.tool,
         retracted=before.retracted,
         f=before.f,
+        volumetric=before.volumetric,
+        diameters=before.diameters,
     )
     windows = ALL_WINDOWS if size <= SMALL else MORE_WINDOWS if more else WINDOWS
     found = tuple(text for text in (_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
@@ -131,7 +138,7 @@ def survey(file: BinaryIO, *, more: bool = False) -> Survey:
     return Survey(
         size=size,
         slicer=slicer[1].decode("latin-1").strip() if slicer else "",
-        settings=settings,
+        settings={**told, **(settings or {})},
         begin=begin,
         stamped=STAMP in head,
         resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in found),

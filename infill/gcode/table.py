@@ -1,23 +1,29 @@
 """Lines of G-code as arrays: where the machine stands after each of them.
 
 Moves are followed many at a time with NumPy; the rare lines that change how moves are meant (G90, M82, G92 …) are taken
-one by one, and cut the batch into stretches in which nothing changes. Units and offsets are those of the file: a
-position is what the words say, as the machine is told.
+one by one, and cut the batch into stretches in which nothing changes. Offsets are those of the file: a position is what
+the words say, as the machine is told, in mm. E is what the file counts it in: mm of filament, or mm³.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.lines import Command, Lines, lines_of
+from infill.gcode.lines import WORDS, Command, Lines, lines_of
+from infill.gcode.unusual_moves import EXTRUDERS
 
 Floats = NDArray[np.float64]
 NAN = float("nan")
 AXES = "XYZ"
+INCH = 25.4  # mm
+DIAMETER = 1.75  # mm of filament, where the file does not say
+THICKEST, MOST_TOOLS, MOST_SAVED = 20.0, 64, 16  # mm; more is a mistake of the file
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,9 +33,9 @@ class State:
     Parameters
     ----------
     x, y, z : float
-        mm (or inches, see `inches`), NaN while unknown.
+        mm, NaN while unknown.
     e : float
-        What the extruder's counter shows, mm of filament.
+        What the extruder's counter shows, mm of filament, or mm³.
     f : float
         Feed rate in force, mm/min; NaN before the first.
     retracted : float
@@ -41,6 +47,20 @@ class State:
     inches : bool
         G20.
     tool : int
+    plane : int
+        Of arcs: 17, 18 or 19.
+    volumetric : bool
+        E counts mm³, not mm.
+    diameters : tuple of float
+        mm of filament by tool; further tools have the last one.
+    letters : str
+        Which words push filament: "E", "AB" as in MakerBot's files, or "" as long as the file has had neither.
+    counters : tuple of float
+        What A and B show.
+    lost : str
+        The axes, of x and y, in which the file has not said where the nozzle is since a line that could not be read.
+    saved : tuple of (name, relative, relative_e)
+        What SAVE_GCODE_STATE, or M120, has put aside.
     """
 
     x: float = NAN
@@ -54,6 +74,23 @@ class State:
     relative_e: bool = False
     inches: bool = False
     tool: int = 0
+    plane: int = 17
+    volumetric: bool = False
+    diameters: tuple[float, ...] = (DIAMETER,)
+    letters: str = ""
+    counters: tuple[float, float] = (0.0, 0.0)
+    lost: str = ""
+    saved: tuple[tuple[str, bool, bool], ...] = ()
+
+    @property
+    def diameter(self) -> float:
+        """Of the filament in use, mm."""
+        return self.diameters[min(self.tool, len(self.diameters) - 1)]
+
+    @property
+    def section(self) -> float:
+        """Of the filament in use, mm²."""
+        return math.pi / 4 * self.diameter**2
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,11 +122,23 @@ class Table:
     i, j : (N,) float64
         Centre of an arc relative to its start; NaN if not given.
     commands : tuple of Command
-        The lines that are OTHER.
+        The lines that are OTHER or ODD.
     before, after : State
         At the beginning and at the end.
     relative_e : (N,) bool
         Whether E is relative on the line.
+    plane : (N,) uint8
+        17, 18 or 19.
+    section : (N,) float64
+        Of the filament in use, mm².
+    volumetric : (N,) bool
+        Whether E counts mm³.
+    unread : (N,) bool
+        Moves and arcs that could not be read.
+    unsure : (N,) bool
+        Lines before which x or y is not known since such a move.
+    further : dict of int to dict of str to float
+        By line, the words K, R and P of unusual arcs.
     """
 
     data: bytes
@@ -107,6 +156,12 @@ class Table:
     i: Floats
     j: Floats
     relative_e: NDArray[np.bool_]
+    plane: NDArray[np.uint8]
+    section: Floats
+    volumetric: NDArray[np.bool_]
+    unread: NDArray[np.bool_]
+    unsure: NDArray[np.bool_]
+    further: dict[int, dict[str, float]]
     commands: tuple[Command, ...]
     before: State
     after: State
@@ -120,6 +175,13 @@ class Table:
         given = self.given
         something: NDArray[np.bool_] = given[:, 0] | given[:, 1] | given[:, 2] | given[:, 3]
         return something
+
+    @property
+    def filament(self) -> Floats:
+        """Return the mm of filament that each line pushes, (N,), also where E counts mm³."""
+        if not self.volumetric.any():
+            return self.extruded
+        return np.where(self.volumetric, self.extruded / self.section, self.extruded)
 
     def text(self, first: int, last: int) -> bytes:
         """Return lines `first` to `last` (exclusive) as they stand in the file."""
@@ -150,25 +212,36 @@ def read(data: bytes, state: State) -> Table:
 
 def _replayed(data: bytes, lines: Lines, before: State) -> Table:
     """Follow the moves from `before`, stretch by stretch between commands that change how they are meant."""
-    values, commands, count = lines.values, lines.commands, len(lines)
+    before_lettered, commands, lines = _lettered(lines, before)
+    values, given, further, count = lines.values, lines.given, lines.further, len(lines)
+    if before.inches or any(command.code == "G20" for command in commands):
+        values, further = _in_millimetres(lines, before)
     where = {name: np.empty(count) for name in ("x", "y", "z", "e")}
     extruded = np.zeros(count)
     relative_e = np.zeros(count, dtype=bool)
+    volumetric = np.zeros(count, dtype=bool)
+    plane = np.empty(count, dtype=np.uint8)
+    section = np.empty(count)
     feed = _held(values[:, 4], before.f)
-    state, first = before, 0
+    state, first = before_lettered, 0
     for command in (*commands, None):
         if command is not None and not _changes_moves(command):
             continue
         last = count if command is None else command.line
         state = _stretch(slice(first, last), values, where, extruded, state)
-        relative_e[first:last] = state.relative_e or state.relative
+        until = last
         if command is not None:
-            state = _changed(state, command)
+            after = _changed(state, command)
             for name in where:
-                where[name][last] = getattr(state, name)
-            relative_e[last] = state.relative_e or state.relative
-            first = last + 1
-    after = replace(state, f=float(feed[-1]) if count else before.f)
+                where[name][last] = getattr(after, name)
+            relative_e[last] = after.relative_e or after.relative
+            until = last + 1
+        relative_e[first:last] = state.relative_e or state.relative
+        volumetric[first:until], plane[first:until], section[first:until] = state.volumetric, state.plane, state.section
+        if command is not None:
+            state, first = after, last + 1
+    unsure, lost = _unsure(lines, before.lost)
+    after = replace(state, f=float(feed[-1]) if count else before.f, lost=lost)
     after = replace(after, **_retraction(before, extruded, commands))
     return Table(
         data=data,
@@ -179,14 +252,93 @@ def _replayed(data: bytes, lines: Lines, before: State) -> Table:
         **where,
         f=feed,
         extruded=extruded,
-        given=lines.given,
+        given=given,
         i=values[:, 5],
         j=values[:, 6],
         relative_e=relative_e,
+        plane=plane,
+        section=section,
+        volumetric=volumetric,
+        unread=lines.unread,
+        unsure=unsure,
+        further=further,
         commands=commands,
         before=before,
         after=after,
     )
+
+
+def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], Lines]:
+    """Return what pushes filament, and the lines and commands with A and B put into E, where these are the extruders.
+
+    A file whose first word of either kind is an E has A and B as axes, which are left out.
+    """
+    by_letters = [line for line, words in lines.further.items() if not words.keys().isdisjoint(EXTRUDERS)]
+    letters = state.letters
+    if not letters:
+        letters = "E" if lines.given[:, WORDS.index("E")].any() else EXTRUDERS if by_letters else ""
+        state = replace(state, letters=letters)
+    if letters != EXTRUDERS:
+        return state, lines.commands, lines
+    values, given = lines.values.copy(), lines.given.copy()
+    counters = dict(zip(EXTRUDERS, state.counters, strict=True))
+    relative, relative_e = state.relative, state.relative_e
+    column = WORDS.index("E")
+    changed = list(lines.commands)
+    for number, command in enumerate(lines.commands):
+        match command.code:
+            case "G90" | "G91":
+                relative = command.code == "G91"
+            case "M82" | "M83":
+                relative_e = command.code == "M83"
+            case "G92":
+                words = {**dict.fromkeys("XYZAB", 0.0), **command.words} if not command.words else command.words
+                counters |= {letter: words[letter] or 0.0 for letter in EXTRUDERS if letter in words}
+                if not command.words.keys().isdisjoint(EXTRUDERS):
+                    changed[number] = replace(command, words={**words, "E": sum(counters.values())})
+        words = lines.further.get(command.line, {})
+        pushed = {letter: words[letter] for letter in EXTRUDERS if letter in words}
+        if pushed:
+            step = relative or relative_e
+            counters |= {letter: value + (counters[letter] if step else 0.0) for letter, value in pushed.items()}
+            values[command.line, column] = sum(pushed.values()) if step else sum(counters.values())
+            given[command.line, column] = True
+    done = replace(lines, values=values, given=given)
+    return replace(state, counters=(counters["A"], counters["B"])), tuple(changed), done
+
+
+def _in_millimetres(lines: Lines, before: State) -> tuple[Floats, dict[int, dict[str, float]]]:
+    """Return the words of lines in mm, where some are in inches."""
+    inches = np.zeros(len(lines), dtype=bool)
+    since, on = 0, before.inches
+    for command in lines.commands:
+        if command.code in ("G20", "G21"):
+            inches[since : command.line] = on
+            since, on = command.line, command.code == "G20"
+    inches[since:] = on
+    further = {
+        line: {name: value * (INCH if inches[line] and name != "P" else 1.0) for name, value in words.items()}
+        for line, words in lines.further.items()
+    }
+    return np.where(inches[:, None], lines.values * INCH, lines.values), further
+
+
+def _unsure(lines: Lines, lost: str) -> tuple[NDArray[np.bool_], str]:
+    """Return the lines before which x or y is not known since a move that cannot be read, and the last `State.lost`."""
+    count = len(lines)
+    unsure = np.zeros(count, dtype=bool)
+    unread = np.flatnonzero(lines.unread) + 1
+    if not lost and not len(unread):
+        return unsure, ""
+    still = ""
+    for axis, name in enumerate("XY"):
+        begins = np.insert(unread, 0, 0) if name in lost else unread
+        said = np.append(np.flatnonzero(lines.given[:, axis]), count)
+        ends = said[np.searchsorted(said, np.minimum(begins, count))]
+        steps = np.bincount(begins, minlength=count + 2) - np.bincount(ends + 1, minlength=count + 2)
+        unsure |= np.cumsum(steps)[:count] > 0
+        still += name if (ends == count).any() else ""
+    return unsure, still
 
 
 def _stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: Floats, state: State) -> State:
@@ -223,7 +375,8 @@ def _held(values: Floats, before: float) -> Floats:
     return np.where(at < 0, before, values[np.maximum(at, 0)])
 
 
-_MODES = {"G20", "G21", "G28", "G90", "G91", "G92", "M82", "M83"}
+_MODES = {"G17", "G18", "G19", "G20", "G21", "G28", "G90", "G91", "G92", "M82", "M83", "M120", "M121", "M200"}
+_MODES |= {"SAVE_GCODE_STATE", "RESTORE_GCODE_STATE"}
 
 
 def _changes_moves(command: Command) -> bool:
@@ -239,9 +392,19 @@ def _changed(state: State, command: Command) -> State:
             return replace(state, relative=command.code == "G91")
         case "M82" | "M83":
             return replace(state, relative_e=command.code == "M83")
+        case "G17" | "G18" | "G19":
+            return replace(state, plane=int(command.code[1:]))
+        case "M200":
+            return filament_counted(state, command.words)
+        case "SAVE_GCODE_STATE" | "M120":
+            kept = tuple(each for each in state.saved if each[0] != command.name or command.code == "M120")
+            return replace(state, saved=(*kept[-MOST_SAVED:], (command.name, state.relative, state.relative_e)))
+        case "RESTORE_GCODE_STATE" | "M121":
+            return _restored(state, command.name, once=command.code == "M121")
         case "G92":
             named = [letter for letter in "XYZE" if letter in command.words] or list("XYZE")  # without a word, all
-            reset: dict[str, Any] = {letter.lower(): command.words.get(letter) or 0.0 for letter in named}
+            unit = INCH if state.inches else 1.0
+            reset: dict[str, Any] = {letter.lower(): (command.words.get(letter) or 0.0) * unit for letter in named}
             return replace(state, **reset)
         case "G28":
             homed = [letter for letter in AXES if letter in command.words] or list(AXES)
@@ -253,12 +416,54 @@ def _changed(state: State, command: Command) -> State:
             return state
 
 
+def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
+    """Return the state after M200: D, the diameter of the filament of tool T, 0 for E in mm; S, whether E is in mm³.
+
+    Limits alone (L) change nothing.
+    """
+    volumetric, diameters = state.volumetric, state.diameters
+    diameter = words.get("D")
+    if diameter is not None:
+        volumetric = diameter > 0
+        if 0 < diameter < THICKEST:
+            tool = int(words.get("T") or 0) if "T" in words else None
+            if tool is None:
+                diameters = (diameter,)
+            elif 0 <= tool < MOST_TOOLS:
+                several = [diameters[min(each, len(diameters) - 1)] for each in range(max(tool + 2, len(diameters)))]
+                several[tool] = diameter
+                diameters = tuple(several)
+    if "S" in words:
+        volumetric = bool(words["S"])
+    return replace(state, volumetric=volumetric, diameters=diameters)
+
+
+def _restored(state: State, name: str, *, once: bool) -> State:
+    """Return the state with the modes that were put aside under a name, if any were."""
+    for place in reversed(range(len(state.saved))):
+        if state.saved[place][0] == name:
+            _, relative, relative_e = state.saved[place]
+            saved = state.saved[:place] if once else state.saved
+            return replace(state, relative=relative, relative_e=relative_e, saved=saved)
+    return state
+
+
+def firmware_retraction(command: Command) -> bool | None:
+    """Return whether a command retracts (G10) or primes (G11) by firmware; None for all others.
+
+    With S, P or L, G10 sets a temperature or an origin.
+    """
+    if command.code not in ("G10", "G11") or not {"S", "P", "L"}.isdisjoint(command.words):
+        return None
+    return command.code == "G10"
+
+
 def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, Any]:
     """Return how far the filament is drawn back at the end, and whether by firmware."""
     total = np.cumsum(np.append(-before.retracted, extruded))
     retracted = round(float(max(0.0, total.max()) - total[-1]), 9)
     firmware = before.firmware_retracted
     for command in commands:
-        if command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words):
-            firmware = command.code == "G10"
+        back = firmware_retraction(command)
+        firmware = firmware if back is None else back
     return {"retracted": retracted, "firmware_retracted": firmware}

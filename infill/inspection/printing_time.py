@@ -8,14 +8,14 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
-from infill.errors import UsageError
+from infill.errors import FormatError, UsageError
 from infill.gcode.dialect import role_of
 from infill.gcode.found_limits import USED, FoundLimits
 from infill.gcode.limits import Limits, Model
 from infill.gcode.timeline import Timeline
-from infill.inspection.sliced_file import SlicedFile, opened
+from infill.inspection.sliced_file import SlicedFile, SlicedText, opened
 from infill.inspection.strokes import Strokes
 
 
@@ -86,6 +86,16 @@ class Motion:
         Which plate of an archive it is; None for any other file.
     plates : tuple of int
         Those that the archive has.
+    unread_lines, first_unread_line : int
+        Lines that may move or extrude but are not understood, which are left out; and the number of the first, from 1.
+    first_unread_text : str
+        What stands on it.
+    macros : tuple of str
+        Commands that only the printer knows and that may move, such as PRINT_START; they are left out too.
+    volumetric : bool
+        E counts mm³ at the end of the file.
+    filament_diameter : float
+        mm
     """
 
     seconds: float
@@ -101,6 +111,12 @@ class Motion:
     sources: dict[str, str]
     plate: int | None = None
     plates: tuple[int, ...] = ()
+    unread_lines: int = 0
+    first_unread_line: int = 0
+    first_unread_text: str = ""
+    macros: tuple[str, ...] = ()
+    volumetric: bool = False
+    filament_diameter: float = 1.75
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain numbers and strings: what ``--json`` prints."""
@@ -173,10 +189,11 @@ def motion(
         with timeline_of(file, plate, fixed) as timeline:
             for steps, plan in timeline:
                 strokes.add(steps, plan)
-    strokes.finish(timeline.pause)
+    strokes.finish(timeline.pause, timeline.retractions)
+    if timeline.trouble and not strokes.total("length").any():
+        raise FormatError(f"{Path(path)}: {timeline.trouble}")
     found = timeline.found
-    area = math.pi / 4 * found.filament_diameter**2
-    features = [_feature(number, name, strokes, area) for number, name in enumerate(timeline.features)]
+    features = [_feature(number, name, strokes) for number, name in enumerate(timeline.features)]
     return Motion(
         seconds=float(strokes.total("seconds").sum()),
         estimate=found.estimate,
@@ -191,6 +208,12 @@ def motion(
         sources=dict(found.sources),
         plate=plate,
         plates=file.plates,
+        unread_lines=timeline.unread.lines,
+        first_unread_line=timeline.unread.first,
+        first_unread_text=timeline.unread.text,
+        macros=tuple(timeline.macros),
+        volumetric=timeline.state.volumetric,
+        filament_diameter=timeline.state.diameter,
     )
 
 
@@ -207,10 +230,30 @@ def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -
         As `given_limits` returns it.
     """
     with file.text(plate) as given:
-        told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
-        timeline = Timeline(given.text, fixed, {**given.settings, **told})
-        timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
-        yield timeline
+        yield timeline_of_text(given, fixed=fixed)
+
+
+def timeline_of_text(
+    given: SlicedText,
+    text: BinaryIO | None = None,
+    fixed: Mapping[str, Any] | None = None,
+    found: FoundLimits | None = None,
+) -> Timeline:
+    """Return the moves of a print, or of another text in its place, with what its file tells outside the text.
+
+    Parameters
+    ----------
+    given : SlicedText
+    text : binary file, optional
+    fixed : mapping, optional
+        As `given_limits` returns it.
+    found : FoundLimits, optional
+        What the file tells, if it is known.
+    """
+    told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
+    timeline = Timeline(text or given.text, fixed, {**given.settings, **told}, found)
+    timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
+    return timeline
 
 
 def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
@@ -236,7 +279,7 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     return fixed
 
 
-def _feature(number: int, name: bytes, strokes: Strokes, area: float) -> FeatureMotion:
+def _feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
     row = {
         each: float(strokes.total(each)[number]) if number < len(strokes.sums) else 0.0
         for each in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")
@@ -257,7 +300,7 @@ def _feature(number: int, name: bytes, strokes: Strokes, area: float) -> Feature
         turning=math.degrees(row["turning"]) / row["length"] if row["length"] else 0.0,
         median_segment=strokes.median_length(number) if counts["segments"] else None,
         short_segments=row["short"] / counts["segments"] if counts["segments"] else None,
-        peak_flow=float(strokes.flow[number]) * area if number < len(strokes.flow) else 0.0,
+        peak_flow=float(strokes.flow[number]) if number < len(strokes.flow) else 0.0,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,13 +37,19 @@ SUMS: Final = (
 class Strokes:
     """Sums over the moves seen so far, one row a feature.
 
+    Parameters
+    ----------
+    times_only : bool
+        Sum up seconds, travel and retractions, and nothing of the shape of paths.
+
     A move that draws pushes filament on its way. What lies before it, travel, retraction and pause, counts for its
     feature: it is what leads there. A path is a run of moves that draw for one feature.
     """
 
+    times_only: bool = False
     sums: Floats = field(default_factory=lambda: np.zeros((1, len(SUMS))))
     lengths: NDArray[np.int64] = field(default_factory=lambda: np.zeros((1, BINS), dtype=np.int64))
-    flow: Floats = field(default_factory=lambda: np.zeros(1))  # mm of filament per s, at most
+    flow: Floats = field(default_factory=lambda: np.zeros(1))  # mm³/s, at most
     # What waits for the next move that draws: seconds, travel, retractions.
     leading: Floats = field(default_factory=lambda: np.zeros(3))
     last: Floats = field(default_factory=lambda: np.zeros(5))  # direction, feature, whether it drew
@@ -62,7 +68,13 @@ class Strokes:
         begins_back = back & ~np.concatenate([[self.drew_back], back[:-1]])
         self.drew_back = bool(back[-1])
         seconds = plan.seconds + steps.pause
-        self._lead(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), begins_back)
+        retracts = begins_back + steps.retractions
+        self._lead(draws, feature, seconds, np.where(pushed > 0, 0.0, distance), retracts)
+        if self.times_only:
+            for name, values in (("seconds", seconds), ("retractions", steps.retractions)):
+                self._sum(name, feature[draws], values[draws])
+            self.last[3] = feature[-1]
+            return
         along, length, pushed, at = delta[draws, :3], distance[draws], pushed[draws], feature[draws]
         joined = self._joined(draws, feature)
         direction = along / length[:, None]
@@ -76,22 +88,23 @@ class Strokes:
             "segments": np.ones(len(at)),
             "short": length < SHORT,
             "paths": ~joined,
+            "retractions": steps.retractions[draws],
             "turns": turn > SHARP,
             "turning": turn,
         }
         for name, values in columns.items():
-            self.sums[:, SUMS.index(name)] += np.bincount(at, weights=values, minlength=len(self.sums))
+            self._sum(name, at, values)
         place = np.clip((np.log10(length) - LOWEST) * DECADE, 0, BINS - 1).astype(np.intp)
         self.lengths += np.bincount(at * BINS + place, minlength=self.lengths.size).reshape(self.lengths.shape)
         certain = length >= SHORT
-        np.maximum.at(self.flow, at[certain], (pushed / length * plan.peak[draws])[certain])
+        np.maximum.at(self.flow, at[certain], (pushed * steps.section[draws] / length * plan.peak[draws])[certain])
         if len(at):
             self.last[:3] = direction[-1]
         self.last[3:] = feature[-1], draws[-1]
 
-    def finish(self, pause: float) -> None:
-        """Count what led nowhere, and a last pause, for the feature in force at the end."""
-        self.leading[0] += pause
+    def finish(self, pause: float, retractions: int = 0) -> None:
+        """Count what led nowhere, and a last pause and retraction, for the feature in force at the end."""
+        self.leading += [pause, 0, retractions]
         self._count(np.array([int(self.last[3])]), self.leading[None])
         self.leading[:] = 0
 
@@ -120,7 +133,7 @@ class Strokes:
         feature: NDArray[np.intp],
         seconds: Floats,
         travel: Floats,
-        back: NDArray[np.bool_],
+        back: NDArray[np.intp],
     ) -> None:
         """Count moves that do not draw for the feature of the next one that does."""
         number = np.arange(len(draws))
@@ -136,7 +149,10 @@ class Strokes:
 
     def _count(self, feature: NDArray[np.intp], rows: Floats) -> None:
         for name, values in zip(("seconds", "travel", "retractions"), rows.T, strict=True):
-            self.sums[:, SUMS.index(name)] += np.bincount(feature, weights=values, minlength=len(self.sums))
+            self._sum(name, feature, values)
+
+    def _sum(self, name: str, feature: NDArray[np.intp], values: NDArray[Any]) -> None:
+        self.sums[:, SUMS.index(name)] += np.bincount(feature, weights=values, minlength=len(self.sums))
 
     def _joined(self, draws: NDArray[np.bool_], feature: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return, for the moves that draw, whether each goes on with the path of the move before it."""

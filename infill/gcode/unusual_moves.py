@@ -1,0 +1,254 @@
+"""Moves that are spelled in an unusual way, read one line at a time.
+
+`infill.gcode.lines` reads plain moves many at a time. What it is not sure of comes here: several blanks before a number,
+remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and B. A line
+that firmwares would take in different ways is not read at all, and callers count it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Final
+
+FARTHEST: Final = 1e7  # mm, or mm/min: a larger number is a mistake of the file
+# What RepRapFirmware, Marlin, Klipper and Sailfish let stand on a move without changing where it goes: an endstop (H),
+# a laser (S), pins (P, of straight moves), and axes beyond the third.
+IGNORED: Final = frozenset("HSUVWCD")
+FURTHER_AXES: Final = frozenset("UVWCDAB")
+EXTRUDERS: Final = "AB"  # of MakerBot and Sailfish
+_HEAD: Final = re.compile(rb"\s*(?:[Nn]\d+\s*)?[Gg]0*([0-3])(?![\d.])")
+_REMARK: Final = re.compile(rb"\([^()]*\)")
+_NUMBER: Final = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
+_WORD: Final = re.compile(rb"\s*([A-Za-z])\s*(%s(?::%s)*)?" % (_NUMBER, _NUMBER))
+# An exponent, or a word E? Firmwares do not agree.
+_EXPONENT: Final = re.compile(rb"[\d.](?:[eE][-+]0\d|[eE]\+\d)")
+_SMALL_EXPONENT: Final = re.compile(rb"[\d.]e")
+_CHECKSUM: Final = re.compile(rb"\*\s*\d+\s*$")
+
+# Codes that neither move the tool along a path nor change how the path is meant, or that the machine does on its own
+# without telling where: homing, levelling, dwelling, offsets of tools.
+STILL_CODES: Final = frozenset(
+    f"G{number}"
+    for number in (
+        4,
+        10,
+        11,
+        17,
+        18,
+        19,
+        20,
+        21,
+        28,
+        29,
+        29.1,
+        29.2,
+        30,
+        31,
+        32,
+        33,
+        34,
+        35,
+        38.2,
+        38.3,
+        38.4,
+        38.5,
+        39.1,
+        39.3,
+        39.4,
+        40,
+        49,
+        53,
+        54,
+        60,
+        61.1,
+        64,
+        80,
+        90,
+        90.1,
+        91,
+        91.1,
+        92,
+        92.1,
+        92.9,
+        94,
+        99,
+        130,
+        150.1,
+        150.2,
+        150.3,
+        161,
+        162,
+        180,
+        292,
+        380,
+        381,
+        382,
+        383,
+        392,
+        425,
+    )
+)
+# Their text may hold anything.
+_TEXTS: Final = frozenset(
+    f"M{number}"
+    for number in (
+        16,
+        20,
+        23,
+        28,
+        30,
+        32,
+        33,
+        36,
+        37,
+        38,
+        98,
+        117,
+        118,
+        118.1,
+        291,
+        300,
+        486,
+        550,
+        551,
+        552,
+        559,
+        560,
+        587,
+        588,
+        589,
+        701,
+        702,
+        862,
+        862.1,
+        862.2,
+        862.3,
+        862.5,
+        862.6,
+        928,
+        929,
+        1002,
+    )
+)
+_INNER_MOVE: Final = re.compile(rb"[\s\d][Gg]\s*0*[0-35](?![\d.])")
+_AXIS_FIRST: Final = re.compile(
+    rb"\s*(?:[Nn]\d+\s*)?(?:[XYZEAB]\s*[-+.\d\[{]|[Gg]\s+0*[0-35]\b|[XYZEAB]\d*=)", re.IGNORECASE
+)
+_MOVING_WORDS: Final = frozenset({"FORCE_MOVE", "MANUAL_STEPPER", "MANUAL_STEPPERS"})
+_MACRO: Final = re.compile(r"[A-Z_][A-Z_]{2,}[A-Z0-9_]*")
+# Klipper's own commands, and those of common plug-ins, that move nothing.
+_STILL_MACROS: Final = re.compile(
+    r"(?:SET|QUERY|EXCLUDE|BED_MESH|SAVE|RESTORE|RESET|TIMELAPSE|TEMPERATURE|SKEW|PRESSURE|INPUT|STATUS|DUMP|GET|BUZZ"
+    r"|TURN_OFF|ACTIVATE|SYNC|UPDATE|CLEAR|PID|RESPOND|HELP|FIRMWARE|ENDLESS|M\d|SDCARD|HOST|DISABLE|ENABLE"
+    r"|STOP_GCODE|START_GCODE|END_GCODE|SERVO|LED|PRINT_STATS|DEFINE|ECHO|VAR|GLOBAL|ABORT|BREAK)(?:_.*|$)|IF|ELIF|ELSE|WHILE"
+)
+
+
+def read_move(text: bytes) -> tuple[int, dict[str, float]] | None:
+    r"""Read one line as a move or an arc, or return None where it cannot be read for certain.
+
+    Parameters
+    ----------
+    text : bytes
+        One line.
+
+    Returns
+    -------
+    code : int
+        0 to 3 for G0 to G3.
+    words : dict of str to float
+        Of the letters X, Y, Z, E, F, I, J, K, R, P, A and B.
+
+    >>> read_move(b"N12 G1 X  70 (go) Y50 E1:.5 H2*14 ; to the wall")
+    (1, {'X': 70.0, 'Y': 50.0, 'E': 1.5})
+    >>> read_move(b"G1 X1e-5 Y2"), read_move(b"G1 X{max} Y2")
+    (None, None)
+    """
+    head = _HEAD.match(text)
+    if head is None:
+        return None
+    code = int(head[1])
+    body = _CHECKSUM.sub(b"", _REMARK.sub(b" ", text[head.end() :]).split(b";", 1)[0].rstrip()).rstrip()
+    mixed = body != body.lower() and _SMALL_EXPONENT.search(body)
+    if mixed or _EXPONENT.search(body):
+        return None
+    words: dict[str, float] = {}
+    place = 0
+    while place < len(body):
+        found = _WORD.match(body, place)
+        if found is None:
+            return None
+        place = found.end()
+        letter = found[1].decode().upper()
+        value = _value(found[2], letter)
+        if letter in words or (value is None and letter not in IGNORED):
+            return None
+        words[letter] = value or 0.0
+    return None if _is_unsure(code, words) else (code, {k: v for k, v in words.items() if k in "XYZEFIJKRPAB"})
+
+
+def _value(number: bytes | None, letter: str) -> float | None:
+    """Return the number of a word; of several extruders, which RepRapFirmware separates by colons, the sum."""
+    if number is None:
+        return None
+    parts = [float(part) for part in number.split(b":")]
+    if (len(parts) > 1 and letter != "E") or max(map(abs, parts)) > FARTHEST:
+        return None
+    return sum(parts)
+
+
+def _is_unsure(code: int, words: Mapping[str, float]) -> bool:
+    """Return whether the words of a move mean something else than a path from here to there."""
+    known = "XYZEFIJKRPAB" if code > 1 else "XYZEFIJPAB"
+    if not set(words) <= {*known, *IGNORED}:
+        return True
+    if code > 1 and not is_arc(words):
+        return True
+    moves = {"X", "Y", "Z", "E", "A", "B"} & set(words)
+    return code < 2 and not moves and bool(FURTHER_AXES & set(words))
+
+
+def is_arc(words: Mapping[str, float]) -> bool:
+    """Return whether the words say where an arc goes; without a centre or a radius, firmware draws none."""
+    return bool({"I", "J", "K", "R"} & set(words))
+
+
+def may_move(code: str, text: bytes) -> bool:
+    """Return whether a line that is no plain move could move or extrude along a path that is not planned.
+
+    Parameters
+    ----------
+    code : str
+        As in `infill.gcode.lines.Command`.
+    text : bytes
+        The line.
+
+    >>> may_move("G5", b"G5 X1 Y2 I3 J4 E1"), may_move("M204", b"M204 S500"), may_move("G90", b"G90 G1 X5")
+    (True, False, True)
+    """
+    letter, number = code[:1], code[1:2]
+    if letter == "G" and number.isdigit():
+        return code not in STILL_CODES or _has_inner_move(text)
+    if letter == "M" and number.isdigit():
+        return code not in _TEXTS and _has_inner_move(text)
+    if code in _MOVING_WORDS:
+        return True
+    if letter == "T" and number.isdigit():
+        return False
+    return _AXIS_FIRST.match(text) is not None
+
+
+def _has_inner_move(text: bytes) -> bool:
+    """Return whether a second command on a line is a move: RepRapFirmware and milling machines obey both."""
+    words = _REMARK.sub(b" ", text.split(b";", 1)[0])
+    return words.upper().count(b"G") + words.upper().count(b"M") > 1 and _INNER_MOVE.search(words) is not None
+
+
+def is_macro(code: str) -> bool:
+    """Return whether a command is one that only the printer knows, and that may move: PRINT_START.
+
+    >>> is_macro("PRINT_START"), is_macro("SET_PRESSURE_ADVANCE"), is_macro("M204")
+    (True, False, False)
+    """
+    return _MACRO.fullmatch(code) is not None and _STILL_MACROS.fullmatch(code) is None
