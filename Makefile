@@ -16,6 +16,7 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make coverage  the whole suite, with the share of lines that it reaches
 ## make quick     the suite without what is slow
 ## make oldest    the suite on the oldest dependencies that are allowed
+## make fuzz      mutated files of every format, for an hour; FUZZ="--minutes 300 --only meshes" says how
 ## make lint      ruff, and the schemas of workflows, issue forms and CITATION.cff
 ## make types     mypy --strict
 ## make docs      the site, in build/docs
@@ -32,7 +33,8 @@ SOURCES = $(shell find infill patterns -name '*.py')
 ## make clean     removes what these made
 
 .DELETE_ON_ERROR:
-.PHONY: demo test coverage quick oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures gallery help clean
+FUZZ ?= --minutes 60
+.PHONY: demo test coverage quick fuzz oldest lint types docs wheel check slicers data bench slicer-report smooth-report paper pictures gallery help clean
 
 # Real meshes and scans for the tests: what `make data` fetched, unless a folder is named.
 ifneq ($(wildcard data),)
@@ -59,6 +61,10 @@ coverage: .venv/test
 # What a change needs while it is being made: no coverage, no slicers, nothing slow (see tests/conftest.py).
 quick: .venv/test
 	@$(BIN)/python -m pytest -q -n auto -m "not slow" -p no:cov tests infill patterns
+
+# Mutated files for every reader, in processes with limits; files that fail are kept in build/fuzz.
+fuzz: .venv/test
+	@$(BIN)/python -m tests.fuzzing $(FUZZ)
 
 # The suite on the oldest dependencies that pyproject.toml allows; what they compile is not for other versions.
 oldest: .venv-oldest/test

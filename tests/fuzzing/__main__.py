@@ -28,7 +28,9 @@ def main() -> int:
             left = ends - time.monotonic()
             if left <= 0:
                 break
-            found = run_cases(name, seed=given.seed, start=numbers[name], count=10**9, seconds=min(ROUND, left), into=given.into)
+            found = run_cases(
+                name, seed=given.seed, start=numbers[name], count=10**9, seconds=min(ROUND, left), into=given.into
+            )
             numbers[name] += max(found.cases, 1)
             cases[name] += found.cases
             failed[name] += len(found.faults)

@@ -17,7 +17,7 @@ from pathlib import Path
 from tests.fuzzing.targets import TARGETS
 from tests.fuzzing.worker import make_case, seeds_of
 
-HANGS = 90.0  # s after which a case is given up, and its process with it: a judge's own time included
+HANGS = 180.0  # s after which a case is given up, and its process with it: a judge's own time included
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -35,7 +35,9 @@ class Findings:
         return Counter(fault for faults in self.faults.values() for fault in faults)
 
 
-def run_cases(target: str, *, seed: str, count: int, start: int = 0, seconds: float | None = None, into: Path | None = None) -> Findings:
+def run_cases(
+    target: str, *, seed: str, count: int, start: int = 0, seconds: float | None = None, into: Path | None = None
+) -> Findings:
     """Run cases of one target; a process that dies or hangs is a fault of its case, and the next takes over.
 
     `seconds` is how long to go on at most; `into` is a folder for the files that failed.
@@ -53,7 +55,16 @@ def run_cases(target: str, *, seed: str, count: int, start: int = 0, seconds: fl
 def _run_worker(found: Findings, start: int, stop: int, ends: float | None) -> int:
     """Run cases in one process until it stops, and return the number of the next case."""
     with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
-        words = [sys.executable, "-m", "tests.fuzzing.worker", found.target, "--seed", found.seed, "--start", str(start)]
+        words = [
+            sys.executable,
+            "-m",
+            "tests.fuzzing.worker",
+            found.target,
+            "--seed",
+            found.seed,
+            "--start",
+            str(start),
+        ]
         process = subprocess.Popen(
             [*words, "--count", str(stop - start), "--folder", folder], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             env=os.environ | {"PYTHONPATH": os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")]), "TMPDIR": folder},

@@ -10,9 +10,68 @@ from random import Random
 
 from tests.fuzzing.seeds import glb_parts, gunzipped, repacked_zip, unzipped
 
-NUMBERS = ["0", "-0", "1", "-1", "2", "3", "7", "255", "256", "65535", "65536", "2147483647", "2147483648", "-2147483649", "4294967296", "9223372036854775808", "1e9", "1e38", "1e39", "1e308", "1e309", "1e-320", "nan", "NaN", "inf", "-inf", "Infinity", "0x10", "1_000", "1,5", "1.", ".5", "+5", "-1e-3", "١٢", "½"]
+NUMBERS = [
+    "0",
+    "-0",
+    "1",
+    "-1",
+    "2",
+    "3",
+    "7",
+    "255",
+    "256",
+    "65535",
+    "65536",
+    "2147483647",
+    "2147483648",
+    "-2147483649",
+    "4294967296",
+    "9223372036854775808",
+    "1e9",
+    "1e38",
+    "1e39",
+    "1e308",
+    "1e309",
+    "1e-320",
+    "nan",
+    "NaN",
+    "inf",
+    "-inf",
+    "Infinity",
+    "0x10",
+    "1_000",
+    "1,5",
+    "1.",
+    ".5",
+    "+5",
+    "-1e-3",
+    "١٢",
+    "½",
+]
 LONG = ("9" * 5000, "1" + "0" * 400, "0." + "0" * 300 + "1")
-WORDS = ("", " ", "\x00", "\x1b[31m", "\x07", "\u202e", "é", "\ufeff", "#", ";", '"', "'", "<", "&", "%s", "{}", "../x", "\\", "end", "null", "true")
+WORDS = (
+    "",
+    " ",
+    "\x00",
+    "\x1b[31m",
+    "\x07",
+    "\u202e",
+    "é",
+    "\ufeff",
+    "#",
+    ";",
+    '"',
+    "'",
+    "<",
+    "&",
+    "%s",
+    "{}",
+    "../x",
+    "\\",
+    "end",
+    "null",
+    "true",
+)
 NUMBER = re.compile(rb"[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 WORD = re.compile(rb"[A-Za-z_]\w+")
 BYTES = (0, 1, 2, 127, 128, 254, 255)
@@ -76,7 +135,27 @@ def _mutate_tree(tree: object, rng: Random) -> object:
         return tree
     holder, key = rng.choice(places)
     value = holder[key]
-    choices: list[object] = [None, -1, 0, 1, 2**31, 2**63, 1e308, "x", [], {}, True, [1], [[]], value, [value], -0.5, float("nan"), [0] * 15, [0.0] * 16]
+    choices: list[object] = [
+        None,
+        -1,
+        0,
+        1,
+        2**31,
+        2**63,
+        1e308,
+        "x",
+        [],
+        {},
+        True,
+        [1],
+        [[]],
+        value,
+        [value],
+        -0.5,
+        float("nan"),
+        [0] * 15,
+        [0.0] * 16,
+    ]
     action = rng.random()
     if action < 0.15:
         holder.pop(key)
@@ -105,7 +184,11 @@ def _splice(data: bytes, other: bytes, rng: Random) -> bytes:
 
 def _change_byte(data: bytes, rng: Random) -> bytes:
     at = rng.randrange(len(data))
-    return data[:at] + bytes([rng.choice((*BYTES, data[at] ^ (1 << rng.randrange(8)), rng.randrange(256)))]) + data[at + 1 :]
+    return (
+        data[:at]
+        + bytes([rng.choice((*BYTES, data[at] ^ (1 << rng.randrange(8)), rng.randrange(256)))])
+        + data[at + 1 :]
+    )
 
 
 def _change_early_byte(data: bytes, rng: Random) -> bytes:
@@ -133,7 +216,9 @@ def _repeat(data: bytes, rng: Random) -> bytes:
 
 
 def _append(data: bytes, rng: Random) -> bytes:
-    return data + rng.choice((b"\0", b"\n", b"\r\n", b"\0" * 500, b"end\n", data[:100], bytes(rng.choices(range(256), k=50))))
+    return data + rng.choice(
+        (b"\0", b"\n", b"\r\n", b"\0" * 500, b"end\n", data[:100], bytes(rng.choices(range(256), k=50)))
+    )
 
 
 def _replace(data: bytes, found: re.Match[bytes], new: str) -> bytes:
@@ -149,7 +234,9 @@ def _change_word(data: bytes, rng: Random) -> bytes:
     found, other = _match(WORD, data, rng), _match(WORD, data, rng)
     if not found or not other:
         return data
-    return _replace(data, found, rng.choice((*WORDS, other[0].decode(), found[0].decode().swapcase(), found[0].decode() * 200)))
+    return _replace(
+        data, found, rng.choice((*WORDS, other[0].decode(), found[0].decode().swapcase(), found[0].decode() * 200))
+    )
 
 
 def _match(pattern: re.Pattern[bytes], data: bytes, rng: Random) -> re.Match[bytes] | None:
@@ -191,6 +278,23 @@ def _change_encoding(data: bytes, rng: Random) -> bytes:
 
 
 Way = Callable[[bytes, Random], bytes]
-BINARY_WAYS: tuple[Way, ...] = (_change_byte, _change_early_byte, _change_number_of_bytes, _cut_off, _remove, _repeat, _append)
-TEXT_WAYS: tuple[Way, ...] = (_change_number, _change_number, _change_word, _insert, _change_lines, _change_lines, _change_line_ends, _change_encoding)
+BINARY_WAYS: tuple[Way, ...] = (
+    _change_byte,
+    _change_early_byte,
+    _change_number_of_bytes,
+    _cut_off,
+    _remove,
+    _repeat,
+    _append,
+)
+TEXT_WAYS: tuple[Way, ...] = (
+    _change_number,
+    _change_number,
+    _change_word,
+    _insert,
+    _change_lines,
+    _change_lines,
+    _change_line_ends,
+    _change_encoding,
+)
 HEADER_WAYS: tuple[Way, ...] = (_change_number, _change_word, _change_early_byte, _change_number_of_bytes)

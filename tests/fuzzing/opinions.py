@@ -44,7 +44,12 @@ def mesh_opinions(path: Path) -> list[MeshOpinion]:
 def volume_opinions(path: Path) -> list[VolumeOpinion]:
     """Ask nibabel, SimpleITK, tifffile or NumPy."""
     name = path.name.lower()
-    readers = {(".nii", ".nii.gz", ".mgz"): _by_nibabel, (".mha", ".nrrd"): _by_simpleitk, (".tif",): _by_tifffile, (".npy",): _by_numpy}
+    readers = {
+        (".nii", ".nii.gz", ".mgz"): _by_nibabel,
+        (".mha", ".nrrd"): _by_simpleitk,
+        (".tif",): _by_tifffile,
+        (".npy",): _by_numpy,
+    }
     found = next((reader for suffixes, reader in readers.items() if name.endswith(suffixes)), None)
     return _asked(found.__name__.removeprefix("_by_"), found, path) if found else []
 
@@ -66,9 +71,14 @@ def mesh_opinion(reader: str, points: NDArray[np.float64], faces: NDArray[np.int
     edges = np.sort(np.concatenate([whole[:, [0, 1]], whole[:, [1, 2]], whole[:, [2, 0]]]), axis=1)
     _, counts = np.unique(edges, axis=0, return_counts=True)
     triangles = points[faces]
-    area = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1).sum() / 2
+    area = (
+        np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1).sum() / 2
+    )
     return MeshOpinion(
-        reader=reader, closed=bool(len(whole) and (counts % 2 == 0).all()), extents=np.ptp(points[faces].reshape(-1, 3), axis=0), area=float(area)
+        reader=reader,
+        closed=bool(len(whole) and (counts % 2 == 0).all()),
+        extents=np.ptp(points[faces].reshape(-1, 3), axis=0),
+        area=float(area),
     )
 
 
@@ -101,7 +111,7 @@ def _by_nibabel(path: Path) -> Iterator[VolumeOpinion]:
     image = nibabel.load(path)
     sizes = np.linalg.norm(np.asarray(image.affine)[:3, :3], axis=0)
     values = np.asarray(image.get_fdata())
-    values = values.reshape([n for n in values.shape[:3]] + [n for n in values.shape[3:] if n > 1])
+    values = values.reshape([*values.shape[:3], *(n for n in values.shape[3:] if n > 1)])
     unit = getattr(image.header, "get_xyzt_units", lambda: ("mm", ""))()[0]
     scale = {"meter": 1000.0, "micron": 1e-3}.get(unit, 1.0)
     yield VolumeOpinion(reader="nibabel", shape=sorted(values.shape), values=values, sizes=sizes * scale)
@@ -131,7 +141,11 @@ def _by_simpleitk(path: Path) -> Iterator[VolumeOpinion]:
     """Ask in a process of its own: it may crash."""
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "read.npz"
-        subprocess.run([sys.executable, "-c", SCRIPT, str(path), str(target)], check=True, timeout=LONGEST, capture_output=True)
+        subprocess.run(
+            [sys.executable, "-c", SCRIPT, str(path), str(target)], check=True, timeout=LONGEST, capture_output=True
+        )
         read = np.load(target)
         values = read["values"].astype(float)
-        yield VolumeOpinion(reader="SimpleITK", shape=sorted(values.shape), values=values, sizes=np.array(read["sizes"]))
+        yield VolumeOpinion(
+            reader="SimpleITK", shape=sorted(values.shape), values=values, sizes=np.array(read["sizes"])
+        )

@@ -24,7 +24,11 @@ def mesh_seeds() -> dict[str, bytes]:
     box = trimesh.creation.box((20, 10, 5))
     tube = trimesh.creation.annulus(3, 5, 8, sections=12)
     both = trimesh.util.concatenate([box, tube.apply_translation((30, 0, 0))])
-    files = {f"{name}.{suffix}": _exported(mesh, suffix) for name, mesh in (("box", box), ("both", both)) for suffix in MESHES}
+    files = {
+        f"{name}.{suffix}": _exported(mesh, suffix)
+        for name, mesh in (("box", box), ("both", both))
+        for suffix in MESHES
+    }
     files["ascii.stl"] = trimesh.exchange.stl.export_stl_ascii(tube).encode()
     files["ascii.ply"] = trimesh.exchange.ply.export_ply(tube, encoding="ascii")
     files["quads.obj"] = _polygons_obj()
@@ -39,7 +43,7 @@ def mesh_seeds() -> dict[str, bytes]:
 def volume_seeds() -> dict[str, bytes]:
     """A block in a noisy box: text headers, packed and raw, written by nibabel, SimpleITK, tifffile and by hand."""
     import nibabel
-    import SimpleITK as sitk
+    import SimpleITK
     import tifffile
 
     cells = np.random.default_rng(3).integers(0, 200, (14, 12, 10)).astype("<i2")
@@ -53,14 +57,20 @@ def volume_seeds() -> dict[str, bytes]:
             nibabel.save(nibabel.Nifti1Image(cells, affine), folder / f"n.{suffix}")
         nibabel.save(nibabel.Nifti2Image(cells, affine), folder / "two.nii")
         nibabel.save(nibabel.freesurfer.MGHImage(cells.astype(np.int32), affine), folder / "m.mgz")
-        image = sitk.GetImageFromArray(np.ascontiguousarray(cells.T))
+        image = SimpleITK.GetImageFromArray(np.ascontiguousarray(cells.T))
         image.SetSpacing((1, 0.5, 3))
         image.SetOrigin((-10, 5, 100))
         for stem, packed in (("raw", False), ("packed", True)):
             for suffix in ("mha", "nrrd"):
-                sitk.WriteImage(image, str(folder / f"{stem}.{suffix}"), packed)
-        sitk.WriteImage(image, str(folder / "legacy.vtk"))
-        tifffile.imwrite(folder / "t.tif", np.ascontiguousarray(cells.T).astype(np.uint16), imagej=True, resolution=(2.0, 2.0), metadata={"spacing": 3.0, "unit": "mm"})
+                SimpleITK.WriteImage(image, str(folder / f"{stem}.{suffix}"), packed)
+        SimpleITK.WriteImage(image, str(folder / "legacy.vtk"))
+        tifffile.imwrite(
+            folder / "t.tif",
+            np.ascontiguousarray(cells.T).astype(np.uint16),
+            imagej=True,
+            resolution=(2.0, 2.0),
+            metadata={"spacing": 3.0, "unit": "mm"},
+        )
         np.save(folder / "a.npy", cells)
         np.savez_compressed(folder / "a.npz", cells)
         for path in sorted(folder.iterdir()):
@@ -115,7 +125,12 @@ def drawing_seeds() -> dict[str, bytes]:
     grey[6:18, 8:16] = 0
     Image.fromarray(grey).save(picture, "PNG")
     wkt = "LINESTRING (0 0, 10 5, 20 0)\nPOLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (2 2, 4 2, 4 4, 2 2))\nGEOMETRYCOLLECTION (MULTILINESTRING ((1 1, 2 9), (3 3, 9 1)), POINT (1 2))\n"
-    return {"leaf.svg": svg.encode(), "lines.dxf": text.getvalue().encode(), "lines.wkt": wkt.encode(), "dark.png": picture.getvalue()}
+    return {
+        "leaf.svg": svg.encode(),
+        "lines.dxf": text.getvalue().encode(),
+        "lines.wkt": wkt.encode(),
+        "dark.png": picture.getvalue(),
+    }
 
 
 def print_seeds() -> dict[str, bytes]:
@@ -141,7 +156,9 @@ def settings_seeds() -> dict[str, bytes]:
 
 def corpus_seeds(folder: Path, suffixes: tuple[str, ...]) -> dict[str, bytes]:
     """Small real files below a folder, with one of the suffixes."""
-    paths = sorted(path for path in folder.rglob("*") if path.suffix.lower() in suffixes and path.stat().st_size <= LARGEST)
+    paths = sorted(
+        path for path in folder.rglob("*") if path.suffix.lower() in suffixes and path.stat().st_size <= LARGEST
+    )
     return {path.name: path.read_bytes() for path in paths}
 
 
@@ -160,8 +177,13 @@ def _package(*meshes: trimesh.Trimesh) -> bytes:
     for number, mesh in enumerate(meshes, 1):
         points = "".join(f'<vertex x="{x:g}" y="{y:g}" z="{z:g}"/>' for x, y, z in mesh.vertices)
         faces = "".join(f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in mesh.faces)
-        objects.append(f'<object id="{number}" type="model"><mesh><vertices>{points}</vertices><triangles>{faces}</triangles></mesh></object>')
-    parts = "".join(f'<component objectid="{number}" transform="1 0 0 0 1 0 0 0 1 {number} 0 0"/>' for number in range(1, len(meshes) + 1))
+        objects.append(
+            f'<object id="{number}" type="model"><mesh><vertices>{points}</vertices><triangles>{faces}</triangles></mesh></object>'
+        )
+    parts = "".join(
+        f'<component objectid="{number}" transform="1 0 0 0 1 0 0 0 1 {number} 0 0"/>'
+        for number in range(1, len(meshes) + 1)
+    )
     model = (
         f'<?xml version="1.0" encoding="UTF-8"?><model unit="millimeter" xml:lang="en-US" xmlns="{core}"><metadata name="Title">a</metadata>'
         f'<resources>{"".join(objects)}<object id="9" type="model"><components>{parts}</components></object></resources>'
@@ -181,7 +203,12 @@ def _package(*meshes: trimesh.Trimesh) -> bytes:
         f'<?xml version="1.0" encoding="UTF-8"?><config><object id="9" instances_count="1"><volume firstid="0" lastid="{last}"><metadata type="volume" '
         'key="volume_type" value="ModelPart"/></volume></object></config>'
     )
-    members = {"[Content_Types].xml": types, "_rels/.rels": relations, "3D/3dmodel.model": model, "Metadata/Slic3r_PE_model.config": settings}
+    members = {
+        "[Content_Types].xml": types,
+        "_rels/.rels": relations,
+        "3D/3dmodel.model": model,
+        "Metadata/Slic3r_PE_model.config": settings,
+    }
     return repacked_zip({name: text.encode() for name, text in members.items()})
 
 
@@ -194,7 +221,11 @@ def _l_shape() -> tuple[list[tuple[int, int, int]], list[list[int]]]:
 
 def _polygons_obj() -> bytes:
     points, faces = _l_shape()
-    rows = ["o part", *(f"v {x} {y} {z}" for x, y, z in points), *("f " + " ".join(f"{k + 1}//1" for k in face) for face in faces)]
+    rows = [
+        "o part",
+        *(f"v {x} {y} {z}" for x, y, z in points),
+        *("f " + " ".join(f"{k + 1}//1" for k in face) for face in faces),
+    ]
     return "\n".join(rows).encode()
 
 
@@ -210,7 +241,12 @@ def _polygons_ply() -> bytes:
 
 def _polygons_off() -> bytes:
     points, faces = _l_shape()
-    rows = ["OFF", f"{len(points)} {len(faces)} 0", *(f"{x} {y} {z}" for x, y, z in points), *(" ".join(map(str, [len(face), *face])) for face in faces)]
+    rows = [
+        "OFF",
+        f"{len(points)} {len(faces)} 0",
+        *(f"{x} {y} {z}" for x, y, z in points),
+        *(" ".join(map(str, [len(face), *face])) for face in faces),
+    ]
     return "\n".join(rows).encode()
 
 

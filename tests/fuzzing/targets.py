@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -53,7 +52,10 @@ def _contradictions(told: dict[str, object], path: Path) -> Iterator[str]:
     if told["closed"] and not any(each.closed for each in opinions):
         yield f"closed, which {' and '.join(each.reader for each in opinions)} contradict"
     extents = np.sort(np.array(told["extents"], dtype=float))
-    if not any(np.allclose(extents, np.sort(each.extents), rtol=NEAR, atol=NEAR * max(extents.max(), 1e-30)) for each in opinions):
+    if not any(
+        np.allclose(extents, np.sort(each.extents), rtol=NEAR, atol=NEAR * max(extents.max(), 1e-30))
+        for each in opinions
+    ):
         yield f"extents, which {' and '.join(each.reader for each in opinions)} contradict"
     area = float(told["area"])  # type: ignore[arg-type]
     if told["printable"] and not any(abs(area - each.area) <= 10 * NEAR * max(area, each.area) for each in opinions):
@@ -62,7 +64,9 @@ def _contradictions(told: dict[str, object], path: Path) -> Iterator[str]:
 
 def judge_volume(path: Path, folder: Path, rng: Random) -> Iterator[str]:
     """Smooth a volume, and compare its cells and its place with other readers."""
-    yield from _made(folder, "smooth", path, "--threshold", "600", "--json", "-o", "OUT.stl", then=lambda answer: _misread(path))
+    yield from _made(
+        folder, "smooth", path, "--threshold", "600", "--json", "-o", "OUT.stl", then=lambda answer: _misread(path)
+    )
 
 
 def _misread(path: Path) -> Iterator[str]:
@@ -83,7 +87,9 @@ def _misread(path: Path) -> Iterator[str]:
 
 def judge_points(path: Path, folder: Path, rng: Random) -> Iterator[str]:
     """Make a solid of points."""
-    yield from _made(folder, "smooth", path, "--voxel", "0.8", "-o", "OUT.stl", "--shell", "2" if rng.random() < 0.3 else "0.9")
+    yield from _made(
+        folder, "smooth", path, "--voxel", "0.8", "-o", "OUT.stl", "--shell", "2" if rng.random() < 0.3 else "0.9"
+    )
 
 
 def judge_drawing(path: Path, folder: Path, rng: Random) -> Iterator[str]:
@@ -117,7 +123,9 @@ def judge_settings(path: Path, folder: Path, rng: Random) -> Iterator[str]:
     if path.name.startswith("make"):
         yield from faults_of(run_command("make", "--config", path, "--dry-run", "-o", folder / "OUT.stl"))
     else:
-        yield from faults_of(run_command("fill", _part(folder), "--config", path, "--dry-run", "-o", folder / "OUT.stl"))
+        yield from faults_of(
+            run_command("fill", _part(folder), "--config", path, "--dry-run", "-o", folder / "OUT.stl")
+        )
 
 
 def _made(
@@ -125,10 +133,10 @@ def _made(
 ) -> Iterator[str]:
     """Run a command whose output is OUT.*, and judge what lies in the folder afterwards."""
     placed = [folder / word if isinstance(word, str) and word.startswith("OUT.") else word for word in words]
-    before = set(os.listdir(folder))
+    before = {path.name for path in folder.iterdir()}
     answer = run_command(*placed)
     yield from faults_of(answer)
-    new = {name for name in os.listdir(folder) if name not in before}
+    new = {path.name for path in folder.iterdir()} - before
     if answer.done:
         wanted = {word for word in words if isinstance(word, str) and word.startswith("OUT.")}
         if new != wanted:

@@ -1,0 +1,156 @@
+"""Some hundred mutated files of every kind, the same in every run, and the judge itself: it sees what is planted."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+import trimesh
+
+from infill.errors import FormatError
+from tests.fuzzing.campaign import run_cases
+from tests.fuzzing.commands import Answer, faults_of
+from tests.fuzzing.mutations import mutate
+from tests.fuzzing.targets import TARGETS
+from tests.fuzzing.worker import make_case, run_case, seeds_of
+
+CASES = {"meshes": 600, "volumes": 150, "points": 100, "drawings": 60, "prints": 150, "settings": 60}
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_no_mutated_file_does_what_none_may(name: str, compiled: None) -> None:
+    """No traceback, no hang, no gigabytes, no half-written file, nothing that every other reader contradicts."""
+    found = run_cases(name, seed="suite", count=CASES[name])
+    assert found.cases == CASES[name]
+    assert found.faults == {}
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_whole_seeds_are_read(name: str, compiled: None, tmp_path: Path) -> None:
+    """Each is a file that its command takes, and reads as others do: mutations begin from what works."""
+    target = TARGETS[name]
+    for chosen, data in target.make_seeds().items():
+        assert run_case(target, chosen, data, Random(1), tmp_path) == [], chosen
+
+
+def test_a_case_is_the_same_for_the_same_numbers() -> None:
+    files = seeds_of(TARGETS["meshes"])
+    cases = [make_case("meshes", "a", 5, files)[:2] for _ in range(2)]
+    assert cases[0] == cases[1]
+    others = {make_case("meshes", "a", number, files)[1] for number in range(40)}
+    assert len(others) > 30
+
+
+@pytest.mark.parametrize("name", TARGETS)
+def test_mutations_break_files(name: str) -> None:
+    """Most are unlike their seed, and none takes a generator elsewhere."""
+    for chosen, data in TARGETS[name].make_seeds().items():
+        broken = [mutate(chosen, data, Random(k)) for k in range(20)]
+        assert broken == [mutate(chosen, data, Random(k)) for k in range(20)]
+        assert sum(each != data for each in broken) >= 12, chosen
+
+
+# --- the judge sees what is planted ----------------------------------------------------------------------
+
+
+BOX = trimesh.creation.box((9, 9, 9)).export(file_type="stl")
+
+
+def judged(folder: Path, data: bytes = BOX, seed: int = 1) -> list[str]:
+    """Judge a box; the generator is one whose case is only checked."""
+    return run_case(TARGETS["meshes"], "box.stl", data, Random(seed), folder)
+
+
+def planted(monkeypatch: pytest.MonkeyPatch, act: Callable[[Path], object]) -> None:
+    """Have the reader of STL do something."""
+    from infill.formats import mesh_files
+
+    monkeypatch.setitem(mesh_files.READERS, ".stl", act)
+
+
+def test_a_whole_box_has_no_fault(tmp_path: Path) -> None:
+    assert judged(tmp_path) == []
+
+
+def test_an_exception_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(path: Path) -> None:
+        raise RecursionError("planted")
+
+    from infill.inspection import printability
+
+    monkeypatch.setattr(printability, "read_mesh", fail)
+    (fault,) = judged(tmp_path)
+    assert fault.startswith("escaped: RecursionError")
+
+
+def test_a_lie_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A reader that closes a box of which a side is missing, and one that doubles its size."""
+    whole = trimesh.creation.box((9, 9, 9))
+    planted(monkeypatch, lambda path: (np.array(whole.vertices), np.array(whole.faces)))
+    open_box = trimesh.Trimesh(whole.vertices, whole.faces[:-1]).export(file_type="stl")
+    assert any(fault.startswith("closed, which") for fault in judged(tmp_path, open_box))
+    planted(monkeypatch, lambda path: (2 * np.array(whole.vertices), np.array(whole.faces)))
+    assert any(fault.startswith("extents, which") for fault in judged(tmp_path))
+
+
+def test_a_control_character_is_a_fault() -> None:
+    faults = list(faults_of(Answer(status=1, out="", err="error: \x1b[31m is no number\n", seconds=0, peak=0)))
+    assert faults == ["control character '\\x1b'"]
+
+
+@pytest.mark.parametrize(
+    ("answer", "fault"),
+    [
+        (Answer(status=1, out="", err="", seconds=0, peak=0), "0 lines of error with exit status 1"),
+        (
+            Answer(status=1, out="", err="error: a\nerror: b\n", seconds=0, peak=0),
+            "2 lines of error with exit status 1",
+        ),
+        (Answer(status=3, out="", err="", seconds=0, peak=0), "exit status 3"),
+        (Answer(status=0, out="", err="", seconds=21, peak=0), "took over 20 s"),
+        (Answer(status=0, out="", err="", seconds=0, peak=5 * 2**30), "took over 4 GiB"),
+    ],
+)
+def test_what_no_answer_may_be_is_a_fault(answer: Answer, fault: str) -> None:
+    assert list(faults_of(answer)) == [fault]
+    good = Answer(status=1, out=json.dumps({}), err="error: there is no file; check the name\n", seconds=1, peak=10**9)
+    assert list(faults_of(good)) == []
+
+
+def test_a_process_that_dies_or_hangs_is_a_fault_and_the_next_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Workers that are scripts: the first dies in its second case, the next hangs, the last ends."""
+    from tests.fuzzing import campaign
+
+    say = "import json,os,time,signal; p=lambda **w: print(json.dumps(w), flush=True); "
+    scripts = iter(
+        [
+            say + "p(begins=0); p(ends=0, faults=[]); p(begins=1); os.kill(os.getpid(), signal.SIGSEGV)",
+            say + "p(begins=2); time.sleep(60)",
+            say + "p(begins=3); p(ends=3, faults=['planted'])",
+        ]
+    )
+    real = campaign.subprocess.Popen
+
+    def start(words: list[str], **options: object) -> object:
+        return real([words[0], "-c", next(scripts)], **options)
+
+    monkeypatch.setattr(campaign.subprocess, "Popen", start)
+    monkeypatch.setattr(campaign, "HANGS", 3.0)
+    begin = time.monotonic()
+    found = campaign.run_cases("meshes", seed="1", count=4)
+    assert time.monotonic() - begin < 40
+    assert found.cases == 4
+    assert found.faults == {1: ["the process died (SIGSEGV)"], 2: ["hung for 3 s"], 3: ["planted"]}
+
+
+def test_our_errors_are_no_faults(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path) -> None:
+        raise FormatError(f"{path} is broken; export it again")
+
+    planted(monkeypatch, refuse)
+    assert judged(tmp_path) == []
