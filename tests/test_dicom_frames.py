@@ -438,6 +438,34 @@ def test_a_scout_in_the_same_series_is_named(tmp_path: Path) -> None:
     assert "2 orientations, sizes or coordinate systems (12, 1)" in refusal(folder)
 
 
+def test_files_of_one_enhanced_frame_each(tmp_path: Path, rng: np.random.Generator) -> None:
+    """What is shared by the only frame of a file tells it from those of other files."""
+    files = []
+    for k in range(2 * COUNT):
+        phase, at = divmod(k, COUNT)
+        made = enhanced(ENHANCED_CT, body()[at : at + 1] // (phase + 1), places()[at : at + 1], instance=k + 1)
+        for name, value in GROUPS["EffectiveEchoTime"](phase).items():
+            setattr(made.SharedFunctionalGroupsSequence[0], name, value)
+        files.append(made)
+    folder = save_all(files, tmp_path / "a", rng.permutation(2 * COUNT).tolist())
+    assert "told apart by EffectiveEchoTime" in refusal(folder)
+    agrees(read_volume(folder, frame=0), body(), places(), AXIAL, ROUNDING)
+
+
+def test_a_volume_of_ultrasound_lies_in_its_own_space(tmp_path: Path) -> None:
+    made = enhanced(ENHANCED_CT, body(), places())
+    for frame in made.PerFrameFunctionalGroupsSequence:
+        place = frame.PlanePositionSequence[0].ImagePositionPatient
+        del frame.PlanePositionSequence
+        frame.PlanePositionVolumeSequence = [item(ImagePositionVolume=[float(x) for x in place])]
+    shared = made.SharedFunctionalGroupsSequence[0]
+    del shared.PlaneOrientationSequence
+    shared.PlaneOrientationVolumeSequence = [item(ImageOrientationVolume=list(AXIAL))]
+    volume = read_volume(save(made, tmp_path / "a.dcm"))
+    assert volume.space == ""
+    assert centres(volume, 2000) == pytest.approx(true_centres(body(), places(), AXIAL, (0.5, 1.0), 2000), abs=ROUNDING)
+
+
 # --- files that say less ---------------------------------------------------------------------------------------
 
 

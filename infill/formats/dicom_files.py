@@ -493,8 +493,13 @@ def _frames(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> 
         if each and len(each) != count:
             raise ValueError(f"{count} frames, and {len(each)} are described")
         dimensions = _dimensions(header)
+        common: dict[str, Mark] = {}
+        if shared is not None:
+            _collect(shared, common)
         items: list[Dataset | None] = [*each] if each else [None] * count
-        frames = tuple(_grouped(path, header, shared, item, k, shape, dimensions) for k, item in enumerate(items))
+        frames = tuple(
+            _grouped(path, header, shared, item, k, shape, dimensions, common) for k, item in enumerate(items)
+        )
     else:
         frames = _ungrouped(path, header, count, shape)
     if all(frame.position is not None for frame in frames):
@@ -531,8 +536,9 @@ def _grouped(
     number: int,
     shape: tuple[int, int],
     dimensions: list[str],
+    common: Mapping[str, Mark],
 ) -> Frame:
-    """Return a frame that functional groups describe, its own or those of all."""
+    """Return a frame that functional groups describe, its own or those of all; `common` are the marks of all."""
 
     def macro(name: str) -> Dataset | None:
         found = _first(item, name)
@@ -546,6 +552,8 @@ def _grouped(
         place, plane = macro("PlanePositionVolumeSequence"), macro("PlaneOrientationVolumeSequence")
         position, axes = _numbers(place, "ImagePositionVolume", 3), _numbers(plane, "ImageOrientationVolume", 6)
         space = "" if position is not None else space
+    if position is None and _whole(header, "NumberOfFrames", 1) == 1:
+        position = _numbers(header, "ImagePositionPatient", 3)
     marks: dict[str, Mark] = {}
     if item is not None:
         _collect(item, marks)
@@ -566,7 +574,7 @@ def _grouped(
         thickness=_number(measures, "SliceThickness"),
         slope=slope,
         intercept=intercept,
-        marks=marks,
+        marks={**common, **marks},
         segment=None if segment is None else int(segment),
         space=space,
     )

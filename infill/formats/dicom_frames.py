@@ -297,7 +297,7 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
     off = float(np.linalg.norm(places[order] - even, axis=1).max() / step)
     if not off <= UNEVEN:
         return Uneven(off=off, why=_why(steps, along[order]), doubled=bool((steps < UNEVEN * steps.max()).any()))
-    step = float(f"{_stated(frames, step, off * step):.12g}")  # 3, not 3.0000000000000004
+    step = rounded(_stated(frames, step, off * step))
     centre = middle - (len(frames) - 1) / 2 * step * normal
     return Stack(
         frames=tuple(frames[k] for k in order),
@@ -305,6 +305,15 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
         centre=tuple(centre.tolist()),
         direction=plane.direction,
     )
+
+
+def rounded(length: float) -> float:
+    """Return a length without the last digits, which sums leave behind.
+
+    >>> rounded(3.0000000000000004)
+    3.0
+    """
+    return float(f"{length:.12g}")
 
 
 def _stated(frames: Sequence[Frame], step: float, noise: float) -> float:
@@ -341,7 +350,7 @@ def plane_of(frames: Sequence[Frame]) -> Plane | Uneven:
     row = row / lengths[0]
     column = column - (column @ row) * row
     column /= np.linalg.norm(column)
-    down, across = (float(x) for x in np.mean([frame.pixel for frame in frames if frame.pixel], axis=0))
+    down, across = (rounded(x) for x in np.mean([frame.pixel for frame in frames if frame.pixel], axis=0))
     if down <= 0 or across <= 0:
         return Uneven(off=1.0, why=f"pixels are {across:g} x {down:g} mm")
     return Plane(direction=np.column_stack([row, column, np.cross(row, column)]), pixel=(across, down))

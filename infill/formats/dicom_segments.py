@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.broken import SMALLER, checked_volume
 from infill.formats.dicom_files import Frame, Image, Segments
-from infill.formats.dicom_frames import UNEVEN, Plane, Uneven, placed_frames, plane_of
+from infill.formats.dicom_frames import UNEVEN, Plane, Uneven, placed_frames, plane_of, rounded
 from infill.formats.dicom_pixels import stored_numbers
 from infill.formats.frames import chosen
 from infill.formats.label_tables import Segment
@@ -75,7 +75,7 @@ def segment_layers(
         grid, said = _grid(image)
         numbers = stored_numbers(image)
         warnings += [*said, *numbers.warnings]
-        if known.kind == "FRACTIONAL":
+        if known.kind == "FRACTIONAL" and ((numbers.values > 0) & (numbers.values < known.highest)).any():
             warnings.append(f"{image.path} holds shares of cells; cells that lie at least half in a segment are taken")
         where: dict[int, int] = {}
         if known.kind == "LABELMAP":
@@ -159,7 +159,7 @@ def _slices(
     number[order] = np.concatenate([[0], np.cumsum(whole)]).astype(np.int64)
     normal = plane.direction[:, 2]
     spread = number - number.mean()
-    fitted = float(spread @ (places @ normal) / (spread @ spread))
+    fitted = rounded(spread @ (places @ normal) / (spread @ spread))
     first = places.mean(axis=0) - number.mean() * fitted * normal
     off = np.linalg.norm(first + np.outer(number * fitted, normal) - places, axis=1).max()
     return (number, first, fitted) if off <= UNEVEN * fitted else None
