@@ -92,7 +92,7 @@ def test_voids_are_counted(name: str) -> None:
     st.lists(st.integers(0, 11), max_size=6),
     st.booleans(),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_any_voids_in_a_block(places: list[tuple[int, int, int]], filled: list[int], whole: bool) -> None:
     """Balls on a lattice: some hold a solid, which changes nothing; turning all of it neither."""
     meshes = [box(100), *(turned(ball(4, tuple(10.0 * k for k in each), 1)) for each in places)]
@@ -123,3 +123,12 @@ def test_an_open_mesh_has_no_voids_that_can_be_counted(tmp_path: Path) -> None:
     assert check(path).sealed_voids is None
     assert "unknown: the mesh is not closed" in run("check", str(path)).stdout
     assert not any("sealed" in each for each in check(path).warnings)
+
+
+def test_smooth_says_so(tmp_path: Path) -> None:
+    for name, mesh, voids in (("shell", together(ball(10), turned(ball(6))), 1), ("ball", together(ball(10)), 0)):
+        path = save(mesh, tmp_path / f"{name}.stl")
+        result = run("smooth", str(path), "--resolution", "12", "-o", str(tmp_path / f"{name}_smooth.stl"))
+        assert result.exit_code == 0, result.stderr
+        assert result.stderr.count(f"{voids}, in which resin and powder stay") == voids
+        assert check(tmp_path / f"{name}_smooth.stl").sealed_voids == voids

@@ -74,10 +74,16 @@ def _part_diagonals(
     owner = np.repeat(np.arange(len(counts)), inner)
     triangle = places[owner] + np.arange(len(owner)) - first[owner]  # the last one of a fan has no diagonal of its own
     diagonals = _pair_numbers(faces[triangle, 0], faces[triangle, 2])
+    hub = faces[places[owner], 0]
+    clipped = np.zeros(len(counts), dtype=bool)  # those that are no fans stay as they are
+    clipped[owner[(faces[triangle, 0] != hub) | (faces[triangle + 1, 0] != hub)]] = True
+    diagonals[clipped[owner]] = -1
     after = np.arange(1, len(corners) + 1)
     after[(begins + counts - 1)[counts > 0]] = begins[counts > 0]
     edges = np.sort(_pair_numbers(corners, corners[after]))
-    uses = np.sort(diagonals)
+    uses = np.sort(diagonals[diagonals >= 0])
+    if len(uses) == 0:
+        return
     where = np.minimum(np.searchsorted(edges, uses), len(edges) - 1)
     wrong = np.union1d(uses[1:][uses[1:] == uses[:-1]], uses[edges[where] == uses])
     if len(wrong) == 0:
@@ -93,7 +99,7 @@ def _part_diagonals(
     for polygon in np.unique(owner[np.isin(diagonals, wrong)]).tolist():
         count = int(counts[polygon])
         ring = corners[begins[polygon] : begins[polygon] + count].astype(np.int64)
-        fans = [np.roll(ring, -start) for start in range(count)]
+        fans = (np.roll(ring, -start) for start in range(count if count <= MOST_FANS else 0))
         free = (fan for fan in fans if is_free(_pair_numbers(fan[:1].repeat(count - CORNERS), fan[2:-1]), polygon))
         chosen = next((fan for fan in free if _fans_cover(vertices, fan[None])[0]), None)
         if chosen is not None:
