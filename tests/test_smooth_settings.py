@@ -21,7 +21,7 @@ pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 BALL = np.sum((np.indices((24, 24, 24)) - 11.5) ** 2, axis=0)
 # What belongs to a run and not to what comes of it.
 RUN_ONLY = {"output", "preview", "config", "save_config", "ascii", "force", "threads", "max_memory", "json", "quiet"}
-RUN_ONLY |= {"verbose", "help", "dry_run"}
+RUN_ONLY |= {"verbose", "help", "dry_run", "trust"}
 
 
 @pytest.fixture(autouse=True)

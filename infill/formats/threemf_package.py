@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
@@ -24,6 +25,8 @@ from infill.machine import require_memory
 AGAIN = "export the mesh again"
 LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
 MOST_BYTES = 4 << 30  # of a package, unpacked: a zip of some megabytes may unpack to terabytes
+LARGEST_TEXT = 100 << 20  # of a file that is read at once, unlike models, or not at all, like G-code and pictures
+PIECEWISE = (".model", ".gcode", ".png", ".jpg", ".jpeg", ".md5", ".stl", ".step", ".stp")
 HEADER = 30  # bytes of a zip before the name of a file in it
 ENCRYPTED = 0x1  # among the flags of a file in a zip
 PIECE = 1 << 24  # bytes that are parsed at a time
@@ -148,6 +151,8 @@ def _check_entries(package: zipfile.ZipFile, path: Path) -> None:
             raise FormatError(
                 f"{path} is compressed by method {each.compress_type}, and 3MF knows only deflate; {AGAIN}"
             )
+        if each.file_size > LARGEST_TEXT and not name.lower().endswith(PIECEWISE):
+            raise FormatError(f"{path} holds {name} of {each.file_size / 1e6:,.0f} MB, too much for settings; {AGAIN}")
         if each.header_offset < end:
             raise FormatError(f"{path} holds files that overlap, {name} among them; {AGAIN}")
         end = each.header_offset + HEADER + len(each.orig_filename) + each.compress_size
@@ -282,7 +287,11 @@ class _Target:
             self._skipped = 1
 
     def _row(
-        self, numbers: array, names: tuple[str, str, str], attributes: dict[str, str], kind: type[float] | type[int]
+        self,
+        numbers: array[Any],
+        names: tuple[str, str, str],
+        attributes: dict[str, str],
+        kind: type[float] | type[int],
     ) -> None:
         one, two, three = names
         try:

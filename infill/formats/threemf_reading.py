@@ -134,7 +134,7 @@ class _Reading:
         for name in sorted(self.parts):
             if PRUSA_CONFIGS.fullmatch(name):
                 with told_broken(self.path, f"has a broken {excerpt(name)}", AGAIN):
-                    found = {**prusa_volumes(parsed_xml(self.package.read(self.parts[name]))), **found}
+                    found = {**prusa_volumes(parsed_xml(self.package.read(self.parts[name]), self.path)), **found}
         return found
 
     @cached_property
@@ -143,7 +143,7 @@ class _Reading:
         if part_key(BAMBU_CONFIG) not in self.parts:
             return {}
         with told_broken(self.path, f"has a broken {BAMBU_CONFIG}", AGAIN):
-            return bambu_parts(parsed_xml(unpacked(self.package, BAMBU_CONFIG)))
+            return bambu_parts(parsed_xml(unpacked(self.package, BAMBU_CONFIG), self.path))
 
     def note(self, text: str) -> None:
         self.notes[text] = None

@@ -185,7 +185,7 @@ class Package:
         if part_key(name) not in self.texts:
             return None
         with told_broken(self.path, f"has a broken {name}", AGAIN):
-            return parsed_xml(self.texts[part_key(name)])
+            return parsed_xml(self.texts[part_key(name)], self.path)
 
     def tree(self, key: str) -> Tree:
         """Return what an object consists of; of all objects together, no more than is allowed."""
