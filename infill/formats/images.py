@@ -142,7 +142,7 @@ def scale_of(path: Path, word: str, what: str = "its sizes") -> float:
 def warn_of_unit(path: Path, word: str, what: str = "its sizes") -> None:
     """Warn that a word is no known unit of length."""
     LOG.warning(
-        "%s gives %s in %r, no known unit of length; they are taken as mm: give --spacing if they are not",
+        "%s gives %s in %r, no known unit of length; they are taken as mm, unless --spacing gives them",
         path,
         what,
         word[:40],

@@ -115,7 +115,7 @@ def _affine(path: Path, fields: _Fields, count: int) -> NDArray[np.float64]:
     origin = _first(path, fields, ORIGIN, count)
     sizes, gaps = (_floats(fields, name, count) for name in ("elementspacing", "elementsize"))
     if sizes is None and gaps is None:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken: give --spacing if it is another", path)
+        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
     elif sizes is not None and gaps is not None and not np.allclose(sizes, gaps, rtol=1e-3, atol=0):
         LOG.warning(
             "%s states cells of %s mm, %s mm apart (ElementSize, ElementSpacing); they are taken as that large as they "

@@ -248,10 +248,10 @@ def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.fl
     """
     unit = found.one("units") & LENGTH_BITS
     if unit == 0:
-        LOG.info("%s does not say its unit of length; it is taken as mm: give --spacing if it is another", path)
+        LOG.info("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
     elif unit not in MILLIMETRES:
         LOG.warning(
-            "%s has an unknown unit of length (code %d); it is taken as mm: give --spacing if it is not", path, unit
+            "%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit
         )
     scale = MILLIMETRES.get(unit, 1.0)
     steps = np.abs(np.array(found.all("pixdim")[1 : AXES + 1], dtype=np.float64))

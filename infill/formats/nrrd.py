@@ -301,7 +301,7 @@ def _spaced(
         affine[place, place], affine[place, AXES] = scale * step, scale * first
     if missing and len(axes) == AXES:
         LOG.warning(
-            "%s does not say the size of its cells along %s; 1 mm is taken: give --spacing if it is another",
+            "%s does not say the size of its cells along %s; 1 mm is taken, unless --spacing gives it",
             path,
             "any axis" if len(missing) == AXES else "axis " + " and ".join(map(str, missing)),
         )
