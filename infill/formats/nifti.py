@@ -118,7 +118,7 @@ class _Header:
 
 def read_nifti(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
-    with told_broken(path), path.open("rb") as file:
+    with told_broken(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
         packed = file.read(2) == MAGIC_OF_GZIP
         file.seek(0)
         found = _header(path, _head(path, file, packed=packed))

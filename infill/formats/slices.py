@@ -149,7 +149,8 @@ def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tup
     """Return the cell size of a file that gives dots per inch or cm, as for a printer, and no distance of its pages."""
     if _is_usual(per_cell, unit):
         LOG.info(
-            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken, unless --spacing gives them",
+            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken, unless --spacing gives "
+            "them",
             path,
         )
         return (1.0,) * AXES
