@@ -382,8 +382,12 @@ def test_what_is_compared_can_differ(tmp_path: Path) -> None:
     with pytest.raises(pytest.fail.Exception):
         refused(lambda: read_mesh(path), "a")
 
+    class RudeError(FormatError):
+        def __str__(self) -> str:
+            return "a\nb"
+
     def rude() -> None:
-        raise FormatError("a\nb")
+        raise RudeError
 
     with pytest.raises(AssertionError):
         refused(rude, "a")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import gzip
+import re
+import time
 import zipfile
 import zlib
 from pathlib import Path
@@ -10,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from infill.errors import FormatError, MemoryLimitError
+from infill.errors import FormatError, InfillError, MemoryLimitError
 from infill.formats.segmentations import read_segmentation
 from infill.formats.volume_files import read_volume
 from tests import volume_writers as w
@@ -91,16 +93,21 @@ def test_a_bit_that_is_flipped_in_packed_cells_is_seen_by_its_checksum(way: str,
     assert told >= 30
 
 
-@pytest.mark.parametrize("way", WAYS)
-@pytest.mark.parametrize("shape", [(6, 7, 9), (6, 7, 16), (6, 7, 7), (6, 7, 4), (6, 14, 8), (3, 7, 8)])
+SHAPES = [(6, 7, 9), (6, 7, 16), (6, 7, 7), (6, 7, 4), (6, 14, 8), (3, 7, 8)]
+
+
+def is_seen(way: str, shape: tuple[int, ...]) -> bool:
+    """Return whether a header of other sizes cannot be true of the files of a format."""
+    if way.startswith(("npz", "tif", "npy")) or "from the end" in way:
+        return False  # its sizes are checked by another test, or anything may stand before its cells
+    if ("list" in way or "numbered" in way) and shape[2] < SHAPE[2]:
+        return False  # its header lists fewer files, and those are whole
+    return not way.startswith(("mgh", "mgz", "vtk")) or np.prod(shape) > VALUES.size  # more may follow its cells
+
+
+@pytest.mark.parametrize(("way", "shape"), [(way, shape) for way in WAYS for shape in SHAPES if is_seen(way, shape)])
 def test_other_sizes_than_the_cells_have_are_refused(way: str, shape: tuple[int, ...], tmp_path: Path) -> None:
     """More or fewer: the header of another volume, and these cells."""
-    if way.startswith(("npz", "tif", "npy")) or "from the end" in way:
-        pytest.skip("its sizes are checked by another test, or anything may stand before its cells")
-    if ("list" in way or "numbered" in way) and shape[2] < SHAPE[2]:
-        pytest.skip("its header lists fewer files, and those are whole")
-    if way.startswith(("mgh", "mgz", "vtk")) and np.prod(shape) < VALUES.size:
-        pytest.skip("more may follow the cells of this format")
     written, other = WAYS[way](VALUES), WAYS[way](np.resize(VALUES, shape))
     if written.beside:
         path = save(tmp_path, Written(name=written.name, data=other.data, beside=written.beside))
@@ -295,4 +302,74 @@ def test_a_packed_page_that_is_shortened(part: float, tmp_path: Path) -> None:
     with tifffile.TiffFile(path, mode="r+") as file:
         tag = file.pages[3].tags["StripByteCounts"]
         tag.overwrite(int(tag.value[0] * part))
+    refused(path)
+
+
+# --- anything ----------------------------------------------------------------------------------------------
+
+WORDS = (
+    b"999999999",
+    b"-1",
+    b"nan",
+    b"1e308",
+    b"\n",
+    b"\x1b[31m",
+    b"\0\0\0\0",
+    b"\xff\xff\xff\x7f",
+    b"%99999d",
+    b"/dev/zero",
+)
+
+
+def mutate(rng: np.random.Generator, data: bytes) -> bytes:
+    """Change a few places of a file, most of them in its header."""
+    bad = bytearray(data)
+    for _ in range(rng.integers(1, 4)):
+        at = int(rng.integers(0, min(len(bad), int(rng.choice([100, 500, 10**6])))))
+        word = WORDS[rng.integers(len(WORDS))]
+        match rng.integers(5):
+            case 0:
+                bad[at] ^= 1 << int(rng.integers(8))
+            case 1:
+                bad[at:at] = word
+            case 2:
+                bad[at : at + len(word)] = word
+            case 3:
+                del bad[at : at + int(rng.integers(1, 40))]
+            case _:
+                numbers = list(re.finditer(rb"-?\d+", bytes(bad[:600])))
+                if numbers:
+                    low, high = numbers[rng.integers(len(numbers))].span()
+                    bad[low:high] = word
+        if not bad:
+            return b"\0"
+    return bytes(bad)
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_file_that_is_changed_anywhere_is_read_or_told(way: str, tmp_path: Path) -> None:
+    """Nothing else than our errors, each one line that a terminal can show, and never for long."""
+    rng = np.random.default_rng(len(way))
+    written = WAYS[way](VALUES)
+    for _ in range(25):
+        path = save(tmp_path, written)
+        name = rng.choice(sorted(written.files()))
+        (tmp_path / name).write_bytes(mutate(rng, written.files()[name]))
+        begin, said = time.process_time(), ""
+        try:
+            read_volume(path)
+        except InfillError as error:
+            said = str(error)
+        assert said.isprintable()
+        assert len(said) < 700
+        assert time.process_time() - begin < 3  # such a file of 700 bytes takes milliseconds
+
+
+def test_a_page_of_tiff_without_rows_is_told(tmp_path: Path) -> None:
+    import tifffile
+
+    path = save(tmp_path, w.tiff(VALUES, metadata=None))
+    with tifffile.TiffFile(path, mode="r+") as file:
+        for page in file.pages:
+            page.tags["ImageLength"].overwrite(0)
     refused(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import signal
 import subprocess
@@ -13,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from infill.cli.console import log_said, say, warn
 from infill.errors import FormatError, InfillError, MemoryLimitError, OutputError, ParameterError, printable
 from infill.formats.child_process import read_in_child
 from infill.formats.volume_files import read_volume
@@ -202,3 +204,16 @@ def test_what_is_quoted_from_a_file_cannot_steer_a_terminal(bad: str, tmp_path: 
 @pytest.mark.parametrize("word", ["plain", "µm, 3×4, naïve", "日本 🦴"])
 def test_other_words_stay(word: str) -> None:
     assert str(FormatError(word)) == word
+
+
+def test_messages_and_warnings_of_the_program_are_shown_as_text(capsys: pytest.CaptureFixture[str]) -> None:
+    with log_said(shown=True):
+        logging.getLogger("infill").warning("%s gives \x1b[31m\r\n", "a.nrrd")
+    warn("broken \x9b\n", UserWarning, "", 0)
+    say("one\x07\ntwo")
+    assert capsys.readouterr().err.splitlines() == [
+        r"a.nrrd gives \x1b[31m\r\n",
+        r"warning: broken \x9b\n",
+        r"one\x07",
+        "two",
+    ]

@@ -96,8 +96,8 @@ def _header(path: Path, head: bytes) -> _Header:
         raise FormatError(f"{path} holds cells of type {kind}, which are no numbers; save it as integers or floats")
     if not placed:
         LOG.warning(
-            "%s does not say the size and the place of its cells; 1 mm is taken, towards left, inferior and anterior: "
-            "give --spacing if it is another",
+            "%s does not say the size and the place of its cells; 1 mm is taken, towards left, inferior and anterior, "
+            "unless --spacing gives it",
             path,
         )
     numbers = np.array(place if placed else UNPLACED, dtype=np.float64)

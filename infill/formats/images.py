@@ -107,7 +107,7 @@ def place_volume(header: ImageHeader, values: NDArray[Any], *, varied: bool = Tr
     """Return values [x, y, z] as a volume that lies where the affine says; it must be neither sheared nor flat."""
     columns, first = header.affine[:, :AXES], header.affine[:, AXES]
     spacing = np.linalg.norm(columns, axis=0)
-    if not (np.isfinite(header.affine).all() and (spacing > 0).all()):
+    if not (np.isfinite(header.affine).all() and (spacing > 0).all() and np.isfinite(spacing).all()):
         raise FormatError(
             f"{header.path} has no usable place in space: its matrix is {_rows(header.affine)}; save it again"
         )
@@ -142,7 +142,7 @@ def scale_of(path: Path, word: str, what: str = "its sizes") -> float:
 def warn_of_unit(path: Path, word: str, what: str = "its sizes") -> None:
     """Warn that a word is no known unit of length."""
     LOG.warning(
-        "%s gives %s in %r, no known unit of length; they are taken as mm: give --spacing if they are not",
+        "%s gives %s in %r, no known unit of length; they are taken as mm, unless --spacing gives them",
         path,
         what,
         word[:40],

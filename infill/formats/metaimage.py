@@ -61,7 +61,7 @@ class _Fields(dict[str, str]):
 
 def read_meta_image(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
-    with told_broken(path):
+    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
         fields, listed, end = _fields(path)
         count = int(fields["ndims"])
         sizes = _whole(fields, "dimsize", count)
@@ -115,7 +115,7 @@ def _affine(path: Path, fields: _Fields, count: int) -> NDArray[np.float64]:
     origin = _first(path, fields, ORIGIN, count)
     sizes, gaps = (_floats(fields, name, count) for name in ("elementspacing", "elementsize"))
     if sizes is None and gaps is None:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken: give --spacing if it is another", path)
+        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
     elif sizes is not None and gaps is not None and not np.allclose(sizes, gaps, rtol=1e-3, atol=0):
         LOG.warning(
             "%s states cells of %s mm, %s mm apart (ElementSize, ElementSpacing); they are taken as that large as they "

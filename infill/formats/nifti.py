@@ -118,7 +118,7 @@ class _Header:
 
 def read_nifti(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
-    with told_broken(path), path.open("rb") as file:
+    with told_broken(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
         packed = file.read(2) == MAGIC_OF_GZIP
         file.seek(0)
         found = _header(path, _head(path, file, packed=packed))
@@ -248,10 +248,10 @@ def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.fl
     """
     unit = found.one("units") & LENGTH_BITS
     if unit == 0:
-        LOG.info("%s does not say its unit of length; it is taken as mm: give --spacing if it is another", path)
+        LOG.info("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
     elif unit not in MILLIMETRES:
         LOG.warning(
-            "%s has an unknown unit of length (code %d); it is taken as mm: give --spacing if it is not", path, unit
+            "%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit
         )
     scale = MILLIMETRES.get(unit, 1.0)
     steps = np.abs(np.array(found.all("pixdim")[1 : AXES + 1], dtype=np.float64))

@@ -124,14 +124,14 @@ class _Fields:
 
 def read_nrrd(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] where it lies in space, or one of several, counted from 0."""
-    with told_broken(path):
+    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
         header, read = _opened(path)
         return read_frame(header, frame, read)
 
 
 def read_layers(path: Path) -> tuple[Volume, ...]:
     """Read all volumes of a file, in order: the layers of a segmentation, which may be empty."""
-    with told_broken(path):
+    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
         header, read = _opened(path)
         return read_frames(header, read)
 
@@ -301,7 +301,7 @@ def _spaced(
         affine[place, place], affine[place, AXES] = scale * step, scale * first
     if missing and len(axes) == AXES:
         LOG.warning(
-            "%s does not say the size of its cells along %s; 1 mm is taken: give --spacing if it is another",
+            "%s does not say the size of its cells along %s; 1 mm is taken, unless --spacing gives it",
             path,
             "any axis" if len(missing) == AXES else "axis " + " and ".join(map(str, missing)),
         )

@@ -123,8 +123,7 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (len(tiff.pages) > 1 or int(known.get("images", 1)) > 1 or missing != ["z"]):
         LOG.warning(
-            "%s does not say the size of its cells along %s; 1 %s is taken, as ImageJ does: give --spacing if it is "
-            "another",
+            "%s does not say the size of its cells along %s; 1 %s is taken, as ImageJ does: unless --spacing gives it",
             path,
             " and ".join(missing),
             unit or "mm",
@@ -150,7 +149,9 @@ def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tup
     """Return the cell size of a file that gives dots per inch or cm, as for a printer, and no distance of its pages."""
     if _is_usual(per_cell, unit):
         LOG.info(
-            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken: give --spacing", path
+            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken, unless --spacing gives "
+            "them",
+            path,
         )
         return (1.0,) * AXES
     scale = _scale(path, unit, "x")
@@ -165,8 +166,8 @@ def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[flo
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (has_depth or missing != ["z"]):
         LOG.warning(
-            "%s does not say the size of its cells along %s; %.6g mm is taken, as along another axis: give --spacing "
-            "if it is not",
+            "%s does not say the size of its cells along %s; %.6g mm is taken, as along another axis, unless "
+            "--spacing gives it",
             path,
             " and ".join(missing),
             known[0],

@@ -155,7 +155,7 @@ def _extent(path: Path, key: str, words: list[str], cells: int, *, text: bool) -
 def _lattice(path: Path, known: dict[str, list[float]]) -> Lattice:
     points = tuple(int(count) for count in known.get("DIMENSIONS", ()))
     if "SPACING" not in known:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken: give --spacing if it is another", path)
+        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
         known["SPACING"] = [1.0] * AXES
     origin, spacing = (np.array(known.get(key, (d,) * AXES)) for key, d in (("ORIGIN", 0.0), ("SPACING", 1.0)))
     if len(points) != AXES or min(points) < 1 or origin.shape != (AXES,) or spacing.shape != (AXES,):

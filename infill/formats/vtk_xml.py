@@ -82,7 +82,7 @@ def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int |
     """Return the volume that the pieces of an image make up."""
     extent = _extent(image.get("WholeExtent", ""))
     if image.get("Spacing") is None:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken: give --spacing if it is another", path)
+        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
     spacing = _numbers(image.get("Spacing", "1 1 1"), AXES)
     direction = _numbers(image.get("Direction", "1 0 0 0 1 0 0 0 1"), AXES * AXES).reshape(AXES, AXES)
     first = _numbers(image.get("Origin", "0 0 0"), AXES) + direction @ (spacing * extent[:, 0])
