@@ -55,9 +55,7 @@ def parse_cut(text: str) -> Cut:
     >>> parse_cut("z=10")
     Cut(axis=2, at=10.0)
     """
-    found = re.fullmatch(
-        r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*", text.lower()
-    )
+    found = re.fullmatch(TYPED, text.lower())
     if not found:
         raise UsageError(f"cut is {text!r}; give x, y or z and a place in mm, such as z=10")
     if not math.isfinite(float(found[2])):
