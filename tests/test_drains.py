@@ -298,7 +298,7 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
     box(20, 20, 20).export(tmp_path / "part.stl")
     words = ["fill", str(tmp_path / "part.stl"), "--pattern", "cubic-bars", "--cell", "12", "--voxel", "0.5"]
     config = tmp_path / "drains.toml"
-    drains = ["--drain", "3", "--vent", "--drain-at", "1,2,-10", "--drain-at=-10,1.5,2"]
+    drains = ["--drain", "3", "--vent", "--drain-at", "5,5,-10", "--drain-at=-10,5,5"]
     saved = ["--save-config", str(config), "-o", str(tmp_path / "a.stl")]
     done = CliRunner().invoke(build("fill"), [*words, *drains, *saved])
     assert done.exit_code == 0, done.output
