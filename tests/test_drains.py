@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +15,7 @@ from typer.testing import CliRunner
 from benchmarks import fill_drains
 from benchmarks.fill_drains import PARTS, Case, distances, faults, mouth_of, run, tilted
 from infill import GeometryError, Surface, UsageError, fill
-from infill.cli import app
+from infill.cli.app import build
 from infill.filling.solids.drain_clearance import Skin
 from infill.filling.solids.drain_columns import Lattice, cross, find_ways
 from infill.filling.solids.drain_places import TURN_OVER, Needs
@@ -147,7 +145,12 @@ def test_a_drain_moves_off_a_side_wall(side: int) -> None:
 
 def test_a_drain_passes_beside_a_bolt_hole_that_lies_in_its_way() -> None:
     """Across, below all of the middle of the void: the hole goes down beside it."""
-    part = less(box(30, 20, 20), rod(2, 40, (0, 0, -6)).apply_transform(trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0), (0, 0, -6))))
+    part = less(
+        box(30, 20, 20),
+        rod(2, 40, (0, 0, -6)).apply_transform(
+            trimesh.transformations.rotation_matrix(np.pi / 2, (1, 0, 0), (0, 0, -6))
+        ),
+    )
     void = box(8, 16, 8, (0, 0, 4))
     assert plan(part, void, diameter=3.0).undrained  # 8 mm wide, and the bolt hole needs 4 + 2 walls + 3
     wide = box(22, 16, 8, (0, 0, 4))
@@ -184,7 +187,7 @@ def test_a_void_that_nothing_reaches_is_told_with_its_place() -> None:
     (left,) = plan(part, void, diameter=3.0).undrained
     assert left.at[2] == pytest.approx(2.0)
     assert left.volume == pytest.approx(20 * 5 * 6)
-    assert left.blocked or left.fits is not None
+    assert left.fits is None or left.fits < 1  # between the slot and the end of the void there is 1.5 mm
 
 
 def test_the_diameter_that_is_said_to_fit_fits() -> None:
@@ -295,15 +298,17 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
     box(20, 20, 20).export(tmp_path / "part.stl")
     words = ["fill", str(tmp_path / "part.stl"), "--pattern", "cubic-bars", "--cell", "12", "--voxel", "0.5"]
     config = tmp_path / "drains.toml"
-    drains = ["--drain", "3", "--vent", "--drain-at", "1,2,-10", "--drain-at=-10,1.5,2"]
+    drains = ["--drain", "3", "--vent", "--drain-at", "5,5,-10", "--drain-at=-10,5,5"]
     saved = ["--save-config", str(config), "-o", str(tmp_path / "a.stl")]
-    done = CliRunner().invoke(app, [*words, *drains, *saved])
+    done = CliRunner().invoke(build("fill"), [*words, *drains, *saved])
     assert done.exit_code == 0, done.output
     assert "2 drain(s) of 3 mm; 1 vent(s) of 3 mm" in done.output
-    again = CliRunner().invoke(app, [*words[:2], "--config", str(config), "-o", str(tmp_path / "b.stl")])
+    again = CliRunner().invoke(build("fill"), [*words[:2], "--config", str(config), "-o", str(tmp_path / "b.stl")])
     assert again.exit_code == 0, again.output
     assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b.stl").read_bytes()
-    wrong = CliRunner().invoke(app, [*words, "--drain", "3", "--drain-at", "1,2", "-o", str(tmp_path / "c.stl")])
+    wrong = CliRunner().invoke(
+        build("fill"), [*words, "--drain", "3", "--drain-at", "1,2", "-o", str(tmp_path / "c.stl")]
+    )
     assert wrong.exit_code == 2
     assert not (tmp_path / "c.stl").exists()
 
@@ -349,12 +354,10 @@ def test_a_mouth_ends_where_its_face_does(degrees: float) -> None:
     faces = np.flatnonzero(skin.leaving)
     assert len(faces)
     at = lowest[:2] + np.array([0.0, 15.0 if lowest[1] < 0 else -15.0])
-    shaft = skin.shaft(at, int(faces[0]), float(lowest[2]), float(lowest[2]) + 4, float(lowest[2]) + 6, radius=2.0, wall=1.0, threads=1)
+    shaft = skin.shaft(
+        at, int(faces[0]), float(lowest[2]), float(lowest[2]) + 4, float(lowest[2]) + 6, radius=2.0, wall=1.0, threads=1
+    )
     assert shaft is None or shaft.clearance < 1.0
-
-
-def places(values: Sequence[float]) -> list[tuple[float, ...]]:
-    return list(itertools.product(values, repeat=2))
 
 
 def test_the_judge_measures_like_manifold() -> None:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import manifold3d
 
 AXES = "xyz"
+TYPED = r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*"
 MIDDLE, PLANES = (0.3, 0.7), 25  # of a side: between these, so many planes are tried
 AS_GOOD = 0.95  # of the best: of such planes, one in the middle of those beside one another is taken
 USUAL = 0.9  # of what a cut across x shows: one across y that shows this much is taken, as it is seen from the front
@@ -54,7 +55,7 @@ def parse_cut(text: str) -> Cut:
     >>> parse_cut("z=10")
     Cut(axis=2, at=10.0)
     """
-    found = re.fullmatch(r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*", text.lower())
+    found = re.fullmatch(TYPED, text.lower())
     if not found:
         raise UsageError(f"cut is {text!r}; give x, y or z and a place in mm, such as z=10")
     if not math.isfinite(float(found[2])):

@@ -103,7 +103,7 @@ def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: I
         away, number = cKDTree(reach.at[goals]).query(reach.at[starts], k=count)
         away, number = away.reshape(len(starts), count), number.reshape(len(starts), count)
         cost = away + reach.cost[starts][:, None] + reach.cost[goals][number]
-        best = _best(below, needs, tree, reach, starts, goals[number], cost)
+        best = _best(needs, tree, reach, starts, goals[number], cost)
         if not best:
             break
         shortest = min(price for price, _ in best)
@@ -116,7 +116,7 @@ def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: I
 
 
 def _best(
-    below: Below, needs: Needs, tree: Tree, reach: Reach, starts: Integers, goals: Integers, cost: Floats
+    needs: Needs, tree: Tree, reach: Reach, starts: Integers, goals: Integers, cost: Floats
 ) -> list[tuple[float, Branch]]:
     """Return the cheapest branch of every void that keeps the wall, with its cost."""
     found = []
@@ -166,10 +166,7 @@ def _reach(below: Below, needs: Needs, tree: Tree) -> Reach:
         if not len(short):
             break
         slope = np.stack(
-            [
-                tree.nearest(at[short] + ASIDE * step, threads=needs.threads)[0] - away[short]
-                for step in np.eye(3)
-            ],
+            [tree.nearest(at[short] + ASIDE * step, threads=needs.threads)[0] - away[short] for step in np.eye(3)],
             axis=1,
         )
         length = np.linalg.norm(slope, axis=1, keepdims=True)

@@ -203,7 +203,7 @@ class Skin:
             if tree is not None:
                 away = np.minimum(away, tree.nearest(points, threads=threads)[0])
         nearest = int(np.argmin(away))
-        # Between points, the hole may come nearer by what a chord of its surface is away from the sphere of a skin point.
+        # Between two of these points the hole may come nearer: the distance is that of the nearest of them, less this.
         near = float(away[nearest])
         clearance = math.sqrt(max(near**2 - spacing**2 * (1 + near / radius), 0.0)) if math.isfinite(near) else near
         return Shaft(
@@ -232,7 +232,7 @@ class Skin:
         return own[reached], own[~reached]
 
     def _rim(self, at: Floats, faces: Integers, low: float, radius: float) -> Floats | None:
-        """Return the heights at which a hole leaves some faces, all around and half way in; None if it runs off them."""
+        """Return the heights at which a hole leaves faces, all around and half way in; None if it runs off them."""
         angle = 2 * np.pi * np.arange(RIM) / RIM
         circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
         heights = np.abs((found := _heights(self.corners[faces], at + np.concatenate([circle, circle / 2]))) - low)

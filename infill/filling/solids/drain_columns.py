@@ -86,8 +86,8 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
     less often than they enter it run along an edge, and are left out.
     """
     line, height, up, face = cross(part, lattice)
-    own, tops, ups, _ = cross(voids, lattice)
-    owner = names[voids.faces[_, 0]] if len(voids.faces) else np.empty(0, dtype=np.int64)
+    own, tops, ups, crossed = cross(voids, lattice)
+    owner = names[voids.faces[crossed, 0]] if len(voids.faces) else np.empty(0, dtype=np.int64)
     lines = np.concatenate([line, own])
     heights = np.concatenate([height, tops])
     rising = np.concatenate([up, ups])
@@ -99,8 +99,10 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
     even = np.ones(count, dtype=bool)
     for some in (kind, ~kind):
         even &= np.bincount(lines[some], weights=rising[some], minlength=count) == 0
-    depth = np.cumsum(np.where(kind, rising, 0))  # of all lines before too: those that are even add nothing
-    odd = np.concatenate([[0.0], np.cumsum(np.where(~even, np.bincount(lines[kind], weights=rising[kind], minlength=count), 0))])
+    depth = np.cumsum(np.where(kind, rising, 0))  # of all lines before too
+    odd = np.concatenate(
+        [[0.0], np.cumsum(np.where(~even, np.bincount(lines[kind], weights=rising[kind], minlength=count), 0))]
+    )
     depth = depth - odd[lines]
     first = np.arange(max(len(lines) - 2, 0))
     second, third = first + 1, first + 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import islice, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -140,7 +141,7 @@ class Places:
         kept = np.flatnonzero(free)
         kept = kept[np.lexsort((cost[kept], ways.void[kept]))]
         ends = np.searchsorted(ways.void[kept], np.arange(below.count + 1))
-        order = [kept[begin:end] for begin, end in zip(ends[:-1], ends[1:], strict=True)]
+        order = [kept[begin:end] for begin, end in pairwise(ends.tolist())]
         _order_skin(below.skin, ways.face[kept])
         return cls(below=below, needs=needs, ways=ways, order=[_some(each) for each in order], lowest=lowest)
 
@@ -158,8 +159,7 @@ class Places:
             apart = np.linalg.norm(self.ways.at[mine][:, None] - taken, axis=2).min(axis=1)
             mine = mine[apart >= needs.diameter + needs.wall]
         for up in UP:
-            tries = 0
-            for way, high in self._passing(mine, up):
+            for way, high in islice(self._passing(mine, up), TRIES):
                 shaft = self.below.skin.shaft(
                     self.ways.at[way],
                     int(self.ways.face[way]),
@@ -172,9 +172,6 @@ class Places:
                 )
                 if shaft is not None and shaft.clearance >= needs.wall:
                     return shaft
-                tries += 1
-                if tries >= TRIES:
-                    break
         return None
 
     def _passing(self, ways: Integers, up: float) -> Iterator[tuple[int, float]]:

@@ -175,7 +175,7 @@ def _tool(hole: Hole, turn: float) -> manifold3d.Manifold:
 
 
 def _without_loose(found: Surface, solid: Surface) -> tuple[Surface, int]:
-    """Return a solid without the pieces that drilling cut off: those that have no vertex of the solid's outer shells."""
+    """Return a solid without the pieces that drilling cut off, the smallest outer shells, and how many these were."""
     names, count = shell_names(found)
     volume = shell_volumes(found, names, count)
     own, shells = shell_names(solid)
