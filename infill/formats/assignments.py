@@ -50,7 +50,9 @@ def table_of(filed: dict[str, Any]) -> Mapping[str, Any]:
     """Take the table of parameters out of what a config file holds, and return it."""
     table = filed.pop(SET, {})
     if not isinstance(table, dict):
-        raise ParameterError(f"{SET} is {quote_value(table)}; it must be a table: a line [{SET}], lines such as cell = 5")
+        raise ParameterError(
+            f"{SET} is {quote_value(table)}; it must be a table: a line [{SET}], lines such as cell = 5"
+        )
     return table
 
 

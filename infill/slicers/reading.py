@@ -296,8 +296,7 @@ def _body(model: Model, element: ElementTree.Element, part: str, main: str, path
         mesh=mesh,
         components=tuple(_key(each, part, main) for each in model.below(element, "components/component")),
         settings={
-            excerpt(key, 200): excerpt(value)
-            for key, value in settings_of(element, model.core, model.spaces).items()
+            excerpt(key, 200): excerpt(value) for key, value in settings_of(element, model.core, model.spaces).items()
         },
         foreign=tuple(dict.fromkeys(name_of(space) for space, _ in foreign if not is_harmless(space))),
     )
