@@ -147,7 +147,8 @@ def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
         found.append(f"{failed} sections were kept because a check of the new text failed")
     if tally.unread:
         found.append(
-            f"{tally.unread} lines that may move or extrude were not understood, the first is line {tally.first_unread}; "
+            f"{tally.unread} lines that may move or extrude were not understood, the first is line "
+            f"{tally.first_unread}; "
             "they stay as they are, and the times leave them out"
         )
     contact = report["contact"]

@@ -348,8 +348,8 @@ def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tup
         if line_starts is not None and smallest and not line_starts[starts].all():
             row = int(np.argmin(line_starts[starts]))
             raise FormatError(
-                f"{path} announces {smallest} number(s) or lists for each {quote_word(element.name)}, and row {row} does "
-                "not begin or end with a line; export the mesh again"
+                f"{path} announces {smallest} number(s) or lists for each {quote_word(element.name)}, and row {row} "
+                "does not begin or end with a line; export the mesh again"
             )
         place = int(starts[-1])
         yield element, columns

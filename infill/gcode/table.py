@@ -296,8 +296,8 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
                 counters |= {letter: words[letter] or 0.0 for letter in EXTRUDERS if letter in words}
                 if not command.words.keys().isdisjoint(EXTRUDERS):
                     changed[number] = replace(command, words={**words, "E": sum(counters.values())})
-        words = lines.further.get(command.line, {})
-        pushed = {letter: words[letter] for letter in EXTRUDERS if letter in words}
+        further = lines.further.get(command.line, {})
+        pushed = {letter: further[letter] or 0.0 for letter in EXTRUDERS if letter in further}
         if pushed:
             step = relative or relative_e
             counters |= {letter: value + (counters[letter] if step else 0.0) for letter, value in pushed.items()}

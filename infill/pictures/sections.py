@@ -143,7 +143,7 @@ def _shown(solids: list[manifold3d.Manifold], height: float) -> float:
     section = solids[0].slice(height)
     whole = solids[1].slice(height) if len(solids) > 1 else section.hull()
     longer = _outline(section) - _outline(whole)
-    return max(0.0, whole.area() - section.area()) ** 2 * math.sqrt(max(0.0, longer))
+    return float(max(0.0, whole.area() - section.area()) ** 2 * math.sqrt(max(0.0, longer)))
 
 
 def _outline(section: manifold3d.CrossSection) -> float:

@@ -84,7 +84,8 @@ class Skin:
         a, b, c = self.corners[:, 0], self.corners[:, 1], self.corners[:, 2]
         normal = np.cross(b - a, c - a)
         length = np.linalg.norm(normal, axis=1, keepdims=True)
-        return np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+        unit: Floats = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+        return unit
 
     @cached_property
     def neighbours(self) -> Integers:
@@ -116,7 +117,8 @@ class Skin:
         """Which faces a hole may leave through: near level, and not those of a closed cavity."""
         names, count = shell_names(self.part)
         outer = shell_volumes(self.part, names, count) > 0
-        return (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
+        level: Bools = (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
+        return level
 
     def tree(self, mouth: int) -> Tree | None:
         """Return the faces that do not belong to a mouth; None if there are none. -1 for all that do not look down."""

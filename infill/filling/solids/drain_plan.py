@@ -345,7 +345,8 @@ def _on_skin(place: Floats, part: Surface) -> tuple[Floats, int, float]:
 
     away, face = Tree.of(part).nearest(place[None])
     corners = np.asarray(part.vertices, dtype=np.float64)[part.faces[face]]
-    return np.asarray(closest_point(corners, place[None]), dtype=np.float64)[0], int(face[0]), float(away[0])
+    nearest = closest_point(corners, place[None])  # type: ignore[no-untyped-call]
+    return np.asarray(nearest, dtype=np.float64)[0], int(face[0]), float(away[0])
 
 
 def _normal(part: Surface, face: int) -> Floats:
