@@ -78,7 +78,8 @@ def row(engine: str, pattern: str, density: int, path: Path) -> bool:
     before, after = (max((pair[k] for pair in gaps), default=0.0) for k in (0, 1))
     growth = max((late / early - 1 for early, late in gaps), default=0.0)
     kept = filament(new) / filament(old)
-    touch = touching_walls(new) / max(touching_walls(old), 1e-9)
+    touched = touching_walls(old)
+    touch = touching_walls(new) / touched if touched else 1.0  # concentric lines keep away from walls
     time = report["time"]["infill_after_s"] / report["time"]["infill_before_s"]
     wide = any(late > (1 + MOST_GROWTH) * early + CUT + PIXEL for early, late in gaps)
     good = not wide and (kept >= LEAST_LENGTH or bool(report["problems"]))
