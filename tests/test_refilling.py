@@ -123,7 +123,9 @@ def test_what_small_regions_owe_is_paid(part: str, name: str, data: Path, tmp_pa
         ({"pattern": "grid"}, 0.995, False),
         ({"pattern": "grid", "density": 0.3}, 0.5, False),
         ({"pattern": "grid", "parameters": {"cell": 4.0}}, 0.5, False),
-        ({"pattern": "keep"}, 0.93, False),
+        ({"pattern": "keep"}, 0.975, False),
+        ({"pattern": "keep"}, 0.965, True),
+        ({"pattern": "keep", "density": "same"}, 0.93, True),
     ],
 )
 def test_filament_that_is_off_is_told(asked: dict[str, Any], ratio: float, told: bool, honeycomb: Path) -> None:

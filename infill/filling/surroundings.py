@@ -23,7 +23,7 @@ Places = NDArray[np.intp]
 STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 # Line widths that a corner beside a bead may move away from it. At a third, a grid touches walls along 13 % less of its
-# length, at a twelfth 2 to 4 %.
+# length, at a twelfth 2 to 6 %.
 ANCHORED = 1 / 12
 TOWARDS = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search

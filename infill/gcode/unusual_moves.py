@@ -1,8 +1,8 @@
 """Moves that are spelled in an unusual way, read one line at a time.
 
 `infill.gcode.lines` reads plain moves many at a time. What it is not sure of comes here: several blanks before a
-number, remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and B. A line
-that firmwares would take in different ways is not read at all, and callers count it.
+number, remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and B. A
+line that firmwares would take in different ways is not read at all, and callers count it.
 """
 
 from __future__ import annotations

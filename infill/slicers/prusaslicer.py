@@ -18,7 +18,8 @@ from infill.slicers.project import INFILL, PART, Project
 
 NAMESPACE = "http://schemas.slic3r.org/3mf/2017/06"
 CONFIG = "Metadata/Slic3r_PE_model.config"
-# At 0 % PrusaSlicer takes the part for a vase: it makes no solid layers behind slopes and under domes. At 0.1 % it does.
+# At 0 % PrusaSlicer takes the part for a vase: it makes no solid layers behind slopes and
+# under domes. At 0.1 % it does.
 # Lines would then be 450 mm apart, and a Hilbert curve of that size begins outside of the part, so that none is
 # printed; other patterns print one or more a layer. Without an area of 0, room between walls counts as a small island,
 # and is filled to the full.
