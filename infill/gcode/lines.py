@@ -14,8 +14,8 @@ from infill.gcode.unusual_moves import read_move
 
 Floats = NDArray[np.float64]
 
-# What a line is. Only MOVE and ARC are ever drawn; ODD is a line that is spelled in an unusual way: if it can be read, it
-# has values like the others, but its text holds more than they tell; if not, it is `unread`.
+# What a line is. Only MOVE and ARC are ever drawn; ODD is a line that is spelled in an unusual way: if it can be read,
+# it has values like the others, but its text holds more than they tell; if not, it is `unread`.
 OTHER, MOVE, ARC, COMMENT, BLANK, ODD = range(6)
 WORDS = "XYZEFIJ"
 _LETTERS = np.full(256, -1, dtype=np.int8)

@@ -1,8 +1,8 @@
 """Moves that are spelled in an unusual way, read one line at a time.
 
-`infill.gcode.lines` reads plain moves many at a time. What it is not sure of comes here: several blanks before a number,
-remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and B. A line
-that firmwares would take in different ways is not read at all, and callers count it.
+`infill.gcode.lines` reads plain moves many at a time. What it is not sure of comes here: several blanks before a
+number, remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and B. A
+line that firmwares would take in different ways is not read at all, and callers count it.
 """
 
 from __future__ import annotations
@@ -29,107 +29,22 @@ _CHECKSUM: Final = re.compile(rb"\*\s*\d+\s*$")
 # Codes that neither move the tool along a path nor change how the path is meant, or that the machine does on its own
 # without telling where: homing, levelling, dwelling, offsets of tools.
 STILL_CODES: Final = frozenset(
-    f"G{number}"
-    for number in (
-        4,
-        10,
-        11,
-        17,
-        18,
-        19,
-        20,
-        21,
-        28,
-        29,
-        29.1,
-        29.2,
-        30,
-        31,
-        32,
-        33,
-        34,
-        35,
-        38.2,
-        38.3,
-        38.4,
-        38.5,
-        39.1,
-        39.3,
-        39.4,
-        40,
-        49,
-        53,
-        54,
-        60,
-        61.1,
-        64,
-        80,
-        90,
-        90.1,
-        91,
-        91.1,
-        92,
-        92.1,
-        92.9,
-        94,
-        99,
-        130,
-        150.1,
-        150.2,
-        150.3,
-        161,
-        162,
-        180,
-        292,
-        380,
-        381,
-        382,
-        383,
-        392,
-        425,
+    word
+    for line in (
+        "G4 G10 G11 G17 G18 G19 G20 G21 G28 G29 G29.1 G29.2 G30 G31 G32 G33 G34 G35 G38.2 G38.3 G38.4 G38.5",
+        "G39.1 G39.3 G39.4 G40 G49 G53 G54 G60 G61.1 G64 G80 G90 G90.1 G91 G91.1 G92 G92.1 G92.9 G94 G99 G130",
+        "G150.1 G150.2 G150.3 G161 G162 G180 G292 G380 G381 G382 G383 G392 G425",
     )
+    for word in line.split()
 )
 # Their text may hold anything.
 _TEXTS: Final = frozenset(
-    f"M{number}"
-    for number in (
-        16,
-        20,
-        23,
-        28,
-        30,
-        32,
-        33,
-        36,
-        37,
-        38,
-        98,
-        117,
-        118,
-        118.1,
-        291,
-        300,
-        486,
-        550,
-        551,
-        552,
-        559,
-        560,
-        587,
-        588,
-        589,
-        701,
-        702,
-        862,
-        862.1,
-        862.2,
-        862.3,
-        862.5,
-        862.6,
-        928,
-        929,
-        1002,
+    word
+    for line in (
+        "M16 M20 M23 M28 M30 M32 M33 M36 M37 M38 M98 M117 M118 M118.1 M291 M300 M486 M550 M551 M552 M559 M560",
+        "M587 M588 M589 M701 M702 M862 M862.1 M862.2 M862.3 M862.5 M862.6 M928 M929 M1002",
     )
+    for word in line.split()
 )
 _INNER_MOVE: Final = re.compile(rb"[\s\d][Gg]\s*0*[0-35](?![\d.])")
 _AXIS_FIRST: Final = re.compile(
