@@ -115,7 +115,7 @@ def marked(table: Table, before: Tags) -> Marks:
                 tool_changed = line
             elif command.code == "M204":
                 value = command.words.get("P") or command.words.get("S")
-                if value:
+                if value and value > 0:
                     now = replace(now, acceleration=value)
                     events.append((line, now))
             continue
