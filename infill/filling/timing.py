@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from infill.gcode.bounds import Moves
 from infill.gcode.dialect import role_of
+from infill.gcode.found_limits import FoundLimits
 from infill.gcode.limits import Limits
 from infill.gcode.planner import Plan, plan
 from infill.gcode.sections import SPARSE
@@ -119,7 +120,7 @@ class PrintClock:
         like: PrintClock | None = None,
     ) -> None:
         self._timeline = timeline_of_text(given, text, found=None if like is None else like.found)
-        self.found = self._timeline.found
+        self.found: FoundLimits = self._timeline.found
         self.begin: State = self._timeline.state
         self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
         self._elapsed = np.zeros(len(self._asked))
