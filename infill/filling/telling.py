@@ -148,8 +148,7 @@ def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
     if tally.unread:
         found.append(
             f"{tally.unread} lines that may move or extrude were not understood, the first is line "
-            f"{tally.first_unread}; "
-            "they stay as they are, and the times leave them out"
+            f"{tally.first_unread}; they stay as they are, and the times leave them out"
         )
     contact = report["contact"]
     if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:

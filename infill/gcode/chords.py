@@ -11,7 +11,7 @@ from infill.gcode.table import Table
 LONGEST = 1.0  # mm: the default of Marlin (MM_PER_ARC_SEGMENT) and of Klipper (gcode_arcs)
 SHORTEST = 0.1  # mm
 CIRCLE = 72  # chords at least, if they do not get too short
-MOST = 1 << 22  # chords of all arcs at once: more of them mean that the file is wrong
+MOST_OF_ARC, MOST = 1 << 14, 1 << 22  # chords of an arc, and of all at once: more of them mean that the file is wrong
 COARSE = 0.26  # of the diameter: the sine of 15 degrees; even the smallest arcs are cut finer
 PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane and the one across it
 
@@ -111,7 +111,7 @@ def chords(
         turn = turn + np.where(clockwise, -2 * np.pi, 2 * np.pi) * np.maximum(turns - 1, 0)
     length = np.abs(turn) * radius
     fine = np.minimum(np.abs(turn) * CIRCLE / (2 * np.pi), length / SHORTEST)
-    wanted = np.maximum(np.ceil(np.maximum(length / LONGEST, fine) - 1e-9), 1)
+    wanted = np.clip(np.ceil(np.maximum(length / LONGEST, fine) - 1e-9), 1, MOST_OF_ARC)
     count = np.maximum(wanted * min(1.0, MOST / max(wanted.sum(), 1.0)), 1).astype(np.intp)
     arc = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(arc)) - np.repeat(np.cumsum(count) - count, count)

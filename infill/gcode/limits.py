@@ -27,6 +27,7 @@ _MAY_BE_ZERO: Final = {
     "square_corner_velocity",
     "minimum_cruise_ratio",
 }
+LEAST, MOST = 1e-3, 1e9  # of a limit in mm/s or mm/s²: others are mistakes of the file
 _ZERO_WORDS: Final = {"SQUARE_CORNER_VELOCITY", "MINIMUM_CRUISE_RATIO"}
 _PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*[\"']?\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?)", re.IGNORECASE)
 _CODE: Final = re.compile(rb"\s*(?:[Nn]\d+\s*)?[A-Za-z]\d+(?:\.\d+)?")
@@ -182,7 +183,9 @@ def _cornered(limits: Limits, words: dict[str, float]) -> Limits:
 def _limited(limits: Limits, line: bytes) -> Limits:
     """Follow Klipper's SET_VELOCITY_LIMIT; it takes no limits below 0, and none of 0 but two."""
     found = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
-    words = {name: value for name, value in found.items() if value > 0 or (value == 0 and name in _ZERO_WORDS)}
+    words = {
+        name: value for name, value in found.items() if LEAST < value < MOST or (value == 0 and name in _ZERO_WORDS)
+    }
     acceleration = words.get("ACCEL", limits.acceleration)
     ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)
     if "ACCEL_TO_DECEL" in words:  # until 2024; it is the ratio's complement in mm/s²

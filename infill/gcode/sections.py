@@ -163,7 +163,8 @@ def marked(table: Table, before: Tags) -> Marks:
                 changed_tool = changed_tool if now.purging else line
                 now = replace(now, tool=tool, purging=True)
             elif command.code == "M204":
-                now = replace(now, acceleration=command.words.get("P") or command.words.get("S") or now.acceleration)
+                value = command.words.get("P") or command.words.get("S")
+                now = replace(now, acceleration=value) if value and value > 0 else now
         else:
             tag = tag_of(table.text(line, line + 1)[:200].lstrip())
             if tag is None:

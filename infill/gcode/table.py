@@ -292,10 +292,10 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
             case "M82" | "M83":
                 relative_e = command.code == "M83"
             case "G92":
-                words = {**dict.fromkeys("XYZAB", 0.0), **command.words} if not command.words else command.words
-                counters |= {letter: words[letter] or 0.0 for letter in EXTRUDERS if letter in words}
+                reset = command.words or dict.fromkeys(EXTRUDERS)  # without a word, all
+                counters |= {letter: reset[letter] or 0.0 for letter in EXTRUDERS if letter in reset}
                 if not command.words.keys().isdisjoint(EXTRUDERS):
-                    changed[number] = replace(command, words={**words, "E": sum(counters.values())})
+                    changed[number] = replace(command, words={**reset, "E": sum(counters.values())})
         further = lines.further.get(command.line, {})
         pushed = {letter: further[letter] or 0.0 for letter in EXTRUDERS if letter in further}
         if pushed:
