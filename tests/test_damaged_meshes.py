@@ -15,6 +15,7 @@ import pytest
 import test_glb_dialects as glb
 import test_obj_dialects as obj
 import test_ply_dialects as ply
+import trimesh
 
 from infill import FormatError, Surface, check, read_mesh
 from infill.errors import InfillError
@@ -156,3 +157,20 @@ def test_check_of_triangles_without_an_area(tmp_path: Path) -> None:
     )
     with pytest.raises(FormatError, match="no triangle with an area"):
         check(line)
+
+
+def test_a_corner_beyond_all_measure_is_refused(tmp_path: Path) -> None:
+    """Squares of it would be infinite, and an area not a number."""
+    path = tmp_path / "far.off"
+    path.write_text("OFF\n4 4 0\n0 0 0\n1e308 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+    with pytest.raises(FormatError, match=r"holds a corner at 1e\+308 mm; the limit is 1e\+12 mm"):
+        read_mesh(path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-32"])
+def test_text_of_wide_letters_is_no_binary_stl(encoding: str, tmp_path: Path) -> None:
+    """Its letters would be read as a count of triangles."""
+    box = trimesh.creation.box((3, 4, 5))
+    path = tmp_path / "box.stl"
+    path.write_bytes(("solid body" + " " * 60 + trimesh.exchange.stl.export_stl_ascii(box)[5:]).encode(encoding))
+    assert read_mesh(path).extents == pytest.approx((3, 4, 5))

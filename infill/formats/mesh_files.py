@@ -30,6 +30,7 @@ from infill.surfaces.merging import closed_or_merged, surface_of
 if TYPE_CHECKING:
     import trimesh
 
+FARTHEST = 1e12  # mm, a million kilometres: beyond, a number is broken, and squares of it leave what numbers hold
 LOG = logging.getLogger("infill")
 
 
@@ -126,6 +127,12 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
         raise FormatError(f"{source} holds no triangles; export the mesh again")
     if not np.isfinite(vertices).all():
         raise FormatError(f"{source} holds coordinates that are not numbers; export the mesh again")
+    farthest = float(np.abs(vertices).max())
+    if farthest > FARTHEST:
+        raise FormatError(
+            f"{source} holds a corner at {farthest:g} mm; the limit is {FARTHEST:g} mm; check its units, or export the "
+            "mesh again"
+        )
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
     mesh = closed_or_merged(vertices, faces)

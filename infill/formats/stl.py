@@ -41,7 +41,8 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
     """
     data = path.read_bytes()
     count = int.from_bytes(data[80:HEAD], "little")
-    if count and len(data) >= HEAD + count * RECORD.itemsize:
+    whole = HEAD + count * RECORD.itemsize
+    if count and len(data) >= whole and (len(data) == whole or not wide_encoding(data)):
         _check_rest(path, count, data[HEAD + count * RECORD.itemsize :])
         corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
     elif wide_encoding(data) or (

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from infill.checks import whole
 from infill.errors import FormatError, GeometryError, ParameterError, UsageError
+from infill.formats.broken import BROKEN
 from infill.formats.mesh_files import READERS, read_mesh
 from infill.formats.point_files import read_points_and_normals
 from infill.formats.segmentations import Segmentation, read_segmentation
@@ -249,7 +250,7 @@ def _axes_of_npy(path: Path) -> int | None:
     """Return how many axes the array in a file has, or None if it cannot be read."""
     try:
         return np.load(path, mmap_mode="r", allow_pickle=False).ndim  # type: ignore[no-any-return]
-    except (OSError, ValueError, EOFError):
+    except (OSError, *BROKEN):
         return None  # whoever reads it will report what is wrong
 
 

@@ -22,7 +22,7 @@ class MeshOpinion:
     reader: str
     closed: bool
     extents: NDArray[np.float64]  # mm
-    area: float  # mm²
+    area: float | None  # mm²; None where polygons are cut by fans, which may leave them
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,9 +63,12 @@ def _asked(name: str, read: Callable[[Path], Iterator[Opinion]], path: Path) -> 
         return []
 
 
-def mesh_opinion(reader: str, points: NDArray[np.float64], faces: NDArray[np.int64]) -> MeshOpinion:
+def mesh_opinion(
+    reader: str, points: NDArray[np.float64], faces: NDArray[np.int64], *, fans: bool = False
+) -> MeshOpinion:
     """Judge triangles: closed where every edge, between places and not numbers of corners, has an even count."""
-    _, places = np.unique(points + 0.0, axis=0, return_inverse=True)
+    # Text may say more digits than STL holds: corners that are one there are one here.
+    _, places = np.unique(points.astype(np.float32) + 0.0, axis=0, return_inverse=True)
     corners = places.reshape(-1)[faces]
     whole = corners[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
     edges = np.sort(np.concatenate([whole[:, [0, 1]], whole[:, [1, 2]], whole[:, [2, 0]]]), axis=1)
@@ -78,7 +81,7 @@ def mesh_opinion(reader: str, points: NDArray[np.float64], faces: NDArray[np.int
         reader=reader,
         closed=bool(len(whole) and (counts % 2 == 0).all()),
         extents=np.ptp(points[faces].reshape(-1, 3), axis=0),
-        area=float(area),
+        area=None if fans else float(area),
     )
 
 
@@ -91,7 +94,7 @@ def _by_trimesh(path: Path) -> Iterator[MeshOpinion]:
         scale = 1000.0 if path.suffix == ".glb" else 1.0
         points, faces = np.asarray(mesh.vertices, float) * scale, np.asarray(mesh.faces)
         if np.isfinite(points).all() and faces.min() >= 0 and faces.max() < len(points):
-            yield mesh_opinion("trimesh", points, faces)
+            yield mesh_opinion("trimesh", points, faces, fans=path.suffix.lower() in (".obj", ".ply", ".off"))
 
 
 def _by_meshio(path: Path) -> Iterator[MeshOpinion]:

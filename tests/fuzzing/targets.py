@@ -58,7 +58,12 @@ def _contradictions(told: dict[str, object], path: Path) -> Iterator[str]:
     ):
         yield f"extents, which {' and '.join(each.reader for each in opinions)} contradict"
     area = float(told["area"])  # type: ignore[arg-type]
-    if told["printable"] and not any(abs(area - each.area) <= 10 * NEAR * max(area, each.area) for each in opinions):
+    measured = [each for each in opinions if each.area is not None]
+    if (
+        told["printable"]
+        and measured
+        and not any(abs(area - each.area) <= 10 * NEAR * max(area, each.area) for each in measured)
+    ):
         yield f"printable, with an area that {' and '.join(each.reader for each in opinions)} contradict"
 
 
