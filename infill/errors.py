@@ -13,19 +13,14 @@ Python spells it: "line_width is -1 mm; ..."; the command line puts the option t
 has its own errors, `patterns.PatternError`, since it may not import this package.
 """
 
-import re
-
-# What a terminal acts on or shows in another order, and what ends a line: files and their names may hold it.
-UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
-
 
 def printable(text: str) -> str:
-    r"""Return a text on one line, with control characters, and those that turn its direction, as escapes.
+    r"""Return a text on one line, with whatever a terminal would obey, or not show, as escapes.
 
     >>> print(printable("a.nrrd holds \x1b[31m"))
     a.nrrd holds \x1b[31m
     """
-    return UNPRINTABLE.sub(lambda found: found[0].encode("unicode_escape").decode("ascii"), text)
+    return text if text.isprintable() else "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
 
 
 class InfillError(Exception):

@@ -41,8 +41,10 @@ def plain_text(path: Path) -> bytes:
 
 
 def wide_encoding(data: bytes) -> str:
-    """Return the encoding of a text of two bytes a character, by its mark or by its zeros; empty if it is not one."""
+    """Return the encoding of a text of two or four bytes a character, by its mark or its zeros, or ""."""
     head = data[:HEAD]
+    if head.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)):  # the former begins as UTF-16 does
+        return "utf-32"
     if head.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         return "utf-16"
     if len(head) == HEAD and head[1] == head[3] == 0 < min(head[0], head[2]):
