@@ -15,8 +15,11 @@ has its own errors, `patterns.PatternError`, since it may not import this packag
 
 import re
 
-# What a terminal acts on or shows in another order, and what ends a line: files and their names may hold it.
-UNPRINTABLE = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff]")
+# What a terminal acts on, does not show or shows in another order, and what ends a line: files and their names may
+# hold it.
+UNPRINTABLE = re.compile(
+    "[\x00-\x1f\x7f-\x9f\xad\u061c\u200b\u200e\u200f\u2028-\u202e\u2060-\u2069\ufeff\ud800-\udfff]"
+)
 
 
 def printable(text: str) -> str:
