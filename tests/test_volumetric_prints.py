@@ -28,6 +28,7 @@ TELLING = {  # how programs say it
     "M200 without blanks": (LINEAR, lambda text: b"N1 m200d1.75 s1*7\n" + text),
     "M200 S": (LINEAR, lambda text: b"M200 S1\n" + text),
     "M200 of a tool": (LINEAR, lambda text: b"M200 T0 D1.75\nM200 T1 D2.85\n" + text),
+    "M200 in inches": (LINEAR, lambda text: b"G20\nM200 D0.0688976378\nG21\n" + text),
     "M200 after a limit": (LINEAR, lambda text: b"M200 D1.75\nM200 L20\n" + text),
     "UltiGCode": (CURA, lambda text: re.sub(rb"(?m)^;FLAVOR:.*$", b";FLAVOR:UltiGCode", text)),
     "Marlin(Volumetric)": (CURA, lambda text: re.sub(rb"(?m)^;FLAVOR:.*$", b";FLAVOR:Marlin(Volumetric)", text)),
