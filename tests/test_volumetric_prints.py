@@ -28,7 +28,6 @@ TELLING = {  # how programs say it
     "M200 without blanks": (LINEAR, lambda text: b"N1 m200d1.75 s1*7\n" + text),
     "M200 S": (LINEAR, lambda text: b"M200 S1\n" + text),
     "M200 of a tool": (LINEAR, lambda text: b"M200 T0 D1.75\nM200 T1 D2.85\n" + text),
-    "M200 in inches": (LINEAR, lambda text: b"G20\nM200 D0.0688976378\nG21\n" + text),
     "M200 after a limit": (LINEAR, lambda text: b"M200 D1.75\nM200 L20\n" + text),
     "UltiGCode": (CURA, lambda text: re.sub(rb"(?m)^;FLAVOR:.*$", b";FLAVOR:UltiGCode", text)),
     "Marlin(Volumetric)": (CURA, lambda text: re.sub(rb"(?m)^;FLAVOR:.*$", b";FLAVOR:Marlin(Volumetric)", text)),
@@ -83,6 +82,12 @@ def test_each_tool_has_its_filament() -> None:
 def test_no_diameter_without_sense_is_taken() -> None:
     for words in ({"D": 1e9}, {"D": None}, {"T": -1.0, "D": 2.0}, {"T": 1e9, "D": 2.0}, {"L": 3.0}):
         assert filament_counted(State(), words).diameters == (1.75,)
+
+
+def test_a_diameter_is_in_the_unit_of_the_file() -> None:
+    text = b"M83\nG20\nM200 D.07\nG1 X1 E1\n"
+    table = read(text, State(x=0.0, y=0.0, z=0.0))
+    assert table.filament[3] == pytest.approx(25.4 / (math.pi / 4 * (0.07 * 25.4) ** 2))
 
 
 def test_a_diameter_of_the_settings_is_taken(tmp_path: Path) -> None:
