@@ -174,6 +174,7 @@ NEGATIVE: dict[str, Callable[[Path], Path]] = {
     "bambu": lambda path: by_components(path, "negative_part"),
     "bambu, in a file": lambda path: by_components(path, "negative_part", elsewhere=True),
     "bambu, nested": lambda path: by_components(path, "negative_part", nested=True),
+    "bambu, other": lambda path: by_components(path, "negative_part", elsewhere=True, typed="other"),
 }
 
 

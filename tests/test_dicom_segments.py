@@ -259,6 +259,17 @@ def test_slices_of_which_none_lie_side_by_side_are_told(tmp_path: Path) -> None:
     assert "none that lie side by side" in found.layers[0].warnings[0]
 
 
+@pytest.mark.parametrize(("numbers", "told"), [((0, 3, 6), True), ((0, 1, 2), False)])
+def test_a_step_that_nothing_states_and_the_thickness_contradicts_is_told(
+    numbers: tuple[int, ...], told: bool, tmp_path: Path
+) -> None:
+    """Of frames of 3 mm that lie 7.5 mm apart, some may be left out because they are empty."""
+    made = segmentation(TWO[1][3:6].astype(np.uint8), at(numbers), [1] * 3, between=None, bits=1)
+    found = read_segmentation(save(made, tmp_path / "a.dcm")).layers[0]
+    assert any("does not say how far apart slices are" in each for each in found.warnings) == told
+    assert found.spacing == (1.0, 0.5, STEP * numbers[1])
+
+
 def test_a_step_that_is_stated_wrongly_gives_way_to_the_places(tmp_path: Path) -> None:
     """The thickness, say, stated as the distance."""
     made = segmentation(TWO[1][3:8].astype(np.uint8), at(range(5)), [1] * 5, between=4.0, bits=1)

@@ -146,6 +146,16 @@ def test_comments_ends_of_lines_and_bytes_behind(form: str, end: str, tmp_path: 
     assert_is(write(tmp_path, data + (b"\n" if form == "ascii" else b"\n\0 made by hand")), HALVED)
 
 
+@every_form
+def test_what_follows_the_last_row_is_told(form: str, tmp_path: Path) -> None:
+    """A row more than announced, or bytes of a program's own; blanks are none of these."""
+    data = ply(form, [points(HALVED), faces(HALVED)])
+    more = b"3 0 1 2\n" if form == "ascii" else b"\3" + bytes(12)
+    assert read_mesh(write(tmp_path, data + b"\n \n")).notes == ()
+    (note,) = read_mesh(write(tmp_path, data + more)).notes
+    assert note.startswith("4 word(s) follow" if form == "ascii" else "13 byte(s) follow")
+
+
 def test_text_with_odd_blanks(tmp_path: Path) -> None:
     head, mark, body = ply("ascii", [points(HALVED), faces(HALVED)]).partition(b"end_header\n")
     for blanks in (b"\t", b"   ", b" \t "):
@@ -377,9 +387,14 @@ def test_a_text_stl_in_every_dialect(name: str, tmp_path: Path) -> None:
     assert mesh.closed
 
 
+LEFT_OUT = "{} byte(s) follow the last triangle that it announces: they are left out"
+
+
 def test_a_binary_stl_with_bytes_behind(tmp_path: Path) -> None:
     for more in (b"\r\n", b"x" * 49, b"made by hand" * 9):
-        assert read_mesh(write(tmp_path, binary_stl(CORNERS) + more, "part.stl")).closed
+        found = read_mesh(write(tmp_path, binary_stl(CORNERS) + more, "part.stl"))
+        assert found.closed
+        assert found.notes == (() if more.isspace() else (LEFT_OUT.format(len(more)),))
 
 
 @pytest.mark.parametrize("more", [binary_stl(APART), stl(APART).encode()])

@@ -84,6 +84,12 @@ def test_no_diameter_without_sense_is_taken() -> None:
         assert filament_counted(State(), words).diameters == (1.75,)
 
 
+def test_a_diameter_is_in_the_unit_of_the_file() -> None:
+    text = b"M83\nG20\nM200 D.07\nG1 X1 E1\n"
+    table = read(text, State(x=0.0, y=0.0, z=0.0))
+    assert table.filament[3] == pytest.approx(25.4 / (math.pi / 4 * (0.07 * 25.4) ** 2))
+
+
 def test_a_diameter_of_the_settings_is_taken(tmp_path: Path) -> None:
     wide = math.pi / 4 * 2.85**2
     text = volumetric(LINEAR, wide) + b"; use_volumetric_e = 1\n; filament_diameter = 2.85\n"

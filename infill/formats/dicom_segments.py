@@ -140,7 +140,8 @@ def _grid(image: Image) -> tuple[Grid, tuple[str, ...]]:
     for step in dict.fromkeys([abs(stated)] if stated else []) | {float(apart.min()): None}:
         found = _slices(places, order, steps, step, plane)
         if found is not None:
-            return _padded(frames, found, plane), (*warnings, *_sparse(image, found[0], step))
+            said = _sparse(image, found[0], step) or _thin(image, frames[0], step)
+            return _padded(frames, found, plane), (*warnings, *said)
     raise FormatError(
         f"{image.path} has slices away from even steps of {stated or float(apart.min()):.4g} mm (the steps are "
         f"{float(apart.min()):.4g} to {largest:.4g} mm, or slices are shifted sideways); resample it, or save it as "
@@ -173,6 +174,20 @@ def _sparse(image: Image, slices: NDArray[np.int64], step: float) -> tuple[str, 
     return (
         f"{image.path} says that slices are {step:g} mm apart and holds none that lie side by side; those between them "
         "are empty",
+    )
+
+
+def _thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
+    """Return a warning if nothing says how far apart slices are, and they lie further apart than they are thick.
+
+    Frames without a cell of a segment are left out of files, so that the even steps of the others may be too long.
+    """
+    thick = frame.thickness
+    if frame.between or not thick or step <= (1 + UNEVEN) * thick:
+        return ()
+    return (
+        f"{image.path} does not say how far apart slices are: its frames lie {step:g} mm apart and are {thick:g} mm "
+        f"thick, and {step:g} mm are taken; if slices between them are empty, the solid is too large",
     )
 
 

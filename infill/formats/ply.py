@@ -45,6 +45,7 @@ ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 CORNER_LISTS = ("vertex_indices", "vertex_index", "vertex_indexes")
 HEAD = 2**20  # bytes within which a header ends
 MOST_ROWS = 2**40
+BLANK, LONGEST_BLANK = b"\0\t\n\r ", 2**12  # what may follow the last row, and how much of it
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,8 +92,8 @@ class Element:
 Columns = dict[str, NDArray[Any]]  # of a list: its numbers, one row after another, and under "name#" how many a row has
 
 
-def read_ply(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Return vertices and triangles; polygons and triangle strips are split.
+def read_ply(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64], tuple[str, ...]]:
+    """Return vertices, triangles, and a note on what follows the last row; polygons and triangle strips are split.
 
     Raises
     ------
@@ -105,7 +106,9 @@ def read_ply(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     vertices: NDArray[np.float64] | None = None
     faces: list[tuple[NDArray[np.int64], NDArray[np.int64]]] = []
     strips: list[tuple[NDArray[np.int64], NDArray[np.int64]]] = []
-    for element, columns in rows:
+    rest = ""
+    for element, columns, left in rows:
+        rest = left  # of the last of them
         if element.name == "vertex":
             vertices = _vertices(path, element, columns)
         elif element.name in ("face", "tristrips") and element.rows:
@@ -121,7 +124,8 @@ def read_ply(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         require_corners(path, flat, len(vertices))
         triangles.append(split_polygons(vertices, flat, counts))
     triangles += [split_strips(flat, counts) for flat, counts in strips]
-    return vertices, np.concatenate(triangles)
+    notes = (f"{rest} follow the last row that it announces: they are left out",) if rest else ()
+    return vertices, np.concatenate(triangles), notes
 
 
 def require_corners(path: Path, corners: NDArray[np.int64], vertices: int) -> None:
@@ -209,8 +213,8 @@ def _cut_off(path: Path, element: Element) -> FormatError:
 
 def _binary_rows(
     path: Path, data: bytes, place: int, order: str, elements: list[Element]
-) -> Iterator[tuple[Element, Columns]]:
-    """Yield each element with the numbers of its rows."""
+) -> Iterator[tuple[Element, Columns, str]]:
+    """Yield each element with the numbers of its rows, and how much follows them."""
     for element in elements:
         smallest = sum(np.dtype(each.count or each.kind).itemsize for each in element.properties)
         if element.rows * smallest > len(data) - place:
@@ -221,7 +225,9 @@ def _binary_rows(
         else:
             alike = _rows_alike(data, place, order, element)
             columns, place = alike if alike else _rows_that_differ(path, data, place, order, element)
-        yield element, columns
+        rest = len(data) - place
+        is_blank = rest <= LONGEST_BLANK and not data[place:].strip(BLANK)
+        yield element, columns, "" if is_blank else f"{rest:,} byte(s)"
 
 
 def _plain_rows(data: bytes, place: int, order: str, element: Element) -> Columns:
@@ -327,9 +333,9 @@ def _length(data: bytes, place: int, count: np.dtype[Any]) -> int:
 # --- text ------------------------------------------------------------------------------------------------
 
 
-def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tuple[Element, Columns]]:
-    """Yield each element with the numbers of its rows."""
-    values = _words_as_numbers(data)
+def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tuple[Element, Columns, str]]:
+    """Yield each element with the numbers of its rows, and how much follows them."""
+    values, count = _words_as_numbers(data)
     line_starts = _line_starts(path, data, sum(element.rows for element in elements))
     place = 0
     for element in elements:
@@ -352,7 +358,7 @@ def _text_rows(path: Path, data: bytes, elements: list[Element]) -> Iterator[tup
                 "does not begin or end with a line; export the mesh again"
             )
         place = int(starts[-1])
-        yield element, columns
+        yield element, columns, f"{count - place:,} word(s)" if count > place else ""
 
 
 def _line_starts(path: Path, data: bytes, rows: int) -> NDArray[np.bool_] | None:
@@ -365,16 +371,18 @@ def _line_starts(path: Path, data: bytes, rows: int) -> NDArray[np.bool_] | None
     return found
 
 
-def _words_as_numbers(data: bytes) -> NDArray[np.float64]:
-    """Return the numbers of a text up to the first word that is not one."""
+def _words_as_numbers(data: bytes) -> tuple[NDArray[np.float64], int]:
+    """Return the numbers of a text up to the first word that is not one, and how many words it has."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", DeprecationWarning)
         try:
-            return np.fromstring(data, dtype=np.float64, sep=" ")
+            values = np.fromstring(data, dtype=np.float64, sep=" ")
+            return values, len(values)
         except (DeprecationWarning, ValueError):  # words behind the numbers, or between them
             words = data.split()
     wrong = next((place for place, word in enumerate(words) if number_complaint(word)), len(words))
-    return np.array(words[:wrong], dtype="S").astype(np.float64) if wrong else np.empty(0)
+    values = np.array(words[:wrong], dtype="S").astype(np.float64) if wrong else np.empty(0)
+    return values, len(words)
 
 
 def _too_few(path: Path, data: bytes, element: Element) -> FormatError:

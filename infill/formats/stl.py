@@ -31,8 +31,8 @@ VERTEX = re.compile(rb"[\r\n]\s*vertex" + 3 * NUMBER, re.IGNORECASE)
 VERTEX_WORD = re.compile(rb"[\r\n]\s*vertex\b", re.IGNORECASE)
 
 
-def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
-    """Return vertices, three for each triangle, and faces.
+def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]:
+    """Return vertices, three for each triangle, faces, and a note on what follows the last one.
 
     Raises
     ------
@@ -40,10 +40,11 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
         If a binary file does not hold what it announces, or text is not in triangles.
     """
     data = path.read_bytes()
+    notes: tuple[str, ...] = ()
     count = int.from_bytes(data[80:HEAD], "little")
     whole = HEAD + count * RECORD.itemsize
     if count and len(data) >= whole and (len(data) == whole or not wide_encoding(data)):
-        _check_rest(path, count, data[HEAD + count * RECORD.itemsize :])
+        notes = _check_rest(path, count, data[whole:])
         corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
     elif wide_encoding(data) or (
         data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data
@@ -56,11 +57,14 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer]]:
             f"{path} is neither text nor a whole binary STL ({len(data)} bytes, {count} triangles announced); "
             "export the mesh again"
         )
-    return corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3)
+    return corners.reshape(-1, 3), np.arange(len(corners) * 3).reshape(-1, 3), notes
 
 
-def _check_rest(path: Path, count: int, rest: bytes) -> None:
-    """Raise FormatError if what follows the triangles is more triangles; some programs add bytes of their own."""
+def _check_rest(path: Path, count: int, rest: bytes) -> tuple[str, ...]:
+    """Return a note on what follows the triangles, or raise FormatError if that is more triangles.
+
+    Some programs add bytes of their own.
+    """
     more, left = divmod(len(rest), RECORD.itemsize)
     announced = int.from_bytes(rest[80:HEAD], "little")
     if b"facet" in rest or (announced and len(rest) == HEAD + announced * RECORD.itemsize):
@@ -70,6 +74,9 @@ def _check_rest(path: Path, count: int, rest: bytes) -> None:
             f"{path} announces {count} triangles and holds {count + more}: part of it would be left out; "
             "export the mesh again"
         )
+    if not rest.strip(b"\0\t\n\r "):
+        return ()
+    return (f"{len(rest):,} byte(s) follow the last triangle that it announces: they are left out",)
 
 
 def _text_corners(path: Path, text: bytes) -> NDArray[np.floating]:

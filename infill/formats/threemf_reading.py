@@ -145,6 +145,14 @@ class _Reading:
         with told_broken(self.path, f"has a broken {BAMBU_CONFIG}", AGAIN):
             return bambu_parts(parsed_xml(unpacked(self.package, BAMBU_CONFIG), self.path))
 
+    def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str]:
+        """Return role and name of an object within what is built, as Bambu Studio and OrcaSlicer say.
+
+        They write every object that is no part with the type "other", so of a negative volume the role counts.
+        """
+        (top_part, top), (_, number) = chain[0], chain[-1]
+        return self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
+
     def note(self, text: str) -> None:
         self.notes[text] = None
 
@@ -172,7 +180,7 @@ class _Reading:
             self.note(f"{excerpt(part)} is in {excerpt(own)}, and read in {unit}, as what is built says")
         if (said := each.get("name")) and excerpt(said):
             name = f"{name} '{excerpt(said)}'"
-        if not is_part_type(each.get("type")):
+        if not is_part_type(each.get("type")) and self.told_role(chain)[0] != NEGATIVE:
             self.note(f"{name} is of type '{excerpt(each.get('type', ''))}', no part: it is left out")
             return
         if (role := cura_role(settings_of(each, model.core, model.spaces))) != PART:
@@ -189,13 +197,13 @@ class _Reading:
         self, model: Model, each: ElementTree.Element, name: str, chain: tuple[Key, ...], outer: Transform
     ) -> Iterator[Placed]:
         """Yield the volumes of the mesh of an object."""
-        (top_part, top), (part, number) = chain[0], chain[-1]
+        part, number = chain[-1]
         element, mesh = model.mesh_of(each) or (each, None)
         assert mesh is not None
         if mesh.fault:
             raise FormatError(f"{self.path} has {mesh.fault}; {AGAIN}")
         self._count(len(mesh.faces) + len(mesh.vertices))
-        role, said = self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
+        role, said = self.told_role(chain)
         if said and excerpt(said):
             name = f"object {excerpt(number)} '{excerpt(said)}'"
         if role not in (PART, NEGATIVE):

@@ -424,6 +424,7 @@ def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
     volumetric, diameters = state.volumetric, state.diameters
     diameter = words.get("D")
     if diameter is not None:
+        diameter *= INCH if state.inches else 1.0
         volumetric = diameter > 0
         if 0 < diameter < THICKEST:
             tool = int(words.get("T") or 0) if "T" in words else None

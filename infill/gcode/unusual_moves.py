@@ -32,7 +32,7 @@ STILL_CODES: Final = frozenset(
     word
     for line in (
         "G4 G10 G11 G17 G18 G19 G20 G21 G28 G29 G29.1 G29.2 G30 G31 G32 G33 G34 G35 G38.2 G38.3 G38.4 G38.5",
-        "G39.1 G39.3 G39.4 G40 G49 G53 G54 G60 G61.1 G64 G80 G90 G90.1 G91 G91.1 G92 G92.1 G92.9 G94 G99 G130",
+        "G39.1 G39.3 G39.4 G40 G49 G53 G54 G60 G61.1 G64 G80 G90 G91 G91.1 G92 G92.1 G92.9 G94 G99 G130",
         "G150.1 G150.2 G150.3 G161 G162 G180 G292 G380 G381 G382 G383 G392 G425",
     )
     for word in line.split()
@@ -125,8 +125,8 @@ def _is_unsure(code: int, words: Mapping[str, float]) -> bool:
 
 
 def is_arc(words: Mapping[str, float]) -> bool:
-    """Return whether the words say where an arc goes; without a centre or a radius, firmware draws none."""
-    return bool({"I", "J", "K", "R"} & set(words))
+    """Return whether the words say where an arc goes; without a centre, or a radius and an end, firmware draws none."""
+    return bool({"I", "J", "K"} & set(words)) or bool(words.get("R") and {"X", "Y", "Z"} & set(words))
 
 
 def may_move(code: str, text: bytes) -> bool:
