@@ -244,7 +244,7 @@ TEXT: list[tuple[str, str, str]] = [
     ("a.csv", "x,y,z\n", "no points"),
     ("a.csv", "x,y,z\n1,2,3\n4,5\n", "broken|column"),
     ("a.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n", "encloses nothing"),
-    ("a.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 7\n", "corners that do not exist|broken"),
+    ("a.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 7\n", "corners that do not exist|corner 7 does not exist|broken"),
     ("a.obj", "v 0 0 nan\nv 9 0 0\nv 0 9 0\nf 1 2 3\n", "not numbers|not finite"),
     ("a.off", "OFF\n3 1 0\n0 0 0\n9 0 0\n0 9 0\n3 0 1 2\n", "encloses nothing"),
     ("a.off", "OFF\n300 1 0\n0 0 0\n", "a.off"),

@@ -24,6 +24,7 @@ from UM.Message import Message
 from ..Script import Script
 
 LAYER = re.compile("^(?=;LAYER:)", re.MULTILINE)
+PROGRESS = re.compile(r"^M73\b.*$", re.MULTILINE)
 # What programs packed as one file set for their own Python and libraries, and what breaks other programs.
 OWN = ("PYTHONHOME", "PYTHONPATH", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH", "QT_PLUGIN_PATH")
 SETTINGS = {
@@ -151,12 +152,30 @@ def split_as(text: str, data: list[str]) -> list[str]:
     pieces = LAYER.split(text)
     if not tagged or tagged != list(range(tagged[0], tagged[0] + len(pieces) - 1)):
         return [text]
-    start, end = data[1 : tagged[0]], data[tagged[-1] + 1 :]
-    head, last = pieces[0], pieces[-1]
-    tail, foot = "".join(start), "".join(end)
-    if not tagged[0] or not head.endswith(tail) or not last.endswith(foot):
+    start = _items_at_end(pieces[0], data[1 : tagged[0]]) if tagged[0] else None
+    end = _items_at_end(pieces[-1], data[tagged[-1] + 1 :])
+    if start is None or end is None:
         return [text]
-    return [head[: len(head) - len(tail)], *start, *pieces[1:-1], last[: len(last) - len(foot)], *end]
+    return [*start, *pieces[1:-1], *end]
+
+
+def _items_at_end(text: str, items: list[str]) -> list[str] | None:
+    """Return what stands before the items at the end of a text, and those items; None if it does not end with them.
+
+    They are the same line by line, but for progress (M73), which is told anew.
+    """
+    found: list[str] = []
+    for item in reversed(items):
+        count = item.count("\n") + (not item.endswith("\n"))
+        lines = re.split(r"(?<=\n)", text)
+        lines = lines[:-1] if lines and not lines[-1] else lines
+        cut = len(lines) - count if item else len(lines)
+        own = "".join(lines[cut:]) if cut >= 0 else ""
+        if PROGRESS.sub("", own) != PROGRESS.sub("", item):
+            return None
+        found.insert(0, own)
+        text = "".join(lines[:cut])
+    return [text, *found]
 
 
 def _say(text: str) -> None:
