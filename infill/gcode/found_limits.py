@@ -228,7 +228,11 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
     }.items():
         given = [
             next(
-                (_limit(settings.get(f"{prefix}_{axis}"), field) for prefix in prefixes if f"{prefix}_{axis}" in settings),
+                (
+                    _limit(settings.get(f"{prefix}_{axis}"), field)
+                    for prefix in prefixes
+                    if f"{prefix}_{axis}" in settings
+                ),
                 None,
             )
             for axis in "xyze"

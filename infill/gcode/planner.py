@@ -5,10 +5,11 @@ squares of the highest speeds at the joints, a planner that looks ahead without 
 
     u_j = min over i of c_i + |S_j - S_i|,
 
-the greatest profile that breaks no limit. Both halves of it are found without a loop over moves, from windows of 1, 2, 4 … of them, whose reach is a sum of
-positive numbers: no digit is lost, however far the machine can speed up before or after, so that a move means the same
-in any surroundings. A joint whose u stays the same whether the machine stops after the last move known or drives on for
-ever is settled, so long files are planned in pieces, each from where the last one was settled.
+the greatest profile that breaks no limit. Both halves of it are found without a loop over moves, from windows of 1, 2,
+4 … of them, whose reach is a sum of positive numbers: no digit is lost, however far the machine can speed up before or
+after, so that a move means the same in any surroundings. A joint whose u stays the same whether the machine stops after
+the last move known or drives on for ever is settled, so long files are planned in pieces, each from where the last one
+was settled.
 """
 
 from __future__ import annotations
@@ -134,9 +135,7 @@ def settle(
     return settled, _trapezoids(bounds, squares, cruise, settled), float(squares[settled])
 
 
-def _eased(
-    bounds: Bounded, joints: Floats, squares: Floats, reach: Floats
-) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+def _eased(bounds: Bounded, joints: Floats, squares: Floats, reach: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Return profile, limits of the moves, and joints between humps, with the humps of a slower profile cut off."""
     slower = look_ahead(joints, reach)
     rising, falling = humps(slower, reach)
