@@ -53,6 +53,22 @@ G1 X15.05 Y5 E.5
 """
 
 
+# Limits that no machine has: too low, too high, and of more digits than a number holds.
+ABSURD = [
+    b"M204 S0.0000001 T0.0000001",
+    b"M204 P99999999999 T99999999999 R99999999999",
+    b"M204 S1" + b"0" * 400,
+    b"M201 X0.0000001 Y0.0000001 E99999999999",
+    b"M203 X0.0000001 Y99999999999",
+    b"M205 X0.0000001 Y99999999999 J0.0000000001",
+    b"M205 S99999999999 T99999999999",
+    b"M566 X0.0000001 Y999999999999999",
+    b"SET_VELOCITY_LIMIT ACCEL=1e-300 VELOCITY=1e-30",
+    b"SET_VELOCITY_LIMIT ACCEL=9e99 VELOCITY=9e99 SQUARE_CORNER_VELOCITY=1e-9",
+    b"SET_VELOCITY_LIMIT MINIMUM_CRUISE_RATIO=1 ACCEL_TO_DECEL=9e99",
+]
+
+
 def written(folder: Path, text: bytes, name: str = "print.gcode") -> Path:
     path = folder / name
     path.write_bytes(text)
@@ -115,6 +131,7 @@ def test_klipper_takes_the_lower_of_both() -> None:
         b"M205 X-2",
         b"SET_VELOCITY_LIMIT ACCEL=0 VELOCITY=-1",
         b"SET_VELOCITY_LIMIT ACCEL=.. MINIMUM_CRUISE_RATIO=5",
+        *ABSURD,
     ],
 )
 def test_commands_without_sense_change_nothing(line: bytes) -> None:
@@ -128,6 +145,27 @@ def test_settings_without_sense_are_left_out() -> None:
     )
     assert found_limits(b"", text + b"; filament_diameter = 0\n").limits == MARLIN
     assert found_limits(b"", text + b"; filament_diameter = 0\n").filament_diameter == 1.75
+
+
+@pytest.mark.parametrize("value", ["1e-300", "1e-7", "1e300", "1e12"])
+def test_settings_of_no_machine_are_left_out(value: str) -> None:
+    names = [f"machine_max_{kind}_{axis}" for kind in ("feedrate", "acceleration", "jerk") for axis in "xyze"]
+    names += [f"machine_max_acceleration_{kind}" for kind in ("extruding", "travel", "retracting")]
+    names += ["machine_min_extruding_rate", "machine_min_travel_rate"]
+    text = "".join(f"; {name} = {value},{value}\n" for name in names).encode()
+    assert found_limits(b"", text).limits == MARLIN
+    deviation = found_limits(b"", b"; machine_max_junction_deviation = 1e-300\n").limits
+    assert deviation == MARLIN
+
+
+@pytest.mark.parametrize(
+    "head", [b"", b"; gcode_flavor = klipper\n", b";FLAVOR:Marlin\n;Generated with Cura_SteamEngine 5\n"]
+)
+def test_limits_of_no_machine_change_no_time(tmp_path: Path, head: bytes) -> None:
+    lines = SQUARE.splitlines(keepends=True)
+    absurd = b"".join(line + ABSURD[i % len(ABSURD)] + b"\n" for i, line in enumerate(lines))
+    expected = motion(written(tmp_path, head + b"SET_VELOCITY_LIMIT\n" + SQUARE)).seconds
+    assert motion(written(tmp_path, head + absurd)).seconds == pytest.approx(expected, rel=1e-12)
 
 
 def test_a_command_does_not_raise_what_the_printer_allows() -> None:
@@ -145,6 +183,12 @@ def test_a_command_does_not_raise_what_the_printer_allows() -> None:
         {"feedrate": (1, 1, -1, 1)},
         {"junction_deviation": math.nan},
         {"minimum_cruise_ratio": 1},
+        {"acceleration": 1e-300},
+        {"travel_acceleration": 1e10},
+        {"feedrate": (1, 1, 1e-300, 1)},
+        {"jerk": (1e-4, 1, 1, 1)},
+        {"junction_deviation": 1e-7},
+        {"minimum_cruise_ratio": -0.1},
     ],
 )
 def test_limits_out_of_range_are_errors(wrong: dict[str, Any]) -> None:

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
 from infill.gcode.bounds import Moves, bounded
-from infill.gcode.columns import part
+from infill.gcode.columns import chained, part
 from infill.gcode.cruising import tops
 from infill.gcode.junctions import joint_limits
-from infill.gcode.limits import INFINITE, JERKS, MODELS, Limits
+from infill.gcode.limits import INFINITE, JERKS, LEAST, MODELS, MOST, Limits
 from infill.gcode.planner import PIECE, Plan, look_ahead, plan, settle
 
 FREE = (INFINITE,) * 4
@@ -284,6 +284,66 @@ def test_moves_in_pieces_are_planned_as_one(moves: Moves, limits: Limits, size: 
         first += settled
         found += done.seconds.sum()
     assert found == pytest.approx(whole.seconds.sum(), rel=1e-9)
+
+
+@st.composite
+def wild_paths(draw: st.DrawFn) -> Moves:
+    """Straight runs of moves and corners, under five settings, some of which no machine has, with stops."""
+    count = draw(st.integers(2, 40))
+
+    def column(values: st.SearchStrategy[float]) -> list[float]:
+        return draw(st.lists(values, min_size=count, max_size=count))
+
+    turn = np.cumsum(column(st.sampled_from([0.0, 0.0, 0.0, 0.003, 0.5, math.pi / 2])))
+    length = np.array(column(st.sampled_from([0.0, 0.0125, 0.1, 0.1, 2.0, 2.0, 300.0])))
+    delta = np.column_stack([np.cos(turn) * length, np.sin(turn) * length, np.zeros(count), 0.03 * length])
+    delta[length == 0, 3] = -0.8
+    moves = moves_of(delta, column(st.sampled_from([20.0, 80.0, 200.0])))
+    setting = draw(st.lists(st.integers(0, 4), min_size=count, max_size=count))
+    setting = draw(st.sampled_from([setting, sorted(setting), [0] * count]))
+    stop = draw(st.lists(st.sampled_from([False] * 9 + [True]), min_size=count, max_size=count))
+    return replace(moves, setting=np.array(setting), stop=np.array(stop))
+
+
+def settings_of(limits: Limits) -> list[Limits]:
+    """Return five settings of one model: usual ones, and accelerations at the ends of what is taken."""
+    return [
+        replace(limits, acceleration=a, travel_acceleration=a, retract_acceleration=a, minimum_cruise_ratio=ratio)
+        for a, ratio in ((500.0, 0.0), (1000.0, 0.5), (20000.0, 0.9), (MOST, 0.5), (LEAST, 0.0))
+    ]
+
+
+@given(wild_paths(), st.sampled_from([PLAIN, VECTOR, STEADY, JUNCTION]), st.integers(1, 45))
+@settings(deadline=None, max_examples=150)
+@example(
+    replace(moves_of([[1, 0]] * 8, 200), setting=np.array([0] * 4 + [1] * 4)), STEADY, 4
+)  # a ratio behind a joint that is settled without one
+def test_a_move_means_the_same_in_any_surroundings(moves: Moves, limits: Limits, size: int) -> None:
+    """In pieces of any size as in one, and behind or before a move by which a machine could reach any speed."""
+    several = settings_of(limits)
+    _, whole, _ = settle(moves, several, None, ends=True)
+    entry, first, last, found = None, 0, 0, []
+    while first < len(moves):
+        last = min(last + size, len(moves))
+        settled, done, entry = settle(part(moves, slice(first, last)), several, entry, ends=last == len(moves))
+        found.append(done)
+        first += settled
+    pieces = chained(found)
+    # A square root doubles the share that rounding is of a small speed: 1e-12 of 200 mm/s is 1e-6 of 1e-4 mm/s.
+    for name in ("seconds", "entry", "peak", "exit"):
+        assert getattr(pieces, name) == pytest.approx(getattr(whole, name), rel=1e-9, abs=1e-9)
+
+
+@given(st.lists(st.tuples(st.floats(0, 1e4), st.floats(1e-9, 1e3)), min_size=1, max_size=40))
+def test_what_lies_behind_a_long_ramp_is_exact(rows: list[tuple[float, float]]) -> None:
+    """After a move that could reach the speed of light, a profile is the same to the last digits."""
+    reach = np.array([reach for _, reach in rows])
+    joints = np.array([0.0, *(joint for joint, _ in rows)])
+    alone = look_ahead(joints, reach)
+    behind = look_ahead(np.concatenate([[0.0], joints]), np.concatenate([[9e22], reach]))[1:]
+    before = look_ahead(np.concatenate([joints, [0.0]]), np.concatenate([reach, [9e22]]))[:-1]
+    assert behind == pytest.approx(alone, rel=1e-12, abs=0)
+    assert before == pytest.approx(alone, rel=1e-12, abs=0)
 
 
 def test_a_long_file_is_as_exact_as_a_short_one() -> None:

@@ -13,7 +13,7 @@ from infill.filling.measuring import stride_of
 from infill.filling.request import SAME, Request
 from infill.filling.rounding import Rounding
 from infill.filling.timing import neutral_limits
-from infill.gcode.limits import Limits
+from infill.gcode.limits import Limits, makes_sense
 from infill.gcode.splicing import UNIT
 from infill.gcode.survey import Survey
 
@@ -77,16 +77,17 @@ def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
     cooled = found.settings.get("cooling", "1") != "0"
     least = found.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
+    told = found.number(*settings) or 0.0
     return Rules(
         request=request,
         rounding=Rounding(
             deviation=request.deviation,
             most=request.deviation,
             radius=request.radius,
-            corner=max(jerk or CORNER, LEAST_CORNER),
+            corner=max(jerk if jerk and makes_sense(jerk, "jerk") else CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
         ),
-        acceleration=found.number(*settings) or ACCELERATION,
+        acceleration=told if makes_sense(told, "acceleration") else ACCELERATION,
         usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
         least_layer=least or 0.0,
         resets_filament=found.resets_filament,

@@ -8,11 +8,13 @@ Which family a file of OrcaSlicer uses depends on its printer, so all of them ar
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Final
 
 OTHER: Final = "other"  # the role of a name that no slicer we know writes
 UNTAGGED: Final = "untagged"  # the role of what stands before the first tag
 
+LONGEST_TAG: Final = 200  # bytes of a comment that are looked at
 TOOL_CODES: Final = ("M108", "M135")  # select a tool by T: Sailfish and MakerWare
 
 # What a comment says, by how it begins. The rest of the line is its value.
@@ -115,6 +117,7 @@ def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
     return ""
 
 
+@lru_cache(maxsize=4096)  # a print says few different ones, ten thousand times
 def tag_of(comment: bytes) -> tuple[str, bytes] | None:
     r"""Return what a comment line says and its value, or None for a comment without structure.
 

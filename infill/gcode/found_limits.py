@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Final
 
-from infill.gcode.limits import JERKS, Axes, Limits, Model, commanded
+from infill.gcode.limits import JERKS, Axes, Limits, Model, commanded, makes_sense
 from infill.gcode.table import DIAMETER, MOST_TOOLS
 
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
@@ -228,7 +228,11 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
     }.items():
         given = [
             next(
-                (_first(settings.get(f"{prefix}_{axis}")) for prefix in prefixes if f"{prefix}_{axis}" in settings),
+                (
+                    _limit(settings.get(f"{prefix}_{axis}"), field)
+                    for prefix in prefixes
+                    if f"{prefix}_{axis}" in settings
+                ),
                 None,
             )
             for axis in "xyze"
@@ -244,7 +248,7 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
         "minimum_feedrate": "machine_min_extruding_rate",
         "minimum_travel_feedrate": "machine_min_travel_rate",
     }.items():
-        value = _first(settings.get(name))
+        value = _limit(settings.get(name), field)
         if value:
             found[field] = value
             if field.endswith("acceleration") and start.model != "klipper":
@@ -263,6 +267,12 @@ def _first(text: str | None) -> float | None:
     except ValueError:
         return None
     return number if 0 <= number < math.inf else None
+
+
+def _limit(text: str | None, field: str) -> float | None:
+    """Return the first number of a list, or None where no machine has that limit."""
+    number = _first(text)
+    return None if number is None or not makes_sense(number, field) else number
 
 
 def _estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:

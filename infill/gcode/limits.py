@@ -28,7 +28,14 @@ _MAY_BE_ZERO: Final = {
     "minimum_cruise_ratio",
 }
 LEAST, MOST = 1e-3, 1e9  # of a limit in mm/s or mm/s²: others are mistakes of the file
-_ZERO_WORDS: Final = {"SQUARE_CORNER_VELOCITY", "MINIMUM_CRUISE_RATIO"}
+LEAST_DEVIATION: Final = 1e-6  # mm
+_KLIPPER_WORDS: Final = {  # and the field whose bounds each keeps
+    "VELOCITY": "feedrate",
+    "ACCEL": "acceleration",
+    "ACCEL_TO_DECEL": "acceleration",
+    "SQUARE_CORNER_VELOCITY": "square_corner_velocity",
+    "MINIMUM_CRUISE_RATIO": "minimum_cruise_ratio",
+}
 _PAIR: Final = re.compile(rb"([A-Z_]+)\s*=\s*[\"']?\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,2})?)", re.IGNORECASE)
 _CODE: Final = re.compile(rb"\s*(?:[Nn]\d+\s*)?[A-Za-z]\d+(?:\.\d+)?")
 _REMARK: Final = re.compile(rb"\([^()]*\)|[;*].*", re.DOTALL)
@@ -61,7 +68,7 @@ class Limits:
     Raises
     ------
     ParameterError
-        If a limit is not a number above 0, or the model is unknown.
+        If a limit is none that a machine has, or the model is unknown.
     """
 
     model: Model = "jerk"
@@ -87,13 +94,31 @@ class Limits:
         for each in fields(self)[1:]:
             given = getattr(self, each.name)
             for value in given if isinstance(given, tuple) else (given,):
-                if not (value > 0 or (value == 0 and each.name in _MAY_BE_ZERO)):
-                    raise ParameterError(f"{each.name} is {value:g}; give a number above 0")
+                if not (makes_sense(value, each.name) or (value == INFINITE and each.name != "minimum_cruise_ratio")):
+                    raise ParameterError(f"{each.name} is {value:g}; give {_sensible(each.name)}")
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
                 raise ParameterError(f"{name} is infinite; give a number in mm/s²")
-        if self.minimum_cruise_ratio >= 1:
-            raise ParameterError(f"minimum_cruise_ratio is {self.minimum_cruise_ratio:g}; give a number below 1")
+
+
+def makes_sense(value: float, name: str) -> bool:
+    """Return whether a machine may have this limit; name is a field of `Limits`.
+
+    >>> makes_sense(1e-300, "acceleration"), makes_sense(0.0, "jerk"), makes_sense(0.013, "junction_deviation")
+    (False, True, True)
+    """
+    if name == "minimum_cruise_ratio":
+        return 0 <= value < 1
+    least = LEAST_DEVIATION if name == "junction_deviation" else LEAST
+    return least <= value <= MOST or (value == 0 and name in _MAY_BE_ZERO)
+
+
+def _sensible(name: str) -> str:
+    """Return which numbers make sense as a limit."""
+    if name == "minimum_cruise_ratio":
+        return "a number from 0 and below 1"
+    least = LEAST_DEVIATION if name == "junction_deviation" else LEAST
+    return f"a number from {least:g} to {MOST:g}{', or 0' if name in _MAY_BE_ZERO else ''}"
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
@@ -119,10 +144,9 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
         return limits
     match code:
         case "M205" if firmware == "smoothie":
-            value = _words(line).get("X", 0.0)
-            return replace(limits, junction_deviation=value) if value > 0 else limits
+            return _deviating(limits, _words(line).get("X", 0.0))
         case "M201":
-            return replace(limits, axis_acceleration=_axes(limits.axis_acceleration, _words(line), 1.0))
+            return replace(limits, axis_acceleration=_axes(limits.axis_acceleration, _words(line)))
         case "M203":
             return replace(limits, feedrate=_axes(limits.feedrate, _words(line), feedrate_unit))
         case "M204":
@@ -145,16 +169,17 @@ def _words(line: bytes) -> dict[str, float]:
     return {letter.decode().upper(): float(number) for letter, number in found}
 
 
-def _axes(before: Axes, words: dict[str, float], unit: float) -> Axes:
+def _axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Axes:
     x, y, z, e = (
-        words[axis] * unit if words.get(axis, 0) > 0 else value for axis, value in zip("XYZE", before, strict=True)
+        words[axis] * unit if LEAST <= words.get(axis, 0.0) * unit <= MOST else value
+        for axis, value in zip("XYZE", before, strict=True)
     )
     return x, y, z, e
 
 
 def _accelerated(limits: Limits, words: dict[str, float]) -> Limits:
     """Follow M204: P, R and T, or S for both printing and travel; Klipper takes S, or the lower of P and T."""
-    words = {letter: value for letter, value in words.items() if value > 0}
+    words = {letter: value for letter, value in words.items() if LEAST <= value <= MOST}
     if limits.model == "klipper":
         value = words.get("S", min(words["P"], words["T"]) if {"P", "T"} <= set(words) else limits.acceleration)
         return replace(limits, acceleration=value, travel_acceleration=value)
@@ -173,24 +198,35 @@ def _cornered(limits: Limits, words: dict[str, float]) -> Limits:
         words = {**words, "Y": words["X"]}
     changed = replace(
         limits,
-        jerk=_axes(limits.jerk, words, 1.0),
-        minimum_feedrate=max(words.get("S", limits.minimum_feedrate), 0.0),
-        minimum_travel_feedrate=max(words.get("T", limits.minimum_travel_feedrate), 0.0),
+        jerk=_axes(limits.jerk, words),
+        minimum_feedrate=_lowest(limits.minimum_feedrate, words.get("S")),
+        minimum_travel_feedrate=_lowest(limits.minimum_travel_feedrate, words.get("T")),
     )
-    return replace(changed, junction_deviation=words["J"]) if words.get("J", 0) > 0 else changed
+    return _deviating(changed, words.get("J", 0.0))
+
+
+def _lowest(before: float, asked: float | None) -> float:
+    """Return a lowest feed rate; below 0 there is none."""
+    asked = before if asked is None else max(asked, 0.0)
+    return asked if makes_sense(asked, "minimum_feedrate") else before
+
+
+def _deviating(limits: Limits, deviation: float) -> Limits:
+    sense = makes_sense(deviation, "junction_deviation")
+    return replace(limits, junction_deviation=deviation) if sense else limits
 
 
 def _limited(limits: Limits, line: bytes) -> Limits:
-    """Follow Klipper's SET_VELOCITY_LIMIT; it takes no limits below 0, and none of 0 but two."""
+    """Follow Klipper's SET_VELOCITY_LIMIT, as far as its numbers make sense."""
     found = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
     words = {
-        name: value for name, value in found.items() if LEAST < value < MOST or (value == 0 and name in _ZERO_WORDS)
+        name: found[name] for name, field in _KLIPPER_WORDS.items() if name in found and makes_sense(found[name], field)
     }
     acceleration = words.get("ACCEL", limits.acceleration)
     ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)
     if "ACCEL_TO_DECEL" in words:  # until 2024; it is the ratio's complement in mm/s²
         ratio = max(0.0, 1 - words["ACCEL_TO_DECEL"] / acceleration)
-    ratio = ratio if ratio < 1 else limits.minimum_cruise_ratio
+    ratio = ratio if ratio < 1 else limits.minimum_cruise_ratio  # 1 by rounding
     speed = words.get("VELOCITY", limits.feedrate[0])
     return replace(
         limits,

@@ -5,10 +5,11 @@ squares of the highest speeds at the joints, a planner that looks ahead without 
 
     u_j = min over i of c_i + |S_j - S_i|,
 
-the greatest profile that breaks no limit. Both halves of it are running minima, of c - S from the front and of c + S
-from the back: no loop over moves. A joint whose u stays the same whether the machine stops after the last move known or
-drives on for ever is settled, so long files are planned in pieces, each from where the last one was settled. Pieces
-also keep S small: of a sum of 1e10 mm²/s² the last digit is 2e-6.
+the greatest profile that breaks no limit. Both halves of it are found without a loop over moves, from windows of 1, 2,
+4 … of them, whose reach is a sum of positive numbers: no digit is lost, however far the machine can speed up before or
+after, so that a move means the same in any surroundings. A joint whose u stays the same whether the machine stops after
+the last move known or drives on for ever is settled, so long files are planned in pieces, each from where the last one
+was settled.
 """
 
 from __future__ import annotations
@@ -57,10 +58,16 @@ def look_ahead(joints: Floats, reach: Floats) -> Floats:
     >>> look_ahead(np.array([0.0, 100.0, 100.0, 4.0]), np.array([30.0, 10.0, 30.0])).tolist()
     [0.0, 30.0, 34.0, 4.0]
     """
-    total = np.concatenate([[0.0], np.cumsum(reach)])
-    forward = np.minimum.accumulate(joints - total) + total
-    backward = np.minimum.accumulate((joints + total)[::-1])[::-1] - total
-    return np.asarray(np.maximum(np.minimum(np.minimum(forward, backward), joints), 0.0))
+    forward, backward, window, size = joints.copy(), joints.copy(), reach, 1
+    while len(window):  # the reach of `size` moves in a row, beginning with each
+        onward = forward[:-size] + window
+        back = backward[size:] + window
+        if not ((onward < forward[size:]).any() or (back < backward[:-size]).any()):
+            break  # nor does any wider window change anything: it is made of two of these
+        np.minimum(forward[size:], onward, out=forward[size:])
+        np.minimum(backward[:-size], back, out=backward[:-size])
+        window, size = window[:-size] + window[size:], 2 * size
+    return np.asarray(np.minimum(forward, backward))
 
 
 def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
@@ -116,36 +123,35 @@ def settle(
         joints[0] = entry
     if not ends:
         joints[-1] = bounds.speed[-1] ** 2
+    reach = bounds.reach
+    squares, cruise = look_ahead(joints, reach), bounds.speed**2
+    known = squares <= _stopping(reach)
     ratio = values(limits, "minimum_cruise_ratio", moves.setting)
-    if limits[0].model == "klipper" and ratio.any():
-        squares, cruise, known = _eased(bounds, joints, bounds.reach * (1 - ratio))
-    else:
-        squares, cruise = look_ahead(joints, bounds.reach), bounds.speed**2
-        known = np.ones(1, dtype=bool) if ends else _known(joints, bounds.reach)
+    if limits[0].model == "klipper" and (ratio.any() or not ends):  # moves that follow may have one, in the same hump
+        squares, cruise, between = _eased(bounds, joints, squares, reach * (1 - ratio))
+        known &= between
     known[0] = True
     settled = len(moves) if ends else int(np.flatnonzero(known)[-1])
     return settled, _trapezoids(bounds, squares, cruise, settled), float(squares[settled])
 
 
-def _known(joints: Floats, reach: Floats) -> NDArray[np.bool_]:
-    """Return at which joints the profile is the same if the machine stops at the end."""
-    stopped = joints.copy()
-    stopped[-1] = 0.0
-    return np.asarray(look_ahead(joints, reach) == look_ahead(stopped, reach))
-
-
-def _eased(bounds: Bounded, joints: Floats, reach: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-    """Return profile, limits of the moves, and settled joints, with the humps of a slower profile cut off."""
+def _eased(bounds: Bounded, joints: Floats, squares: Floats, reach: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Return profile, limits of the moves, and joints between humps, with the humps of a slower profile cut off."""
     slower = look_ahead(joints, reach)
     rising, falling = humps(slower, reach)
-    known = _known(joints, reach) & (slower >= joints - ROUNDING)  # between humps, each of which must be whole
-    known[1:] &= ~rising
-    known[:-1] &= ~falling
+    between = (slower <= _stopping(reach)) & (slower >= joints * (1 - ROUNDING))
+    between[1:] &= ~rising  # each hump must be whole
+    between[:-1] &= ~falling
     top = tops(slower, reach, bounds.speed**2)
-    squares = look_ahead(joints, bounds.reach)
+    squares = squares.copy()
     np.minimum(squares[:-1], top, out=squares[:-1])
     np.minimum(squares[1:], top, out=squares[1:])
-    return squares, np.where(falling & ~rising, np.minimum(top, squares[:-1]), top), known
+    return squares, np.where(falling & ~rising, np.minimum(top, squares[:-1]), top), between
+
+
+def _stopping(reach: Floats) -> Floats:
+    """Return the squares of the speeds at the joints from which the machine can stop at the end, (N + 1,)."""
+    return np.append(np.cumsum(reach[::-1])[::-1], 0.0)
 
 
 def _trapezoids(bounds: Bounded, squares: Floats, cruise: Floats, count: int) -> Plan:

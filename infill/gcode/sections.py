@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.gcode.dialect import UNTAGGED, role_of, tag_of, tool_of
+from infill.gcode.dialect import LONGEST_TAG, UNTAGGED, role_of, tag_of, tool_of
+from infill.gcode.limits import makes_sense
 from infill.gcode.lines import BLANK, COMMENT, MOVE
 from infill.gcode.table import NAN, Table
 
@@ -25,8 +26,7 @@ TALK = {"M73", "M117", "M118", "M70"}
 QUIET = {"purged", "tool change", "tool change end", "wipe end"}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Tags:
+class Tags(NamedTuple):
     """What the tags before a line have said.
 
     Slicers forget an end, say a beginning twice, or say it where nothing follows. So whatever begins also ends with
@@ -161,12 +161,12 @@ def marked(table: Table, before: Tags) -> Marks:
             tool = tool_of(command.code, command.words, table.text(line, line + 1))
             if tool and (tool != now.tool or now.changing_tool or now.role == "wipe tower"):
                 changed_tool = changed_tool if now.purging else line
-                now = replace(now, tool=tool, purging=True)
+                now = now._replace(tool=tool, purging=True)
             elif command.code == "M204":
                 value = command.words.get("P") or command.words.get("S")
-                now = replace(now, acceleration=value) if value and value > 0 else now
+                now = now._replace(acceleration=value) if makes_sense(value or 0.0, "acceleration") else now
         else:
-            tag = tag_of(table.text(line, line + 1)[:200].lstrip())
+            tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG].lstrip())
             if tag is None:
                 continue
             if tag[0] == "purged" and now.purging:
@@ -183,7 +183,7 @@ def marked(table: Table, before: Tags) -> Marks:
         now = _printed(now)
     if now.wiping:
         wipes.append((wipe, first_printed(wipe)))
-        now = replace(now, wiping=first_printed(wipe) == lines)
+        now = now._replace(wiping=first_printed(wipe) == lines)
     roles = tuple(dict.fromkeys([tags.role for tags in said] + ["wipe tower"]))
     count = np.diff([*at, lines])
 
@@ -241,28 +241,30 @@ def _for_all(names: dict[int, str], section: Places) -> dict[int, str]:
 def _printed(tags: Tags) -> Tags:
     """Return what holds after something was printed."""
     on_object = tags.purging and tags.role != "wipe tower" and not tags.changing_tool
-    return replace(tags, printed=True, purged_on_object=tags.purged_on_object or on_object)
+    if tags.printed and (tags.purged_on_object or not on_object):
+        return tags  # of most lines
+    return tags._replace(printed=True, purged_on_object=tags.purged_on_object or on_object)
 
 
 def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
     match meaning:
         case "role":
-            return replace(tags, role=role_of(value), wiping=False, changing_tool=False)
+            return tags._replace(role=role_of(value), wiping=False, changing_tool=False)
         case "layer":
             return _begun(tags, value)
         case "object" | "object end":
             name = value.decode("utf-8", "replace") if meaning == "object" and value != b"NONMESH" else ""
-            return replace(tags, part=tags.part + 1, name=name, wiping=False, changing_tool=False)
+            return tags._replace(part=tags.part + 1, name=name, wiping=False, changing_tool=False)
         case "width":
-            return replace(tags, width=_length(value, tags.width))
+            return tags._replace(width=_length(value, tags.width))
         case "height":
-            return replace(tags, height=_length(value, tags.height))
+            return tags._replace(height=_length(value, tags.height))
         case "wipe start" | "wipe end":
-            return replace(tags, wiping=meaning == "wipe start")
+            return tags._replace(wiping=meaning == "wipe start")
         case "tool change" | "tool change end":
-            return replace(tags, changing_tool=meaning == "tool change")
+            return tags._replace(changing_tool=meaning == "tool change")
         case "purged":
-            return replace(tags, purging=False, purged_on_object=False)
+            return tags._replace(purging=False, purged_on_object=False)
         case _:
             return tags
 
@@ -274,10 +276,9 @@ def _begun(tags: Tags, value: bytes) -> Tags:
     belongs to the new layer. One before the first layer selects the tool to begin with.
     """
     if tags.layer and not tags.printed and not _counts_on(tags.layer_tag, value):
-        return replace(tags, layer_tag=value)
+        return tags._replace(layer_tag=value)
     purging = tags.purging and not tags.purged_on_object and tags.layer > 0
-    return replace(
-        tags,
+    return tags._replace(
         layer=tags.layer + 1,
         layer_tag=value,
         printed=False,

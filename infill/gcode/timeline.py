@@ -16,7 +16,7 @@ from infill.errors import FormatError
 from infill.gcode.bounds import Floats, Moves
 from infill.gcode.chords import arc_chords
 from infill.gcode.columns import chained, part
-from infill.gcode.dialect import TAGS, tag_of
+from infill.gcode.dialect import LONGEST_TAG, TAGS, tag_of
 from infill.gcode.found_limits import FoundLimits, found_limits
 from infill.gcode.limits import LIMITING_CODES, Limits
 from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, Command
@@ -292,7 +292,7 @@ class Timeline:
         """Return feature and layer of every line, and the last feature."""
         lines, features, layers = [0], [feature], [self.layers]
         for line in _comments(table, TELLING):
-            tag = tag_of(table.data[table.start[line] : table.start[line + 1]])
+            tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG])
             if tag is None:
                 continue
             if tag[0] == "role":
