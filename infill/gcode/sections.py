@@ -163,8 +163,8 @@ def marked(table: Table, before: Tags) -> Marks:
                 changed_tool = changed_tool if now.purging else line
                 now = now._replace(tool=tool, purging=True)
             elif command.code == "M204":
-                value = command.words.get("P") or command.words.get("S")
-                now = now._replace(acceleration=value) if makes_sense(value or 0.0, "acceleration") else now
+                value = command.words.get("P") or command.words.get("S") or 0.0
+                now = now._replace(acceleration=value) if makes_sense(value, "acceleration") else now
         else:
             tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG].lstrip())
             if tag is None:
