@@ -252,8 +252,8 @@ def tilted(mesh: trimesh.Trimesh, degrees: float, axis: tuple[float, float, floa
 
 
 def prism(points: list[tuple[float, float]], depth: float) -> trimesh.Trimesh:
-    """A polygon in x and z, as deep along y."""
-    solid = manifold3d.CrossSection([points]).extrude(depth)
+    """A polygon in x and z, as deep along y, whichever way round it is given."""
+    solid = manifold3d.CrossSection([points], manifold3d.FillRule.EvenOdd).extrude(depth)
     mesh = mesh_of(solid)
     mesh.apply_transform(transformations.rotation_matrix(np.pi / 2, (1, 0, 0)))
     return mesh

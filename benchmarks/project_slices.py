@@ -13,7 +13,9 @@ import argparse
 import subprocess
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import manifold3d
 import numpy as np
@@ -47,10 +49,16 @@ def room_in_layers(part: Surface, infill: Surface) -> tuple[float, float]:
     return found, wide
 
 
-def surfaces_of(project: Path, part: Surface) -> Surface:
-    """Return the infill of a project, whose first triangles are the part's."""
-    whole = read_mesh(project)
-    return Surface(vertices=whole.vertices, faces=whole.faces[len(part.faces) :])
+def infill_of(project: Path, part: Surface) -> Surface:
+    """Return the infill of a project: the triangles of its object that follow the part's."""
+    with zipfile.ZipFile(project) as package:
+        model = ElementTree.fromstring(package.read("3D/3dmodel.model"))
+    core = model.tag[: model.tag.index("}") + 1]
+    vertices, triangles = (
+        np.array([[float(each.get(key, "nan")) for key in keys] for each in model.iter(f"{core}{tag}")])
+        for tag, keys in (("vertex", ("x", "y", "z")), ("triangle", ("v1", "v2", "v3")))
+    )
+    return Surface(vertices=vertices, faces=triangles.astype(np.int64)[len(part.faces) :])
 
 
 def one_case(part: Path, pattern: str, density: float, folder: Path) -> bool:
@@ -70,7 +78,7 @@ def one_case(part: Path, pattern: str, density: float, folder: Path) -> bool:
     alone, same, _ = prusa_volumes(standing, folder, seconds=SLOW, **OPEN, fill_density="0%")
     body = wide = float("nan")
     if status(taken) == FINE:
-        body, wide = room_in_layers(taken, surfaces_of(project, taken))
+        body, wide = room_in_layers(taken, infill_of(project, taken))
     infill = sum(whole.values()) - sum(alone.values())
     walls = sum(whole.get(kind, 0.0) for kind in WALLS), sum(alone.get(kind, 0.0) for kind in WALLS)
     wrong = {

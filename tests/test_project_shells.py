@@ -26,6 +26,7 @@ prusa = pytest.mark.skipif(bool(slicers.missing_prusa()), reason=slicers.missing
 cura = pytest.mark.skipif(bool(slicers.missing_cura()), reason=slicers.missing_cura() or "there")
 
 LAYER, LINE = 0.3, 0.45  # mm
+VOXEL = 1.0  # mm: a coarse body is sliced twice as fast, and its shell is the part's, however fine the body is
 SHELL = ("Solid infill", "Top solid infill", "Bridge infill", "Internal bridge infill", "SKIN")
 BODY = ("Internal infill", "FILL")
 Lines = NDArray[np.float64]  # (N, 2, 2): both ends of each, mm
@@ -133,7 +134,7 @@ def test_prusaslicer_makes_the_shell_of_slopes(
 ) -> None:
     mesh = on_bed(SHAPES[shape](data), 100)
     mesh.export(tmp_path / "part.stl")
-    result = fill(mesh, "gyroid", as_="project", density=0.2)
+    result = fill(mesh, "gyroid", as_="project", density=0.2, voxel=VOXEL)
     now = save_project(result, tmp_path / "now.3mf", slicer="prusaslicer")
     monkeypatch.setattr(prusaslicer, "PART_SETTINGS", {"fill_density": "0%"})
     vase = save_project(result, tmp_path / "vase.3mf", slicer="prusaslicer")
@@ -153,7 +154,7 @@ def test_prusaslicer_makes_the_shell_of_slopes(
 def test_cura_makes_the_shell_of_slopes(tmp_path: Path) -> None:
     """By its engine, which reads no 3MF: a density of 0 takes no skin away."""
     mesh = on_bed(SHAPES["wedge"](tmp_path), 0)
-    result = fill(mesh, "gyroid", as_="project", density=0.2)
+    result = fill(mesh, "gyroid", as_="project", density=0.2, voxel=VOXEL)
     for name, each in result.surfaces.items():
         trimesh.Trimesh(each.vertices, each.faces).export(tmp_path / f"{name}.stl")
     body = {**cura_project.INFILL_SETTINGS, "infill_line_distance": LINE}
