@@ -26,7 +26,6 @@ UNEVEN = {
 STRAIGHT = "straight lines have no corner"
 ARCS = "a section with arcs is left as it was"
 SLOWED = "every layer is slowed for cooling"
-PACKED = "words without blanks between are left as they are"
 COMBINED = "layers printed as one have no region to tell"
 # What is kept as it was, and why: the test fails if it is not.
 KEPT: dict[tuple[str, str], str] = {
@@ -40,8 +39,6 @@ KEPT: dict[tuple[str, str], str] = {
     ("prusa-slowed", "keep"): SLOWED,
     ("prusa-slowed", "honeycomb"): SLOWED,
     ("prusa-equalised", "keep"): "speed changes from move to move",
-    ("packed", "keep"): PACKED,
-    ("packed", "honeycomb"): PACKED,
     ("orca-limits", "honeycomb"): "a G4 in every section, and it is not known when to wait",
 }
 # Where fewer than half of the sections are replaced.

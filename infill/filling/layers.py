@@ -19,7 +19,7 @@ from infill.filling.request import KEEP
 from infill.filling.rules import Rules, short_layers, unchanged
 from infill.filling.tally import Amounts, Tally
 from infill.filling.timing import path_seconds
-from infill.gcode.bodies import composed, exchanged, unlawful, ways_of
+from infill.gcode.bodies import Body, composed, exchanged, unlawful, ways_of
 from infill.gcode.splicing import differing, spliced, unlike
 from infill.gcode.table import Table, read
 from infill.ragged import packed, parted
@@ -249,16 +249,46 @@ def _seconds(fresh: Fresh, rules: Rules) -> float:
 
 
 def _unhurried(batch: Batch, rules: Rules, fresh: list[Fresh]) -> list[Fresh]:
-    """Slow down new paths that are shorter than the old ones, in layers that may be as short as cooling allows."""
+    """Slow down new paths that would take less time than the old ones, in layers as short as cooling allows.
+
+    Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers reckon it, and
+    retractions among the old moves: how many the new ones have is known when they are written.
+    """
     short = short_layers(batch, rules)
     slowed = []
     for each in fresh:
         body = each.body
         length = total_length(each.paths)
-        if short[body.layer - int(batch.marks.layer[0])] and 0 < length < body.length:
-            body = replace(body, feed=body.feed * length / body.length)
+        if short[body.layer - int(batch.marks.layer[0])] and length > 0:
+            left = _section_seconds(batch.table, body) - _travel_seconds(batch.table, each)
+            if 0 < 60 * length / body.feed < left:
+                body = replace(body, feed=60 * length / left)
         slowed.append(replace(each, body=body))
     return slowed
+
+
+def _lead(table: Table, body: Body) -> int:
+    """Return the line after which a section begins, travel included: the last that prints, or the one before."""
+    printing = np.flatnonzero(table.extruded[: body.first] > 0)
+    return int(printing[-1]) if len(printing) else max(body.first - 1, 0)
+
+
+def _section_seconds(table: Table, body: Body) -> float:
+    """Return how long the old moves of a section take, travel to it and in it and its retractions too."""
+    lines = slice(_lead(table, body), body.last + 1)
+    away = np.hypot(np.diff(table.x[lines]), np.diff(table.y[lines]))
+    away = np.where(away > 0, away, np.abs(table.extruded[lines][1:]))
+    return float(np.nan_to_num(60 * away / table.f[lines][1:]).sum())
+
+
+def _travel_seconds(table: Table, fresh: Fresh) -> float:
+    """Return how long travel to, between and from new paths takes, at the highest feed rate of their section."""
+    body = fresh.body
+    lead = _lead(table, body)
+    start = np.array([table.x[lead], table.y[lead]])
+    ends = np.array([start, *(place for path in fresh.paths for place in (path[0], path[-1])), body.end])
+    away = np.linalg.norm(ends[1::2] - ends[::2], axis=1).sum()
+    return float(60 * away / max(table.f[lead + 1 : body.last + 1].max(), body.feed))
 
 
 def _any_of(reasons: dict[str, Flags], strokes: int) -> Flags:
