@@ -69,12 +69,17 @@ def _widest_gaps(batch: Batch, number: int, some: Places) -> Floats:
 
 def _spacing(points: Floats, first: Places) -> float:
     """Return about how far lines lie from one another, mm: the area of their hull over their length."""
-    import shapely
+    from scipy.spatial import ConvexHull, QhullError  # which loads sooner than a library of geometry
 
     step = np.hypot(*np.diff(points, axis=0).T)
     step[first[1:-1] - 1] = 0.0
     length = float(step.sum())
-    return shapely.convex_hull(shapely.multipoints(points)).area / length if length else 0.0
+    if not length or not np.isfinite(points).all():
+        return 0.0
+    try:
+        return float(ConvexHull(points).volume) / length  # of two axes, its area
+    except QhullError:  # all on one line
+        return 0.0
 
 
 def _raster(points: Floats, low: Floats, pixel: float, shape: tuple[int, ...]) -> Flags:
