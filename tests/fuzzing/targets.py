@@ -52,7 +52,7 @@ def _contradictions(told: dict[str, object], path: Path) -> Iterator[str]:
     if told["closed"] and not any(each.closed for each in opinions):
         yield f"closed, which {' and '.join(each.reader for each in opinions)} contradict"
     extents = np.sort(np.array(told["extents"], dtype=float))
-    if not any(
+    if told["printable"] and not any(
         np.allclose(extents, np.sort(each.extents), rtol=NEAR, atol=NEAR * max(extents.max(), 1e-30))
         for each in opinions
     ):
