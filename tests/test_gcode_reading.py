@@ -513,7 +513,7 @@ def test_tags_read_in_two_batches_are_the_same(lines: list[bytes], cut: int) -> 
     whole = marked(read(b"".join(lines), State()), Tags())
     one = marked(read(b"".join(lines[:cut]), State()), Tags())
     two = marked(read(b"".join(lines[cut:]), State()), one.after)
-    np.testing.assert_equal(astuple(two.after), astuple(whole.after))
+    np.testing.assert_equal(two.after, whole.after)
     for name in ("layer", "width", "height", "acceleration", "wiping", "tagged"):
         both = np.concatenate([getattr(one, name), getattr(two, name)])
         np.testing.assert_array_equal(both, getattr(whole, name), err_msg=name)
