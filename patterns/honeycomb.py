@@ -38,15 +38,16 @@ class Honeycomb(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, turn
+        from patterns.linework import clip, drop_distant, framed, turn
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
         pitch = np.array([self.cell, self.cell * math.sqrt(3) / 2])
         first, last = np.floor(low / pitch) - 1, np.ceil(high / pitch) + 1
         column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
-        centres = np.stack([column + (row % 2) / 2, row], axis=-1).reshape(-1, 1, 1, 2) * pitch
         half, radius = self.cell / 2, self.cell / math.sqrt(3)
+        centres = np.stack([column + (row % 2) / 2, row], axis=-1) * pitch
+        centres = drop_distant(centres, region, angle=self.angle, phase=self.phase, reach=2 * radius)[:, None, None]
         right_low, right_high, top, left_high = (
             (half, -radius / 2),
             (half, radius / 2),

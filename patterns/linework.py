@@ -39,6 +39,41 @@ def local(
     return place[..., 0], place[..., 1]
 
 
+def drop_distant(
+    centres: NDArray[np.float64],
+    region: Polygon | MultiPolygon,
+    *,
+    angle: float,
+    phase: tuple[float, float],
+    reach: float,
+) -> NDArray[np.float64]:
+    """Drop the cells of a turned lattice that lie farther than `reach` mm from the bounds of `region`.
+
+    The box around a long region, turned with the lattice, is much larger than the region.
+
+    Parameters
+    ----------
+    centres : (..., 2) float64
+        Centres of cells, mm, in the coordinates of the lattice.
+    region : Polygon or MultiPolygon
+    angle : float
+        Degrees by which the lattice is turned.
+    phase : (x, y)
+        mm by which it is shifted afterwards.
+    reach : float
+        mm from the centre of a cell to its farthest wall.
+
+    >>> centres = np.array([[0.0, 0.0], [5.0, 0.0]])
+    >>> drop_distant(centres, shapely.box(0, 0, 1, 9), angle=90, phase=(0, 0), reach=1).tolist()
+    [[0.0, 0.0], [5.0, 0.0]]
+    >>> drop_distant(centres, shapely.box(0, 0, 9, 1), angle=90, phase=(0, 0), reach=1).tolist()
+    [[0.0, 0.0]]
+    """
+    low, high = np.reshape(region.bounds, (2, 2))
+    places = turn(centres, angle) + np.array(phase)
+    return centres[((places >= low - reach) & (places <= high + reach)).all(axis=-1)]
+
+
 def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
     """Return the parts of `lines` inside `region`; parts that merely touch it in a point are dropped."""
     shapely.prepare(region)

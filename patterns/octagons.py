@@ -46,13 +46,14 @@ class Octagons(Pattern):
         import numpy as np
         import shapely
 
-        from patterns.linework import clip, framed, turn
+        from patterns.linework import clip, drop_distant, framed, turn
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
         first, last = np.floor(low / self.cell) - 1, np.ceil(high / self.cell) + 1
         column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
-        centres = np.stack([column, row], axis=-1).reshape(-1, 1, 1, 2) * self.cell
+        centres = np.stack([column, row], axis=-1) * self.cell
+        centres = drop_distant(centres, region, angle=self.angle, phase=self.phase, reach=2 * self.cell)[:, None, None]
         own = np.array(SIDES) * self.cell
         walls = turn((centres + own).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
         lines = clip(shapely.linestrings(walls), region)

@@ -16,8 +16,9 @@ from PIL import Image, ImageDraw
 
 from infill.errors import FormatError, GeometryError, ParameterError
 from infill.filling.covering import cover, solve_cell
-from infill.filling.drawn import drawn
-from infill.filling.tile_nodes import colours, distances, tile_grid
+from infill.filling.drawn import BLUR_PER_RADIUS, Drawn, drawn
+from infill.filling.tile_fields import ALPHA
+from infill.filling.tile_nodes import COARSEST, colours, distances, tile_grid
 from infill.formats.drawing import Drawing, Picture
 from infill.formats.drawings import READERS, read_drawing
 from infill.formats.svg_paths import bezier_points, path_lines
@@ -650,6 +651,17 @@ def test_colours_are_insides(corners: list[tuple[float, float]]) -> None:
     polygon = shapely.Polygon(ring)
     if polygon.is_valid:
         assert (colours(edges, grid) == shapely.contains(polygon, points))[exact > 1e-9].all()
+
+
+@pytest.mark.parametrize("cell", [10.0, 40.0, 90.0, 120.0])
+def test_a_tile_is_smoothed_in_seconds(cell: float) -> None:
+    """Cells get wider, up to a limit, where a large tile would take long to smooth: with the fourth power of its size."""
+    family = Drawn(name="a", drawing=Drawing(lines=(np.array([[0.0, 0.0], [1.0, 1.0]]),), page=(0.0, 0.0, 1.0, 1.0)))
+    blur = BLUR_PER_RADIUS * family.largest_radius(cell, 0.45)
+    grid = tile_grid((cell, cell), line_width=0.45, blur=blur)
+    steps = (blur / max(grid.spacing)) ** 2 / (2 * ALPHA)
+    assert math.prod(grid.shape) * steps < 2.2e9  # 3 ns each
+    assert max(grid.spacing) * 0.99 <= 0.45 / COARSEST
 
 
 def test_limits_are_told(folder: Path) -> None:

@@ -20,8 +20,7 @@ from tests.fuzzing.mutations import mutate
 from tests.fuzzing.targets import TARGETS
 from tests.fuzzing.worker import make_case, run_case, seeds_of
 
-# Drawings take minutes and are left to `make fuzz`.
-CASES = {"meshes": 600, "volumes": 150, "points": 60, "prints": 150, "settings": 60}
+CASES = {"meshes": 600, "volumes": 150, "points": 60, "drawings": 60, "prints": 150, "settings": 60}
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -91,6 +90,29 @@ def planted(monkeypatch: pytest.MonkeyPatch, act: Callable[[Path], object]) -> N
 
 def test_a_whole_box_has_no_fault(tmp_path: Path) -> None:
     assert judged(tmp_path) == []
+
+
+LIE = """
+import sys
+from pathlib import Path
+from random import Random
+import numpy as np
+from infill.formats import mesh_files
+from tests.fuzzing.targets import TARGETS
+from tests.fuzzing.worker import run_case
+read = mesh_files.READERS[".stl"]
+def add_a_fifth(path):
+    vertices, *others = read(path)
+    return np.asarray(vertices) * 1.2, *others
+mesh_files.READERS[".stl"] = add_a_fifth
+print(run_case(TARGETS["meshes"], "box.stl", sys.stdin.buffer.read(), Random(1), Path(sys.argv[1])))
+"""
+
+
+def test_a_size_that_every_other_reader_contradicts_is_a_fault(tmp_path: Path) -> None:
+    words = [sys.executable, "-c", LIE, str(tmp_path / "case")]
+    answer = subprocess.run(words, cwd=ROOT, check=True, capture_output=True, input=BOX, timeout=100)
+    assert b"extents, which trimesh and meshio contradict" in answer.stdout, answer.stdout
 
 
 def test_an_exception_is_a_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

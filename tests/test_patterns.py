@@ -23,6 +23,7 @@ from patterns import (
     Cross,
     Hilbert,
     Honeycomb,
+    Octagons,
     OctagramSpiral,
     Pattern,
     PatternError,
@@ -141,6 +142,16 @@ def test_honeycomb_is_regular() -> None:
     assert len(corners) == 6
     assert np.linalg.norm(corners, axis=1) == pytest.approx(cell / math.sqrt(3))
     assert hexagon.area == pytest.approx(math.sqrt(3) / 2 * cell**2)
+
+
+@pytest.mark.parametrize("kind", [Honeycomb, Octagons])
+@pytest.mark.parametrize("angle", [0.0, 5.0, 45.0])
+def test_lines_of_a_long_region_are_those_of_a_larger_one(kind: type[Pattern], angle: float) -> None:
+    """Cells beside a long region are dropped before they have walls, and none that reaches into it."""
+    pattern = kind(cell=5.0, angle=angle, phase=(0.7, 1.9), frame=False)  # type: ignore[call-arg]
+    strip = box(0, 0, 200, 4)
+    cut = shapely.intersection(pattern.lines(box(-20, -90, 220, 110)), strip)
+    assert pattern.lines(strip).length == pytest.approx(cut.length, rel=ROUNDING)
 
 
 def test_phase_and_angle_move_the_honeycomb_rigidly() -> None:

@@ -188,6 +188,19 @@ def printed(path: Path, per_unit: tuple[Fraction, Fraction], unit: str) -> Path:
     return path
 
 
+@pytest.mark.parametrize("entry", [b"\x03\0\2\0\0\0\2\0\2\0", b"\x02\0\4\0\0\0inch", b"\x03\0\1\0\0\0\xff\xff\0\0"])
+def test_an_odd_unit_of_dots_is_none(entry: bytes, tmp_path: Path) -> None:
+    """A tag that is a pair, a word or no known number says as little as one that is not there."""
+    path = printed(tmp_path / "a.tif", (Fraction(10), Fraction(10)), "NONE")
+    unit = b"\x28\x01"  # the tag's number, before its type, count and value
+    whole = path.read_bytes()
+    place = whole.index(unit + b"\x03\0\1\0\0\0")
+    path.write_bytes(whole[: place + 2] + entry + whole[place + 2 + len(entry) :])
+    with tifffile.TiffFile(path) as file:
+        assert file.pages[0].tags["ResolutionUnit"].value not in (1, 2, 3)
+    assert tuple(read_volume(path).cell_size) == (1.0, 1.0, 1.0)
+
+
 @pytest.mark.parametrize(("unit", "scale"), [("CENTIMETER", 10.0), ("INCH", 25.4)])
 def test_dots_per_length_are_sizes_and_the_distance_of_pages_is_told(
     unit: str, scale: float, tmp_path: Path, caplog: pytest.LogCaptureFixture

@@ -26,6 +26,7 @@ IMPROVED = 2  # times that a first guess of the cell is improved: lines are doub
 LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
 LARGEST_RADIUS = 0.1  # of the smaller side of a tile
+MOST_LINES = 4.0  # line widths: rounder corners look no better, and smoothing takes longer with the fourth power
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,10 +110,13 @@ class Drawn:
             cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
         return cell
 
-    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002 - as all families
-        """Return a tenth of the smaller side of the tile, mm: beyond, little would be left of the drawing."""
+    def largest_radius(self, cell: float, line_width: float) -> float:
+        """Return a tenth of the smaller side of the tile, and at most four line widths, mm.
+
+        Beyond a tenth, little would be left of the drawing.
+        """
         x0, y0, x1, y1 = self.tile
-        return LARGEST_RADIUS * cell * min(1.0, (y1 - y0) / (x1 - x0))
+        return min(LARGEST_RADIUS * cell * min(1.0, (y1 - y0) / (x1 - x0)), MOST_LINES * line_width)
 
 
 def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:

@@ -16,8 +16,10 @@ Floats = NDArray[np.float64]
 CELLS_PER_LINE = 8  # grid cells in a line width, so that touching paths stay seven cells apart
 COARSEST = 5
 MOST_CELLS = 6_000_000
+MOST_WORK = 2e8  # cells times squared blurs in cells: some seconds of smoothing
 GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # no drawing has its lines there
 MARGIN = 4.0  # blurs beyond which smoothing does not reach
+LEAST_FINE = COARSEST / CELLS_PER_LINE  # to save work
 AT_ONCE = 2_000_000
 
 
@@ -58,7 +60,8 @@ class TileGrid:
 def tile_grid(size: tuple[float, float], *, line_width: float, blur: float) -> TileGrid:
     """Return a grid fine enough for the line width, or raise GeometryError where it would hold too many cells."""
     cells = size[0] * size[1] * (CELLS_PER_LINE / line_width) ** 2
-    fine = CELLS_PER_LINE * min(1.0, math.sqrt(MOST_CELLS / cells))
+    work = cells * (CELLS_PER_LINE * blur / line_width) ** 2
+    fine = CELLS_PER_LINE * min(1.0, math.sqrt(MOST_CELLS / cells), max((MOST_WORK / work) ** 0.25, LEAST_FINE))
     if fine < COARSEST:
         limit = math.sqrt(MOST_CELLS) * line_width / COARSEST
         raise GeometryError(

@@ -105,7 +105,8 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
         return _ome_spacing(path, tiff.ome_metadata)
     page = tiff.pages[0]
     per_cell = [_length(page, name) for name in ("XResolution", "YResolution")]
-    stated = RESOLUTIONS.get(int(getattr(page.tags.get("ResolutionUnit"), "value", 0) or 0), "")
+    unit_code = getattr(page.tags.get("ResolutionUnit"), "value", 0)
+    stated = RESOLUTIONS.get(int(unit_code), "") if isinstance(unit_code, int) else ""
     known = tiff.imagej_metadata
     if known is None:
         if not stated:

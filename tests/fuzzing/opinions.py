@@ -136,12 +136,21 @@ SCRIPT = """
 import sys, numpy, SimpleITK
 SimpleITK.ProcessObject.SetGlobalWarningDisplay(False)
 image = SimpleITK.ReadImage(sys.argv[1])
-numpy.savez(sys.argv[2], values=SimpleITK.GetArrayViewFromImage(image), sizes=image.GetSpacing())
+turned = numpy.reshape(image.GetDirection(), (len(image.GetSpacing()),) * 2)  # its columns may be longer than 1
+sizes = image.GetSpacing() * numpy.linalg.norm(turned, axis=0)
+numpy.savez(sys.argv[2], values=SimpleITK.GetArrayViewFromImage(image), sizes=sizes)
 """
+
+
+def _lacks_packed_size(path: Path) -> bool:
+    head = path.read_bytes()[:4096]
+    return b"CompressedData = True" in head and b"CompressedDataSize" not in head
 
 
 def _by_simpleitk(path: Path) -> Iterator[VolumeOpinion]:
     """Ask in a process of its own: it may crash."""
+    if _lacks_packed_size(path):
+        return  # it takes half of what is packed for the whole
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "read.npz"
         subprocess.run(
