@@ -16,9 +16,12 @@ import test_glb_dialects as glb
 import test_obj_dialects as obj
 import test_ply_dialects as ply
 import trimesh
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from infill import FormatError, Surface, check, read_mesh
 from infill.errors import InfillError
+from infill.surfaces.solids import status
 
 WORDS = [
     "0", "-1", "3", "8", "1e400", "nan", "inf", "99999999999999999999", "1,5", "", "x", "\x1b[2J", "#", "\\", "/", "1/2/3",
@@ -174,3 +177,31 @@ def test_text_of_wide_letters_is_no_binary_stl(encoding: str, tmp_path: Path) ->
     path = tmp_path / "box.stl"
     path.write_bytes(("solid body" + " " * 60 + trimesh.exchange.stl.export_stl_ascii(box)[5:]).encode(encoding))
     assert np.ptp(read_mesh(path).vertices, axis=0) == pytest.approx((3, 4, 5))
+
+
+# --- open meshes and manifold3d --------------------------------------------------------------------------
+
+SIDES = [(-1, -1, -1), (1, -1, -1), (-1, 1, -1), (1, 1, -1), (1, 1, 1), (-1, -1, 1), (1, -1, 1), (-1, 1, 1)]
+CORNERS = np.array(SIDES) * (10.0, 5.0, 2.5)
+# In this order manifold3d 3.5.4 ends its process with a segmentation fault.
+UNLUCKY = [
+    (5, 7, 0),
+    (1, 5, 0),
+    (0, 7, 2),
+    (2, 1, 0),
+    (5, 4, 7),
+    (6, 5, 1),
+    (6, 4, 5),
+    (7, 4, 2),
+    (3, 1, 2),
+    (2, 4, 3),
+    (4, 6, 3),
+]
+
+
+@given(st.permutations(UNLUCKY), st.integers(0, len(UNLUCKY)))
+@example(UNLUCKY, len(UNLUCKY))
+def test_an_open_mesh_in_any_order_is_no_solid(faces: list[tuple[int, int, int]], count: int) -> None:
+    surface = Surface(vertices=CORNERS, faces=np.array(faces[:count], dtype=np.int64).reshape(-1, 3))
+    for single in (True, False):
+        assert status(surface, single=single) == "NotManifold"
