@@ -71,7 +71,8 @@ def drop_distant(
     """
     low, high = np.reshape(region.bounds, (2, 2))
     places = turn(centres, angle) + np.array(phase)
-    return centres[((places >= low - reach) & (places <= high + reach)).all(axis=-1)]
+    near: NDArray[np.bool_] = ((places >= low - reach) & (places <= high + reach)).all(axis=-1)
+    return centres[near]
 
 
 def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
