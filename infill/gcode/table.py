@@ -92,8 +92,8 @@ class State:
     def steps_e(self) -> bool:
         """Whether E counts from the last move.
 
-        G91 takes E along, but M82 behind it makes E absolute again in Marlin (its pages of G91 and M82) and not in Klipper,
-        where G91 or M83 suffices; RepRapFirmware's E follows M82 and M83 alone.
+        G91 takes E along. M82 behind it makes E absolute again in Marlin (its pages of G91 and M82), and not in
+        Klipper, where G91 or M83 suffices. RepRapFirmware's E follows M82 and M83 alone.
         """
         if self.firmware == "reprapfirmware":
             return self.relative_e
