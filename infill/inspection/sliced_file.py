@@ -86,6 +86,7 @@ class SlicedFile:
             If it cannot be unpacked, or has no lines.
         """
         self.file.seek(0)
+        opening: contextlib.AbstractContextManager[SlicedText]
         if part is not None:
             opening = self._plate(part, folder)
         elif self.form == "binary":
