@@ -356,6 +356,17 @@ def test_a_length_is_told_to_a_hundredth_or_to_what_it_is_printed_to(mm: float) 
 # Refill.
 
 
+@pytest.mark.parametrize(
+    "line", ["/G1 X40 Y9 E1", "(go) G1 X40 Y9 E1", "G5 X40 Y9 I1 J1 P1 Q1", "; go\rG1 X40 Y9", "X40 E1"]
+)
+def test_where_the_nozzle_is_behind_what_may_move_it_is_not_known(line: str) -> None:
+    """Before x and y are both said again, nothing begins that could be drawn anew."""
+    text = f"M83\n;TYPE:FILL\nG1 X10 Y0 E1 F900\n{line}\nG1 X20 E1\nG1 Y20 E1\nG1 X30 E1\n"
+    table = read(text.encode(), State())
+    assert table.unread.tolist() == [False, False, False, True, False, False, False]
+    assert table.unsure.tolist() == [False, False, False, False, True, True, False]
+
+
 def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:
     """What follows such a line begins nobody knows where: not before x and y are said again is anything drawn anew."""
     text = b"M83\n;TYPE:FILL\nG1 X10 Y0 E1 F900\nG1 X{a} Y9 E1\nG1 X20 E1\nG1 Y20 E1\nG1 X30 E1\n"

@@ -175,7 +175,7 @@ def format_length(mm: float, decimals: int) -> str:
     ('12.35 m', '2.5 mm', '99.7 mm', '0 mm')
     """
     if mm < 10 ** (4 - decimals):
-        return f"{mm:.{3 - decimals}f}".removesuffix(".0") + " mm"
+        return f"{mm:.1f}".removesuffix(".0") + " mm"
     return f"{mm / 1000:.{decimals}f} m"
 
 
