@@ -242,7 +242,7 @@ def slowly(lines: Sequence[bytes], state: State) -> tuple[list[tuple[Any, ...]],
                 if (value := said.get(name.upper())) is not None:
                     state = replace(state, **{name: value + (getattr(state, name) if state.relative else 0.0)})
             if "E" in said:
-                pushed = said["E"] - (0.0 if state.relative or state.relative_e else state.e)
+                pushed = said["E"] - (0.0 if counts_from_last_move(state) else state.e)
                 depth = max(0.0, state.retracted - pushed)
                 state = replace(state, e=state.e + pushed, retracted=depth)
             state = replace(state, f=said.get("F", state.f))
@@ -252,9 +252,14 @@ def slowly(lines: Sequence[bytes], state: State) -> tuple[list[tuple[Any, ...]],
             state = after_command(line, state)
         elif kind == ODD:
             state = replace(state, lost="XY")
-        relative = state.relative or state.relative_e
+        relative = counts_from_last_move(state)
         rows.append((kind, state.x, state.y, state.z, state.e, state.f, pushed, relative))
     return rows, state
+
+
+def counts_from_last_move(state: State) -> bool:
+    """Return whether E is relative by Marlin's rule, as its pages of G90, G91, M82 and M83 have it."""
+    return state.relative_e or (state.relative and not state.absolute_e)
 
 
 def after_command(line: bytes, state: State) -> State:
@@ -262,14 +267,14 @@ def after_command(line: bytes, state: State) -> State:
     name, *rest = text.split() or [""]
     said = {word[0]: float(word[1:] or 0) for word in rest if re.fullmatch(r"[A-Z][-+.\d]*", word)}
     changes: dict[str, dict[str, Any]] = {
-        "G90": {"relative": False},
-        "G91": {"relative": True},
-        "M82": {"relative_e": False},
-        "M83": {"relative_e": True},
+        "G90": {"relative": False, "absolute_e": False},
+        "G91": {"relative": True, "absolute_e": False},
+        "M82": {"relative_e": False, "absolute_e": True},
+        "M83": {"relative_e": True, "absolute_e": False},
         "G20": {"inches": True},
         "G21": {"inches": False},
         "G11": {"firmware_retracted": False},
-        "G10": {} if said.keys() & {"S", "P"} else {"firmware_retracted": True},
+        "G10": {} if said.keys() & {"P"} else {"firmware_retracted": True},
         "G28": {axis: float("nan") for axis in "xyz" if axis.upper() in said or not said.keys() & set("XYZ")},
         "G92": {axis: said.get(axis.upper(), 0.0) for axis in "xyze" if axis.upper() in said or not said},
     }

@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 
 from infill import FormatError, Motion, motion, refill
 from infill.cli.app import build
+from infill.cli.timing import format_length
 from infill.gcode.found_limits import found_limits
 from infill.gcode.limits import Limits, commanded
 from infill.gcode.lines import MOVE
@@ -102,6 +103,19 @@ COUNTED = {  # what cannot be planned, though it may move or extrude
     "another workspace": "G55",
     "a forced move": "FORCE_MOVE STEPPER=extruder DISTANCE=9",
     "a code with a point": "G1.1 X70",
+    "a block that a switch skips": "/G1 X70 E1",
+    "a block of a group that a switch skips": "/2 G1 X70 E1",
+    "a block that a switch skips, numbered": "/N5 G1 X70 E1",
+    "a numbered block that a switch skips": "N5 / G1 X70 E1",
+    "a mode that a switch skips": "/M83",
+    "a counter that a switch skips": "/ G92 E0",
+    "a tool that a switch skips": "/T1",
+    "a remark before a move": "(go) G1 X70 E1",
+    "remarks before a move": "N4 (to) (a wall) G01X70E1",
+    "what is no word before a move": "> G1 X70 E1",
+    "another end of line within a comment": "; go\rG1 X70 E1",
+    "another end of line within a command": "M107\rG1 X70 E1",
+    "another end of line between moves": "G1 X70\rG1 X80 E1",
 }
 
 
@@ -142,6 +156,7 @@ QUIET = (
     "G17",
     "G54",
 )
+QUIET += ("(G1 X5)", "; /G1 X5", "/", "//", "/ (G1 X5)", "/; G1 X5", "M117 /G1 X5", "%O1", "M107\r", "M107\r\r")
 QUIET += ("EXCLUDE_OBJECT_START NAME=g1_x5", "SET_PRESSURE_ADVANCE ADVANCE=0.1", "M106 S255", "G92 E0", "G10", "%", "")
 
 
@@ -249,6 +264,17 @@ def test_feed_rate_and_flow_are_scaled(tmp_path: Path) -> None:
         ("G10\nG10\nG11\n", 1),
         ("G10\nG11\nG10\n", 2),
         ("G10 P0 S200\n", 0),
+        ("G10 S1\nG1 X70\nG11\n", 1),  # Marlin's long one
+        ("G10 S0\nG1 X70\nG11\n", 1),
+        ("G10 S\nG1 X70\nG11\n", 1),
+        ("G10 S1 ; before a change of tools\nG11\n", 1),
+        ("G10 S200\n", 0),  # a temperature
+        ("G10 R150\n", 0),
+        ("G10 P1 S1\n", 0),
+        ("G10 P1 X5 Y2 Z0\n", 0),  # offsets of a tool
+        ("G10 X5\n", 0),
+        ("G10 L2 P1 X0 Y0\n", 0),  # an origin
+        ("G10 L20 P1 X0\n", 0),
         ("G1 E-1\nG1 E1\nG10\n", 2),
     ],
 )
@@ -259,7 +285,86 @@ def test_firmware_retractions_count(lines: str, count: int, tmp_path: Path) -> N
         assert sum(each.retractions for each in found.features) == count
 
 
+def test_a_temperature_of_reprapfirmware_is_no_retraction(tmp_path: Path) -> None:
+    head = HEAD.replace("marlin", "reprapfirmware")
+    assert of(tmp_path, "G1 X60 E1\nG10 S1\nG1 X70 E1\n", head).retractions == 0
+    assert of(tmp_path, "G1 X60 E1\nG10\nG1 X70 E1\n", head).retractions == 1
+
+
+# By the pages of each firmware: mm of filament that "G1 X60 E5, G1 X80 E6" push behind some modes and G92 E4.
+RELATIVE, ABSOLUTE = 11.0, 2.0
+MODES = {  # Marlin, Klipper, RepRapFirmware
+    "G90 M82": (ABSOLUTE, ABSOLUTE, ABSOLUTE),
+    "G90 M83": (RELATIVE, RELATIVE, RELATIVE),
+    "M83 G90": (RELATIVE, RELATIVE, RELATIVE),
+    "M82 G90": (ABSOLUTE, ABSOLUTE, ABSOLUTE),
+    "G91 G90": (ABSOLUTE, ABSOLUTE, ABSOLUTE),
+    "M82 G91": (RELATIVE, RELATIVE, ABSOLUTE),
+    "G91 M82": (ABSOLUTE, RELATIVE, ABSOLUTE),
+    "G91 M83": (RELATIVE, RELATIVE, RELATIVE),
+    "G91 M83 M82": (ABSOLUTE, RELATIVE, ABSOLUTE),
+    "G91 M82 M83": (RELATIVE, RELATIVE, RELATIVE),
+    "G91 M82 G91": (RELATIVE, RELATIVE, ABSOLUTE),
+    "G91 M82 G90": (ABSOLUTE, ABSOLUTE, ABSOLUTE),
+    "M83 G91 M82 G90": (ABSOLUTE, ABSOLUTE, ABSOLUTE),
+    "M83 G91 G90": (RELATIVE, RELATIVE, RELATIVE),
+    "G91 M82 M120 M83 M121": (ABSOLUTE, RELATIVE, ABSOLUTE),
+}
+
+
+@pytest.mark.parametrize("modes", MODES)
+@pytest.mark.parametrize(("at", "flavour"), list(enumerate(["marlin", "klipper", "reprapfirmware"])))
+def test_whether_e_counts_from_the_last_move(modes: str, at: int, flavour: str, tmp_path: Path) -> None:
+    head = f"; gcode_flavor = {flavour}\nG1 X50 Y50 Z0.2 F600\n"
+    moves = "G92 E4\nG1 X60 E5\nG1 X80 E6\n"  # both move, whatever X means
+    found = of(tmp_path, "\n".join(modes.split()) + "\n" + moves, head)
+    assert found.filament == pytest.approx(MODES[modes][at])
+    by_letters = moves.replace("E4", "A4 B0").replace("E", "A")  # as MakerBot has it
+    found = of(tmp_path, "\n".join(modes.split()) + "\n" + by_letters, head)
+    if "M120" not in modes:
+        assert found.filament == pytest.approx(MODES[modes][at])
+
+
+def test_klipper_is_known_by_its_commands(tmp_path: Path) -> None:
+    text = "G91\nM82\nG92 E4\nG1 X10 E5\nG1 X10 E6\n"
+    assert of(tmp_path, text, "G1 X50 Y50 F600\n").filament == ABSOLUTE
+    assert of(tmp_path, text, "SET_VELOCITY_LIMIT ACCEL=900\nG1 X50 Y50 F600\n").filament == RELATIVE
+
+
+@pytest.mark.parametrize("command", ["motion", "refill"])
+def test_lines_that_end_with_cr_alone_are_told(command: str, tmp_path: Path) -> None:
+    old = written(Dialect())
+    path, new = tmp_path / "mac.gcode", tmp_path / "new.gcode"
+    path.write_bytes(old.replace(b"\n", b"\r"))
+    output = [] if command == "motion" else ["-o", str(new)]
+    result = CliRunner().invoke(build(), [command, str(path), *output])
+    assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+    assert f"{path}: its lines end with CR alone" in result.stderr
+    assert not new.exists()
+    path.write_bytes(path.read_bytes().replace(b"\r", b"\n"))  # the remedy
+    assert CliRunner().invoke(build(), [command, str(path), *output]).exit_code == 0
+
+
+@given(st.floats(0, 1e7))
+def test_a_length_is_told_to_a_hundredth_or_to_what_it_is_printed_to(mm: float) -> None:
+    for decimals in (1, 2):
+        number, unit = format_length(mm, decimals).split()
+        assert float(number) * {"mm": 1, "m": 1000}[unit] == pytest.approx(mm, rel=0.06, abs=0.051)
+        assert unit == ("mm" if mm < 10 ** (4 - decimals) else "m")
+
+
 # Refill.
+
+
+@pytest.mark.parametrize(
+    "line", ["/G1 X40 Y9 E1", "(go) G1 X40 Y9 E1", "G5 X40 Y9 I1 J1 P1 Q1", "; go\rG1 X40 Y9", "X40 E1"]
+)
+def test_where_the_nozzle_is_behind_what_may_move_it_is_not_known(line: str) -> None:
+    """Before x and y are both said again, nothing begins that could be drawn anew."""
+    text = f"M83\n;TYPE:FILL\nG1 X10 Y0 E1 F900\n{line}\nG1 X20 E1\nG1 Y20 E1\nG1 X30 E1\n"
+    table = read(text.encode(), State())
+    assert table.unread.tolist() == [False, False, False, True, False, False, False]
+    assert table.unsure.tolist() == [False, False, False, False, True, True, False]
 
 
 def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:

@@ -166,9 +166,50 @@ def test_what_follows_the_cells_is_refused_unless_it_is_nothing(
     with (tmp_path / name).open("ab") as file:
         file.write(more)
     if fine and not (more == b"\n" and ("gz" in way or "bzip2" in way)):
-        assert np.array_equal(read_volume(path).values, VALUES)
+        volume = read_volume(path)
+        assert np.array_equal(volume.values, VALUES)
+        packed = "gz" in way or "bzip2" in way  # zeros may follow a packed stream
+        told = [f"holds {len(more)} bytes more" in each for each in volume.warnings]
+        assert told == [True] * (len(more) > 2 and not packed and way != "npy")
     elif not fine:
         refused(path)
+
+
+@pytest.mark.parametrize("header", [0, 12])
+@pytest.mark.parametrize("more", [0, 2, 40, 400])
+@pytest.mark.parametrize("beside", [False, True])
+def test_cells_at_the_end_of_a_file_are_those_of_simpleitk(
+    header: int, more: int, beside: bool, tmp_path: Path
+) -> None:
+    """HeaderSize = -1: where zeros follow the cells they are taken for cells, and that is told."""
+    sitk = pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
+    body = b"#" * header + w.flat(VALUES) + bytes(more)
+    written = (
+        Written(name="a.mhd", data=w.meta_head(VALUES, "a.raw", HeaderSize="-1"), beside={"a.raw": body})
+        if beside
+        else Written(name="a.mha", data=w.meta_head(VALUES, "LOCAL", HeaderSize="-1") + body)
+    )
+    path = save(tmp_path, written)
+    volume = read_volume(path)
+    assert np.array_equal(volume.values, sitk.GetArrayFromImage(sitk.ReadImage(str(path))).T)
+    assert np.array_equal(volume.values, VALUES) == (more == 0)
+    told = [f"holds {header + more} bytes more than its header announces" in each for each in volume.warnings]
+    assert told == [True] * (header + more > 0)
+
+
+def test_a_size_of_the_header_counts_from_the_beginning_of_the_file(tmp_path: Path) -> None:
+    """Cells behind their own header: as in SimpleITK, which would read that header as cells, too."""
+    sitk = pytest.importorskip("SimpleITK", reason="SimpleITK is not installed (extra medical)")
+    head = w.meta_head(VALUES, "LOCAL", HeaderSize="1000")
+    path = tmp_path / "a.mha"
+    path.write_bytes(head + b"#" * (1000 - len(head)) + w.flat(VALUES))
+    assert np.array_equal(sitk.GetArrayFromImage(sitk.ReadImage(str(path))).T, VALUES)
+    assert np.array_equal(read_volume(path).values, VALUES)
+    for size in ("12", str(len(head) - 2)):
+        path.write_bytes(w.meta_head(VALUES, "LOCAL", HeaderSize=size) + w.flat(VALUES))
+        refused(path, f"HeaderSize of {size}, within its own header")
+    path.write_bytes(w.meta_head(VALUES, "LOCAL", HeaderSize="-1") + w.flat(VALUES))  # the remedy
+    assert np.array_equal(read_volume(path).values, VALUES)
 
 
 @pytest.mark.parametrize("by", [-20, -1, 1, 1000])

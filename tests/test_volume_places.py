@@ -57,12 +57,14 @@ def heard() -> Iterator[list[str]]:
 
 
 def read(written: w.Written, **options: Any) -> tuple[Volume, list[str]]:
-    """Return the volume that a file holds, and the warnings."""
+    """Return the volume that a file holds, and the warnings, which it carries to the report."""
     with tempfile.TemporaryDirectory() as folder:
         for name, data in written.files().items():
             (Path(folder) / name).write_bytes(data)
         with heard() as said:
-            return read_volume(Path(folder) / written.name, **options), said
+            volume = read_volume(Path(folder) / written.name, **options)
+        assert volume.warnings == tuple(said)
+        return volume, said
 
 
 def centres(volume: Volume) -> np.ndarray:
@@ -169,6 +171,13 @@ def test_a_sheared_matrix_is_refused() -> None:
 @pytest.mark.parametrize("unit", [4, 5, 6, 7])
 def test_an_unknown_unit_of_nifti_is_told(unit: int) -> None:
     assert any("unknown unit" in each for each in read(w.nifti(VALUES, units=unit))[1])
+
+
+@pytest.mark.parametrize("unit", [0, 8, 16, 24])
+def test_a_unit_of_nifti_that_is_not_said_is_told(unit: int) -> None:
+    volume, said = read(w.nifti(VALUES, units=unit))
+    assert ["does not say its unit of length; it is taken as mm" in each for each in said] == [True]
+    assert volume.spacing == pytest.approx((1, 0.5, 3))
 
 
 @pytest.mark.parametrize("unit", [8, 16, 24, 2 + 8, 3 + 16, 1 + 24])

@@ -175,7 +175,8 @@ def test_an_unknown_unit_of_ome_is_told(word: str, tmp_path: Path, caplog: pytes
     with tifffile.TiffFile(path, mode="r+") as file:
         file.pages[0].tags["ImageDescription"].overwrite(file.ome_metadata.replace('Unit="mm"', f'Unit="{word}"'))
     assert read_volume(path).spacing == (2, 2, 2)
-    assert len(warned(caplog)) == 3
+    assert len(warned(caplog)) == 1  # of all axes
+    assert f"along x, y and z in {word!r}" in warned(caplog)[0]
     assert all(repr(word) in each for each in warned(caplog))
 
 
@@ -251,3 +252,35 @@ def test_an_unknown_unit_of_nrrd_is_told(word: str, tmp_path: Path, caplog: pyte
     path.write_bytes(w.nrrd(values, **BARE, spacings="1 2 4", units=f'"mm" "mm" "{word}"').data)
     assert read_volume(path).spacing == (1, 2, 4)
     assert [f"{word!r}, no known unit of length" in each for each in warned(caplog)] == [True]
+
+
+WRITTEN = ("nrrd", "nrrd of a space", "imagej", "ome")
+
+
+@pytest.mark.parametrize("way", WRITTEN)
+@pytest.mark.parametrize("words", [("furlong",) * 3, ("furlong", "mm", "furlong"), ("mm", "cubit", "furlong")])
+def test_an_unknown_unit_is_told_once_with_its_axes(
+    way: str, words: tuple[str, ...], tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    path, values = tmp_path / "a.nrrd", VALUES.astype("i2")
+    quoted = " ".join(f'"{word}"' for word in words)
+    if way == "nrrd":
+        path.write_bytes(w.nrrd(values, **BARE, spacings="1 2 4", units=quoted).data)
+    elif way == "nrrd of a space":
+        path.write_bytes(w.nrrd(values, space_units=quoted).data)
+    elif way == "imagej":
+        units = {"unit": words[0], "yunit": words[1], "zunit": words[2]}
+        path = imagej(tmp_path / "a.tif", {**units, "spacing": 3.0})
+    else:
+        sizes = {f"PhysicalSize{each}": 2.0 for each in "XYZ"} | {f"PhysicalSize{each}Unit": "mm" for each in "XYZ"}
+        path = ome(tmp_path / "a.ome.tif", **sizes)
+        with tifffile.TiffFile(path, mode="r+") as file:
+            text = file.ome_metadata
+            for axis, word in zip("XYZ", words, strict=True):
+                text = text.replace(f'PhysicalSize{axis}Unit="mm"', f'PhysicalSize{axis}Unit="{word}"')
+            file.pages[0].tags["ImageDescription"].overwrite(text)
+    volume = read_volume(path)
+    strange = sorted(set(words) - {"mm"})
+    assert len(warned(caplog)) == len(strange)
+    assert all(sum(repr(word) in each for each in warned(caplog)) == 1 for word in strange)
+    assert volume.warnings == tuple(warned(caplog))  # which the report has as input.warnings

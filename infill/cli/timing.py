@@ -153,8 +153,8 @@ def _summary(path: Path, found: Motion) -> str:
         "slicer": found.slicer or "unknown",
         "its estimate": "none" if found.estimate is None else _clock(found.estimate),
         "layers": f"{found.layers}",
-        "filament": f"{found.filament / 1000:.2f} m, {found.retractions} retraction(s){_counted(found)}",
-        "laid, travelled": f"{found.length / 1000:.1f} m, {found.travel / 1000:.1f} m",
+        "filament": f"{format_length(found.filament, 2)}, {found.retractions} retraction(s){_counted(found)}",
+        "laid, travelled": f"{format_length(found.length, 1)}, {format_length(found.travel, 1)}",
         "model": found.limits["model"],
         "limits": limits,
     }
@@ -166,6 +166,17 @@ def _summary(path: Path, found: Motion) -> str:
     if found.macros:
         rows["macros"] = f"{', '.join(found.macros)}: what the printer does there is not known and left out"
     return table(rows, title=str(path))
+
+
+def format_length(mm: float, decimals: int) -> str:
+    """Return a length in m with so many decimals, or in mm where these would say next to nothing.
+
+    >>> format_length(12345, 2), format_length(2.5, 2), format_length(99.7, 1), format_length(0, 2)
+    ('12.35 m', '2.5 mm', '99.7 mm', '0 mm')
+    """
+    if mm < 10 ** (4 - decimals):
+        return f"{mm:.1f}".removesuffix(".0") + " mm"
+    return f"{mm / 1000:.{decimals}f} m"
 
 
 def _counted(found: Motion) -> str:

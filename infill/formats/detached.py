@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import SMALLER
 from infill.formats.packed import NOTHING, cut_off, read_bytes
 from infill.formats.vtk_images import AT_ONCE, TEXT_BYTES, numbers_in
@@ -133,6 +134,14 @@ def _read_part(
             held = os.fstat(file.fileno()).st_size - file.tell()
             if held < total * size:
                 raise cut_off(said, held, total * size)
+            if held > total * size:
+                warn(
+                    "%s holds %d bytes more than its header announces; the last %d are taken for the cells, since what "
+                    "stands before them is said to be of any size (-1)",
+                    said,
+                    held - total * size,
+                    total * size,
+                )
             file.seek(-total * size, os.SEEK_END)
         elif not packed:
             file.seek(part.skip, os.SEEK_CUR)

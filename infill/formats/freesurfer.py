@@ -8,7 +8,6 @@ images. Source: "MGH/MGZ volume format" of the FreeSurfer wiki.
 from __future__ import annotations
 
 import gzip
-import logging
 import math
 import struct
 from dataclasses import dataclass
@@ -19,12 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import SMALLER, checked_volume, told_broken
 from infill.formats.frames import chosen
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-LOG = logging.getLogger("infill")
 HEADER = struct.Struct(">7ih15f")  # version, cells in x, y and z, frames, type, freedom, whether placed, place
 HEADER_BYTES = 284
 VERSION = 1  # in the low byte; newer files keep what the image is for in the others
@@ -95,7 +94,7 @@ def _header(path: Path, head: bytes) -> _Header:
     if kind not in TYPES:
         raise FormatError(f"{path} holds cells of type {kind}, which are no numbers; save it as integers or floats")
     if not placed:
-        LOG.warning(
+        warn(
             "%s does not say the size and the place of its cells; 1 mm is taken, towards left, inferior and anterior, "
             "unless --spacing gives it",
             path,

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,13 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import checked_volume
 from infill.formats.frames import chosen
 from infill.formats.units import millimetres
 from infill.volume import AXES, Volume
 
-LOG = logging.getLogger("infill")
 MOST_AXES = 16
+SIZES = "the size of its cells along"
 TO_LPS = {"RAS": (-1.0, -1.0, 1.0), "LAS": (1.0, -1.0, 1.0), "LPS": (1.0, 1.0, 1.0)}
 # Cells from one to the end of another, counted in the file.
 ReadCells = Callable[[int, int], NDArray[Any]]
@@ -132,21 +132,33 @@ def times(sizes: tuple[int, ...]) -> str:
 
 def scale_of(path: Path, word: str, what: str = "its sizes") -> float:
     """Return the mm of a unit that a file states; for a word that is none, warn, and take mm."""
-    scale = millimetres(word)
-    if scale is None:
-        warn_of_unit(path, word, what)
-        return 1.0
-    return scale
+    return scales_of(path, [word], what, [""])[0]
 
 
-def warn_of_unit(path: Path, word: str, what: str = "its sizes") -> None:
-    """Warn that a word is no known unit of length."""
-    LOG.warning(
-        "%s gives %s in %r, no known unit of length; they are taken as mm, unless --spacing gives them",
-        path,
-        what,
-        word[:40],
-    )
+def scales_of(path: Path, words: Sequence[str], what: str, axes: Sequence[str]) -> list[float]:
+    """Return the mm of the unit of each of several axes, 1 where none is stated; warn once of a word that is none.
+
+    Parameters
+    ----------
+    path : Path
+    words : sequence of str
+        Blank where none is stated.
+    what : str
+        What is in that unit, such as "the size of its cells along".
+    axes : sequence of str
+        The name of each axis.
+    """
+    scales = [millimetres(word) if word.strip() else 1.0 for word in words]
+    for strange in dict.fromkeys(word for word, scale in zip(words, scales, strict=True) if scale is None):
+        *first, last = (axis for axis, word in zip(axes, words, strict=True) if word == strange)
+        named = f"{', '.join(first)} and {last}" if first else last
+        warn(
+            "%s gives %s in %r, no known unit of length; they are taken as mm, unless --spacing gives them",
+            path,
+            f"{what} {named}".rstrip(),
+            strange[:40],
+        )
+    return [1.0 if scale is None else scale for scale in scales]
 
 
 def _rows(matrix: NDArray[np.float64]) -> str:

@@ -5,7 +5,6 @@ Source: "MetaIO/Documentation" of ITK.
 
 from __future__ import annotations
 
-import logging
 import re
 from pathlib import Path
 
@@ -13,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import told_broken
 from infill.formats.detached import Part, find_detached, number_names, read_parts
 from infill.formats.images import ImageHeader, ReadCells, read_frame, require_sizes, scale_of
 from infill.volume import AXES, Volume
 
-LOG = logging.getLogger("infill")
 LONGEST_LINE = 2**16  # bytes
 MOST_LINES = 10_000
 TYPES = {
@@ -115,9 +114,9 @@ def _affine(path: Path, fields: _Fields, count: int) -> NDArray[np.float64]:
     origin = _first(path, fields, ORIGIN, count)
     sizes, gaps = (_floats(fields, name, count) for name in ("elementspacing", "elementsize"))
     if sizes is None and gaps is None:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
+        warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
     elif sizes is not None and gaps is not None and not np.allclose(sizes, gaps, rtol=1e-3, atol=0):
-        LOG.warning(
+        warn(
             "%s states cells of %s mm, %s mm apart (ElementSize, ElementSpacing); they are taken as that large as they "
             "are apart",
             path,
@@ -155,7 +154,7 @@ def _check_anatomy(path: Path, fields: _Fields, directions: NDArray[np.float64])
             turned[letter[0], axis] = letter[1]
         if ((directions * turned).sum(axis=0) > 0.5).all():  # within 60 degrees
             return
-    LOG.warning(
+    warn(
         "%s says AnatomicalOrientation = %s, which does not fit its TransformMatrix; the matrix is taken",
         path,
         said[:20],
@@ -200,13 +199,17 @@ def _cells(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, 
         raise FormatError(
             f"{path} has a HeaderSize of {skip} before {encoding} data; give 0 or more, or -1 for raw data"
         )
-    packed = int(fields.get("compresseddatasize", "0")) if encoding == "zlib" else 0
     files = _files(path, fields, header, listed)
     local = files == [path]
+    if local and 0 < skip < end:
+        raise FormatError(
+            f"{path} has a HeaderSize of {skip}, within its own header of {end} bytes; delete that line, or give -1"
+        )
+    packed = int(fields.get("compresseddatasize", "0")) if encoding == "zlib" else 0
     parts = [
         Part(
             path=each,
-            begin=(end if local else 0) + max(0, skip),
+            begin=max(skip, end if local else 0),  # counted from the beginning of the file
             from_end=skip == -1,
             packed_bytes=packed if packed > 0 and len(files) == 1 else None,
         )

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import one_line, told_broken
 from infill.formats.images import ImageHeader, read_frame, require_sizes
 from infill.formats.packed import cut_off, read_bytes
@@ -248,23 +249,21 @@ def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.fl
     """
     unit = found.one("units") & LENGTH_BITS
     if unit == 0:
-        LOG.info("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
+        warn("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
     elif unit not in MILLIMETRES:
-        LOG.warning(
-            "%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit
-        )
+        warn("%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit)
     scale = MILLIMETRES.get(unit, 1.0)
     steps = np.abs(np.array(found.all("pixdim")[1 : AXES + 1], dtype=np.float64))
     codes = {name: found.one(f"{name}_code") for name in ("sform", "qform")}
     for name, code in codes.items():
         if code not in CODES:
-            LOG.warning("%s has an unknown %s code, %d", path, name, code)
+            warn("%s has an unknown %s code, %d", path, name, code)
     by_matrix = np.array(found.all("sform"), dtype=np.float64).reshape(AXES, AXES + 1)
     by_quaternion = _of_quaternion(path, found, steps) if codes["qform"] else None
     if codes["sform"]:
         _warn_of_sizes(path, by_matrix, steps)
         if by_quaternion is not None and (off := _apart(by_matrix, by_quaternion, sizes)) > AGREEING:
-            LOG.warning(
+            warn(
                 "%s states two places, up to %.3g cells apart: by its sform (code %d), which is taken, and by its "
                 "qform (code %d)",
                 path,
@@ -276,7 +275,7 @@ def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.fl
     elif by_quaternion is not None:
         affine = by_quaternion
     else:
-        LOG.warning(
+        warn(
             "%s does not say which way its axes lead (both codes are 0); left, anterior and superior are taken, "
             "so that it may be mirrored",
             path,
@@ -313,7 +312,7 @@ def _warn_of_sizes(path: Path, affine: NDArray[np.float64], steps: NDArray[np.fl
     """Warn if the sizes of cells stated in the header are others than those of the matrix that counts."""
     lengths = np.linalg.norm(affine[:, :AXES], axis=0)
     if not np.allclose(lengths, steps, rtol=AGREEING, atol=0):
-        LOG.warning(
+        warn(
             "%s states cells of %s (pixdim) and %s (sform), of which the latter are taken",
             path,
             " x ".join(f"{each:.6g}" for each in steps),

@@ -18,16 +18,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import told_broken
 from infill.formats.detached import Part, find_detached, number_names, read_parts
 from infill.formats.images import (
+    SIZES,
     TO_LPS,
     ImageHeader,
     ReadCells,
     read_frame,
     read_frames,
     require_sizes,
-    scale_of,
+    scales_of,
 )
 from infill.version import __version__
 from infill.volume import AXES, Volume
@@ -203,7 +205,7 @@ def _placed(path: Path, fields: _Fields, sizes: tuple[int, ...]) -> ImageHeader:
         spatial, matrix = _directed(path, fields, directions)
     else:
         if name or fields.get("space dimension"):
-            LOG.warning("%s lies in a space and lacks its directions there; the axes of space are taken", path)
+            warn("%s lies in a space and lacks its directions there; the axes of space are taken", path)
         spatial, matrix = _spaced(path, fields, sizes, kinds)
     if len(spatial) < AXES:
         found = tuple(sizes[axis] for axis in spatial)
@@ -285,6 +287,7 @@ def _spaced(
         known = [axis for axis in axes if math.isfinite(spacings[axis]) or math.isfinite(mins[axis])]
         axes = (known if len(known) >= AXES else axes)[:AXES]
     affine = np.zeros((AXES, AXES + 1))
+    scales = scales_of(path, [units[axis] if units else "" for axis in axes], SIZES, [f"axis {axis}" for axis in axes])
     missing = []
     for place, axis in enumerate(axes):
         at_nodes = axis < len(centers) and centers[axis] == "node"
@@ -297,10 +300,10 @@ def _spaced(
             step = 1.0
         first = mins[axis] if math.isfinite(mins[axis]) else maxs[axis] - step * steps
         first = first + (0 if at_nodes else step / 2) if math.isfinite(first) else 0.0
-        scale = scale_of(path, units[axis], f"its axis {axis}") if axis < len(units) and units[axis] else 1.0
+        scale = scales[place]
         affine[place, place], affine[place, AXES] = scale * step, scale * first
     if missing and len(axes) == AXES:
-        LOG.warning(
+        warn(
             "%s does not say the size of its cells along %s; 1 mm is taken, unless --spacing gives it",
             path,
             "any axis" if len(missing) == AXES else "axis " + " and ".join(map(str, missing)),
@@ -309,7 +312,7 @@ def _spaced(
 
 
 def _scales(path: Path, units: list[str]) -> NDArray[np.float64]:
-    return np.array([scale_of(path, unit) if unit else 1.0 for unit in units] or [1.0] * AXES)
+    return np.array(scales_of(path, units, "its sizes", [""] * len(units)) or [1.0] * AXES)
 
 
 def _numbers(fields: _Fields, name: str, count: int) -> list[float]:

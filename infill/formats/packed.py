@@ -16,11 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import SMALLER, one_line
 from infill.machine import require_memory
 
 CHUNK = 2**20  # bytes read, or unpacked, in one go
 PADDING = 512  # bytes of nothing that may follow the cells: files are filled up to whole blocks
+LINE_END = 2  # bytes that nobody is told of
 NOTHING = b"\0 \t\r\n"
 # How many bytes one packed byte can stand for: RFC 1951 gives 1032 for deflate; bzip2 packs 45,899,235 zeros into 46.
 RATIOS = {"zlib": 1032, "gzip": 1032, "bzip2": 10**6}
@@ -220,6 +222,8 @@ def _require_nothing(said: str, after: bytes, surplus: int) -> None:
     """Raise FormatError if something follows the cells that is more than padding."""
     if surplus > PADDING or after.strip(NOTHING):
         raise _surplus(said, surplus)
+    if surplus > LINE_END:
+        warn("%s holds %d bytes more than its header announces, with nothing in them; they are left out", said, surplus)
 
 
 def _surplus(said: str, count: int) -> FormatError:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from infill.errors import FormatError
+from infill.formats.assumed import keep_warnings
 from infill.formats.broken import told_unreadable
 from infill.formats.dicom import read_dicom_segments
 from infill.formats.frames import chosen
@@ -68,7 +69,8 @@ def read_segmentation(
         volume = read_volume(source, array=array, series=series, frame=frame, spacing=spacing)
         own = tuple(replace(each, layer=0) for each in segments if each.layer == frame)
         return Segmentation(layers=(volume,), segments=own)
-    layers = read_layers(source)
+    with keep_warnings() as kept:
+        layers = tuple(replace(layer, warnings=(*layer.warnings, *kept)) for layer in read_layers(source))
     missing = [each for each in segments if not 0 <= each.layer < len(layers)]
     if missing:
         raise FormatError(

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import LOG, warn
 from infill.formats.broken import SMALLER, checked_volume, one_line, told_broken
-from infill.formats.images import LOG, scale_of
+from infill.formats.images import SIZES, scales_of
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -120,10 +121,10 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
     sizes = [*per_cell, None if depth is None else _positive(depth)]
     if unit.lower() in CELLS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
         return (1.0,) * AXES  # nothing was measured
-    scales = [_scale(path, each, axis) for each, axis in zip(units, "xyz", strict=True)]
+    scales = scales_of(path, units, SIZES, "xyz")
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (len(tiff.pages) > 1 or int(known.get("images", 1)) > 1 or missing != ["z"]):
-        LOG.warning(
+        warn(
             "%s does not say the size of its cells along %s; 1 %s is taken, as ImageJ does: unless --spacing gives it",
             path,
             " and ".join(missing),
@@ -138,11 +139,13 @@ def _ome_spacing(path: Path, text: str) -> tuple[float, ...]:
     pixels = ElementTree.fromstring(text).find(".//{*}Pixels")  # noqa: S314
     if pixels is None:
         return (1.0,) * AXES
-    sizes = [
-        None if size is None else size * _scale(path, pixels.get(f"PhysicalSize{axis}Unit", "µm"), axis.lower())
-        for axis in "XYZ"
-        for size in [_positive(pixels.get(f"PhysicalSize{axis}"))]
+    given = [_positive(pixels.get(f"PhysicalSize{axis}")) for axis in "XYZ"]
+    units = [
+        "" if size is None else pixels.get(f"PhysicalSize{axis}Unit", "µm")
+        for axis, size in zip("XYZ", given, strict=True)
     ]
+    scales = scales_of(path, units, SIZES, "xyz")
+    sizes = [None if size is None else size * scale for size, scale in zip(given, scales, strict=True)]
     return _filled(path, sizes, (pixels.get("SizeZ") or "1") != "1")
 
 
@@ -155,7 +158,7 @@ def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tup
             path,
         )
         return (1.0,) * AXES
-    scale = _scale(path, unit, "x")
+    scale = scales_of(path, [unit], SIZES, "x")[0]
     return _filled(path, [*(None if size is None else size * scale for size in per_cell), None], True)
 
 
@@ -166,7 +169,7 @@ def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[flo
         return (1.0,) * AXES
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (has_depth or missing != ["z"]):
-        LOG.warning(
+        warn(
             "%s does not say the size of its cells along %s; %.6g mm is taken, as along another axis, unless "
             "--spacing gives it",
             path,
@@ -174,11 +177,6 @@ def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[flo
             known[0],
         )
     return tuple(known[0] if size is None else size for size in sizes)
-
-
-def _scale(path: Path, unit: str, axis: str) -> float:
-    """Return the mm of a unit; warn, and take mm, where cells or an unknown word stand for it."""
-    return scale_of(path, unit, f"the size of its cells along {axis}") if unit.strip() else 1.0
 
 
 def _length(page: Any, name: str) -> float | None:  # noqa: ANN401 - tifffile.TiffPage

@@ -21,6 +21,7 @@ from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
 from infill.formats.arrays import read_npy, read_npz, write_npz
+from infill.formats.assumed import keep_warnings
 from infill.formats.broken import not_empty, told_unreadable
 from infill.formats.dicom import read_dicom
 from infill.formats.freesurfer import read_mgh
@@ -88,7 +89,10 @@ def read_volume(
     if frame is not None and not source.is_dir() and suffix and suffix not in FRAMED:
         raise _no_frames(frame, source)
     size = None if spacing is None else spacing_of(spacing, AXES)
-    volume = _read(source, suffix, array=array, series=series, frame=frame, size=size)
+    with keep_warnings() as kept:
+        volume = _read(source, suffix, array=array, series=series, frame=frame, size=size)
+    if kept:
+        volume = replace(volume, warnings=(*volume.warnings, *kept))
     return volume if size is None else replace(volume, spacing=size)
 
 

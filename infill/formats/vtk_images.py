@@ -6,7 +6,6 @@ Numbers are text, or binary with the high byte first. Source: "VTK file formats"
 
 from __future__ import annotations
 
-import logging
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import SMALLER, checked_volume, told_broken
 from infill.formats.frames import chosen
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-LOG = logging.getLogger("infill")
 TYPES = {
     "bit": "u1",
     "unsigned_char": "u1",
@@ -155,7 +154,7 @@ def _extent(path: Path, key: str, words: list[str], cells: int, *, text: bool) -
 def _lattice(path: Path, known: dict[str, list[float]]) -> Lattice:
     points = tuple(int(count) for count in known.get("DIMENSIONS", ()))
     if "SPACING" not in known:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
+        warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
         known["SPACING"] = [1.0] * AXES
     origin, spacing = (np.array(known.get(key, (d,) * AXES)) for key, d in (("ORIGIN", 0.0), ("SPACING", 1.0)))
     if len(points) != AXES or min(points) < 1 or origin.shape != (AXES,) or spacing.shape != (AXES,):

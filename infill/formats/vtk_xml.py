@@ -19,9 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
+from infill.formats.assumed import warn
 from infill.formats.broken import SMALLER, told_broken
 from infill.formats.frames import chosen
-from infill.formats.vtk_images import LOG, Lattice, numbers_in
+from infill.formats.vtk_images import Lattice, numbers_in
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
@@ -82,7 +83,7 @@ def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int |
     """Return the volume that the pieces of an image make up."""
     extent = _extent(image.get("WholeExtent", ""))
     if image.get("Spacing") is None:
-        LOG.warning("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
+        warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
     spacing = _numbers(image.get("Spacing", "1 1 1"), AXES)
     direction = _numbers(image.get("Direction", "1 0 0 0 1 0 0 0 1"), AXES * AXES).reshape(AXES, AXES)
     first = _numbers(image.get("Origin", "0 0 0"), AXES) + direction @ (spacing * extent[:, 0])

@@ -12,7 +12,7 @@ from infill.gcode.lines import ARC, MOVE, ODD, Command
 from infill.gcode.numbers import write_words
 from infill.gcode.sections import FILAMENT_UNIT, Marks, Strokes
 from infill.gcode.splicing import Spliced
-from infill.gcode.table import Table
+from infill.gcode.table import Table, firmware_retraction
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
@@ -194,7 +194,8 @@ def ways_of(table: Table, before: Ways | None = None) -> Ways:
         prime_feed=usual(table.f[forth], known.prime_feed),
         lift=usual(-rises[down], known.lift) if down.any() else known.lift,
         lift_feed=usual(table.f[up], known.lift_feed),
-        firmware=any(command.code == "G10" and not command.words for command in table.commands) or known.firmware,
+        firmware=any(firmware_retraction(command, table.before.firmware) for command in table.commands)
+        or known.firmware,
     )
 
 
@@ -348,8 +349,7 @@ def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
     left_out = {
         command.line
         for command in table.commands
-        if (command.code in ("G10", "G11") and not {"S", "P", "L"} & set(command.words))
-        or (counted and _sets_counter(command))
+        if firmware_retraction(command, table.before.firmware) is not None or (counted and _sets_counter(command))
     }
     return [
         (float(share[place]), table.text(body.first + place, body.first + place + 1))

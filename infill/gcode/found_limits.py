@@ -100,6 +100,8 @@ class FoundLimits:
         Limits and sources before any command: what Klipper returns to.
     firmware : str
         As `commanded` takes it.
+    rule_of_e : str
+        As `State.firmware`.
     """
 
     limits: Limits
@@ -113,6 +115,7 @@ class FoundLimits:
     diameters: tuple[float, ...]
     start: tuple[Limits, Mapping[str, str]]
     firmware: str
+    rule_of_e: str = ""
 
     def after(self, code: str, line: bytes) -> FoundLimits:
         """Return what is in force after a command."""
@@ -174,6 +177,7 @@ def found_limits(
         sources=sources,
         start=(limits, sources),
         firmware=flavour if flavour in ("repetier", "smoothie") else "",
+        rule_of_e=rule_of_e(head, settings),
         volumetric=volumetric,
         diameters=diameters,
         fixed=fixed,
@@ -203,6 +207,18 @@ def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[f
         volumetric = settings["use_volumetric_e"].strip() not in ("0", "", "nil", "false")
     numbers = [_first(text) or DIAMETER for text in settings.get("filament_diameter", "").replace(";", ",").split(",")]
     return volumetric, tuple(numbers[:MOST_TOOLS])
+
+
+def rule_of_e(head: bytes, settings: Mapping[str, str]) -> str:
+    """Return whose rule tells when E counts from the last move, as `infill.gcode.table.State.firmware`.
+
+    >>> rule_of_e(b"", {"gcode_flavor": "klipper"}), rule_of_e(b"", {"gcode_flavor": "marlin2"})
+    ('klipper', '')
+    """
+    flavour = settings.get("gcode_flavor", "")
+    if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head.upper():
+        return "klipper"
+    return "reprapfirmware" if flavour == "reprapfirmware" else ""
 
 
 def _says(line: bytes, name: str) -> bool:

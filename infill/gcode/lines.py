@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.gcode.numbers import MINUS, MOST_DIGITS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
-from infill.gcode.unusual_moves import read_move
+from infill.gcode.unusual_moves import may_move, read_move
 
 Floats = NDArray[np.float64]
 
@@ -32,6 +32,7 @@ LONGEST_MOVE = 4096  # bytes of a line that is read one at a time
 _REMARKS = re.compile(rb"\s*(?:\([^()]*\)\s*)*(?:\*\s*\d+\s*)?")
 _WORD = re.compile(rb"([A-Za-z])[ \t]*([-+]?(?:\d+\.?\d*|\.\d+))?")
 _NAME = re.compile(rb"\bNAME\s*=\s*\"?([^\s\";]+)", re.IGNORECASE)
+_BEHIND_RETURN = re.compile(rb"\r(?![\r\n])\s*(?:[Nn]\d+\s*)?[GgMmTt]\d")  # another line, as Marlin takes it
 _BRACKETS = re.compile(rb"\([^()]*\)")
 
 
@@ -78,7 +79,7 @@ class Lines:
     commands : tuple of Command
         The lines that are OTHER or ODD.
     unread : (N,) bool
-        Moves and arcs that could not be read.
+        Lines that may move or extrude and could not be read.
     further : dict of int to dict of str to float
         By line, the words K, R, P, A and B of those ODD lines that have one.
     """
@@ -118,6 +119,13 @@ def lines_of(data: bytes) -> Lines:
     values, given = _values(text, start, kind, begin)
     unread, further = _unusual(data, start, kind, code, values, given)
     commands = tuple(_commands(data, start, kind))
+    for command in commands:
+        line = command.line
+        if kind[line] == OTHER and may_move(command.code, data[start[line] : start[line + 1]]):
+            unread[line] = True
+    if data.count(b"\r") > data.count(b"\r\n"):
+        inner = [found.start() for found in _BEHIND_RETURN.finditer(data)]
+        unread[np.searchsorted(start, inner, side="right") - 1] = True
     return Lines(
         start=start,
         kind=kind,

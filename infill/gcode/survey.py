@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import BinaryIO
 
 from infill.errors import FormatError
-from infill.gcode.found_limits import filament_of
+from infill.gcode.found_limits import filament_of, rule_of_e
 from infill.gcode.stream import LAYER_TAG, LONGEST_LINE
 from infill.gcode.table import State, read
 
@@ -119,12 +119,15 @@ def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | 
     }
     slicer = _SLICER.search(head[:8192])
     first = LAYER_TAG.search(head)
-    volumetric, diameters = filament_of(head, {**told, **(settings or {})})
-    unmoved = State(volumetric=volumetric, diameters=diameters)
+    known = {**told, **(settings or {})}
+    volumetric, diameters = filament_of(head, known)
+    unmoved = State(volumetric=volumetric, diameters=diameters, firmware=rule_of_e(head, known))
     before = read(head[: first.start()] if first else head[: head.rfind(b"\n") + 1], unmoved).after
     begin = State(
         relative=before.relative,
         relative_e=before.relative_e,
+        absolute_e=before.absolute_e,
+        firmware=before.firmware,
         inches=before.inches,
         tool=before.tool,
         retracted=before.retracted,

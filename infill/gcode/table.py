@@ -44,6 +44,10 @@ class State:
         A G10 is in force.
     relative, relative_e : bool
         G91 and M83.
+    absolute_e : bool
+        M82 stood behind the G91 in force.
+    firmware : {"", "klipper", "reprapfirmware"}
+        Whose rule of `steps_e` holds; "" for Marlin's.
     inches : bool
         G20.
     tool : int
@@ -59,7 +63,7 @@ class State:
         What A and B show.
     lost : str
         The axes, of x and y, in which the file has not said where the nozzle is since a line that could not be read.
-    saved : tuple of (name, relative, relative_e)
+    saved : tuple of (name, relative, relative_e, absolute_e)
         What SAVE_GCODE_STATE, or M120, has put aside.
     """
 
@@ -72,6 +76,8 @@ class State:
     firmware_retracted: bool = False
     relative: bool = False
     relative_e: bool = False
+    absolute_e: bool = False
+    firmware: str = ""
     inches: bool = False
     tool: int = 0
     plane: int = 17
@@ -80,7 +86,18 @@ class State:
     letters: str = ""
     counters: tuple[float, float] = (0.0, 0.0)
     lost: str = ""
-    saved: tuple[tuple[str, bool, bool], ...] = ()
+    saved: tuple[tuple[str, bool, bool, bool], ...] = ()
+
+    @property
+    def steps_e(self) -> bool:
+        """Whether E counts from the last move.
+
+        G91 takes E along. M82 behind it makes E absolute again in Marlin (its pages of G91 and M82), and not in
+        Klipper, where G91 or M83 suffices. RepRapFirmware's E follows M82 and M83 alone.
+        """
+        if self.firmware == "reprapfirmware":
+            return self.relative_e
+        return self.relative_e or (self.relative and not (self.absolute_e and self.firmware != "klipper"))
 
     @property
     def diameter(self) -> float:
@@ -134,7 +151,7 @@ class Table:
     volumetric : (N,) bool
         Whether E counts mm³.
     unread : (N,) bool
-        Moves and arcs that could not be read.
+        Lines that may move or extrude and could not be read.
     unsure : (N,) bool
         Lines before which x or y is not known since such a move.
     further : dict of int to dict of str to float
@@ -234,9 +251,9 @@ def _replayed(data: bytes, lines: Lines, before: State) -> Table:
             after = _changed(state, command)
             for name in where:
                 where[name][last] = getattr(after, name)
-            relative_e[last] = after.relative_e or after.relative
+            relative_e[last] = after.steps_e
             until = last + 1
-        relative_e[first:last] = state.relative_e or state.relative
+        relative_e[first:last] = state.steps_e
         volumetric[first:until], plane[first:until], section[first:until] = state.volumetric, state.plane, state.section
         if command is not None:
             state, first = after, last + 1
@@ -282,15 +299,13 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
         return state, lines.commands, lines
     values, given = lines.values.copy(), lines.given.copy()
     counters = dict(zip(EXTRUDERS, state.counters, strict=True))
-    relative, relative_e = state.relative, state.relative_e
+    modes = state
     column = WORDS.index("E")
     changed = list(lines.commands)
     for number, command in enumerate(lines.commands):
         match command.code:
-            case "G90" | "G91":
-                relative = command.code == "G91"
-            case "M82" | "M83":
-                relative_e = command.code == "M83"
+            case "G90" | "G91" | "M82" | "M83":
+                modes = _changed(modes, command)
             case "G92":
                 reset = command.words or dict.fromkeys(EXTRUDERS)  # without a word, all
                 counters |= {letter: reset[letter] or 0.0 for letter in EXTRUDERS if letter in reset}
@@ -299,7 +314,7 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
         further = lines.further.get(command.line, {})
         pushed = {letter: further[letter] or 0.0 for letter in EXTRUDERS if letter in further}
         if pushed:
-            step = relative or relative_e
+            step = modes.steps_e
             counters |= {letter: value + (counters[letter] if step else 0.0) for letter, value in pushed.items()}
             values[command.line, column] = sum(pushed.values()) if step else sum(counters.values())
             given[command.line, column] = True
@@ -355,7 +370,7 @@ def _stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: F
         where[name][lines] = place
         now[name] = float(place[-1])
     column = values[lines, 3]
-    if state.relative_e or state.relative:
+    if state.steps_e:
         pushed = np.nan_to_num(column)
         counter = state.e + np.cumsum(pushed)
     else:
@@ -389,16 +404,18 @@ def _changed(state: State, command: Command) -> State:
         case "G20" | "G21":
             return replace(state, inches=command.code == "G20")
         case "G90" | "G91":
-            return replace(state, relative=command.code == "G91")
+            return replace(state, relative=command.code == "G91", absolute_e=False)
         case "M82" | "M83":
-            return replace(state, relative_e=command.code == "M83")
+            return replace(state, relative_e=command.code == "M83", absolute_e=command.code == "M82")
         case "G17" | "G18" | "G19":
             return replace(state, plane=int(command.code[1:]))
         case "M200":
             return filament_counted(state, command.words)
         case "SAVE_GCODE_STATE" | "M120":
             kept = tuple(each for each in state.saved if each[0] != command.name or command.code == "M120")
-            return replace(state, saved=(*kept[-MOST_SAVED:], (command.name, state.relative, state.relative_e)))
+            return replace(
+                state, saved=(*kept[-MOST_SAVED:], (command.name, state.relative, state.relative_e, state.absolute_e))
+            )
         case "RESTORE_GCODE_STATE" | "M121":
             return _restored(state, command.name, once=command.code == "M121")
         case "G92":
@@ -443,18 +460,27 @@ def _restored(state: State, name: str, *, once: bool) -> State:
     """Return the state with the modes that were put aside under a name, if any were."""
     for place in reversed(range(len(state.saved))):
         if state.saved[place][0] == name:
-            _, relative, relative_e = state.saved[place]
+            _, relative, relative_e, absolute_e = state.saved[place]
             saved = state.saved[:place] if once else state.saved
-            return replace(state, relative=relative, relative_e=relative_e, saved=saved)
+            return replace(state, relative=relative, relative_e=relative_e, absolute_e=absolute_e, saved=saved)
     return state
 
 
-def firmware_retraction(command: Command) -> bool | None:
+def firmware_retraction(command: Command, firmware: str = "") -> bool | None:
     """Return whether a command retracts (G10) or primes (G11) by firmware; None for all others.
 
-    With S, P or L, G10 sets a temperature or an origin.
+    Marlin's G10 S1 draws back as far as for a change of tools. With any other word, and with S too in RepRapFirmware,
+    G10 sets a temperature, an offset of a tool or an origin.
+
+    Parameters
+    ----------
+    command : Command
+    firmware : str
+        As in `State`.
     """
-    if command.code not in ("G10", "G11") or not {"S", "P", "L"}.isdisjoint(command.words):
+    if command.code not in ("G10", "G11") or not set(command.words) <= {"S"}:
+        return None
+    if "S" in command.words and (firmware == "reprapfirmware" or command.words["S"] not in (None, 0.0, 1.0)):
         return None
     return command.code == "G10"
 
@@ -465,6 +491,6 @@ def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) 
     retracted = round(float(max(0.0, total.max()) - total[-1]), 9)
     firmware = before.firmware_retracted
     for command in commands:
-        back = firmware_retraction(command)
+        back = firmware_retraction(command, before.firmware)
         firmware = firmware if back is None else back
     return {"retracted": retracted, "firmware_retracted": firmware}

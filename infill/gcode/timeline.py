@@ -22,7 +22,7 @@ from infill.gcode.limits import LIMITING_CODES, Limits
 from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, Command
 from infill.gcode.planner import NOTHING, Plan, settle
 from infill.gcode.table import State, Table, firmware_retraction, read
-from infill.gcode.unusual_moves import is_macro, may_move
+from infill.gcode.unusual_moves import is_macro
 
 BATCH: Final = 1 << 22  # bytes
 ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings
@@ -158,7 +158,9 @@ class Timeline:
         self._speed = self._stored_speed = 1.0
         self._flow: dict[int | None, float] = {None: 1.0}  # by tool
         self.found = found or found_limits(*_ends(file), fixed, settings)
-        self.state = State(volumetric=self.found.volumetric, diameters=self.found.diameters)
+        self.state = State(
+            volumetric=self.found.volumetric, diameters=self.found.diameters, firmware=self.found.rule_of_e
+        )
         self._limits: list[Limits] = [self.found.limits]
 
     def __iter__(self) -> Iterator[tuple[Steps, Plan]]:
@@ -232,7 +234,7 @@ class Timeline:
                     words = command.words
                     pause[line] = max(words.get("S") or 0.0, 0.0) + max(words.get("P") or 0.0, 0.0) / 1000
                 case "G10" | "G11":
-                    back = firmware_retraction(command)
+                    back = firmware_retraction(command, table.before.firmware)
                     retractions[line] = back is True and not self._drawn_back
                     self._drawn_back = self._drawn_back if back is None else back
                 case "M220":
@@ -249,11 +251,7 @@ class Timeline:
                 case _ if is_macro(code):
                     if len(self.macros) < MOST_MACROS:
                         self.macros[code] = None
-            if table.unread[line]:
-                continue
-            if (table.kind[line] != ODD and may_move(code, table.text(line, line + 1))) or (
-                code == "M101" and not table.after.letters
-            ):
+            if code == "M101" and not table.after.letters and not table.unread[line]:
                 unread.append(line)
         self._count(table, unread)
         return _Orders(setting=setting, stop=stop, pause=pause, retractions=retractions, speed=speed, flow=flow)

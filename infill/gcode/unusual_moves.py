@@ -50,6 +50,13 @@ _INNER_MOVE: Final = re.compile(rb"[\s\d][Gg]\s*0*[0-35](?![\d.])")
 _AXIS_FIRST: Final = re.compile(
     rb"\s*(?:[Nn]\d+\s*)?(?:[XYZEAB]\s*[-+.\d\[{]|[Gg]\s+0*[0-35]\b|[XYZEAB]\d*=)", re.IGNORECASE
 )
+# A block that a switch of the machine skips (/), the mark of a text's encoding, a remark: some firmwares obey what
+# stands behind it, others do not.
+_HIDDEN: Final = re.compile(
+    rb"\s*(?:[Nn]\d+\s*)?(?:(?:/\d*|\xef\xbb\xbf)\s*(?:[Nn]\d+\s*)?[GMT]\s*\d"
+    rb"|(?:\([^()]*\)\s*|[^\sA-Za-z;(]+\s*)+(?:[Nn]\d+\s*)?[Gg]\s*0*[0-35](?![\d.]))",
+    re.IGNORECASE,
+)
 _MOVING_WORDS: Final = frozenset({"FORCE_MOVE", "MANUAL_STEPPER", "MANUAL_STEPPERS"})
 _MACRO: Final = re.compile(r"[A-Z_][A-Z_]{2,}[A-Z0-9_]*")
 # Klipper's own commands, and those of common plug-ins, that move nothing.
@@ -141,6 +148,8 @@ def may_move(code: str, text: bytes) -> bool:
 
     >>> may_move("G5", b"G5 X1 Y2 I3 J4 E1"), may_move("M204", b"M204 S500"), may_move("G90", b"G90 G1 X5")
     (True, False, True)
+    >>> may_move("/G1", b"/G1 X1"), may_move("/", b"/ N5 M83"), may_move("(GO)", b"(go) G1 X1")
+    (True, True, True)
     """
     letter, number = code[:1], code[1:2]
     if letter == "G" and number.isdigit():
@@ -151,7 +160,7 @@ def may_move(code: str, text: bytes) -> bool:
         return True
     if letter == "T" and number.isdigit():
         return False
-    return _AXIS_FIRST.match(text) is not None
+    return _AXIS_FIRST.match(text) is not None or _HIDDEN.match(text) is not None
 
 
 def _has_inner_move(text: bytes) -> bool:

@@ -12,6 +12,7 @@ from infill.errors import FormatError, ParameterError
 from infill.formats.whole_files import scratch
 
 HEAD = 4  # bytes that tell the forms apart
+LOOKED_AT = 1 << 18  # bytes that tell how lines end
 Form = Literal["text", "binary", "archive"]
 
 
@@ -82,17 +83,19 @@ class SlicedFile:
         Raises
         ------
         FormatError
-            If it cannot be unpacked.
+            If it cannot be unpacked, or has no lines.
         """
         self.file.seek(0)
+        opening: contextlib.AbstractContextManager[SlicedText]
         if part is not None:
-            with self._plate(part, folder) as given:
-                yield given
+            opening = self._plate(part, folder)
         elif self.form == "binary":
-            with self._binary(folder) as given:
-                yield given
+            opening = self._binary(folder)
         else:
-            yield SlicedText(text=self.file)
+            opening = contextlib.nullcontext(SlicedText(text=self.file))
+        with opening as given:
+            _check_line_ends(given.text)
+            yield given
 
     @contextlib.contextmanager
     def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
@@ -149,6 +152,17 @@ def opened(source: Path) -> Iterator[SlicedFile]:
             yield SlicedFile(name=source.name, file=file, form=form, plates=numbers)
     except FormatError as error:
         raise FormatError(f"{source}: {error}") from error
+
+
+def _check_line_ends(text: BinaryIO) -> None:
+    """Raise FormatError for a text whose lines end with CR alone; the text is left at its beginning."""
+    text.seek(0)
+    head = text.read(LOOKED_AT)
+    text.seek(0)
+    if b"\r" in head and b"\n" not in head:
+        raise FormatError(
+            "its lines end with CR alone, as on old Macs; end them with LF: tr '\\r' '\\n' < old.gcode > new.gcode"
+        )
 
 
 def _form(head: bytes) -> Form:
