@@ -107,6 +107,19 @@ def filament(text: str) -> float:
     return sum(layer.filament for layer in read_layers(text))
 
 
+def infill_width(text: str) -> float:
+    """Return how wide PrusaSlicer says the lines of infill are, mm, the usual one; 0.45 where it is not said."""
+    role, width, found = "", "0.45", []
+    for line in text.splitlines():
+        if tag := _TAG.match(line):
+            role = tag[1].strip()
+        elif line.startswith(";WIDTH:"):
+            width = line[7:]
+        elif role in SPARSE and line.startswith("G1 ") and " E" in line:
+            found.append(float(width))
+    return float(np.median(found)) if found else 0.45
+
+
 def touching_walls(text: str, reach: float = 1.1 * 0.45) -> float:
     """Return how much of the infill lies within `reach` of a bead of another kind, mm: as near as beads touch.
 
