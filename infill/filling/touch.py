@@ -48,7 +48,8 @@ def deviations_that_keep_touch(
     quarter = np.maximum(np.tan(turn / 4), 1e-12)  # of a straight joint, which needs no arc
     shortened = np.maximum(2 - turn / np.maximum(np.tan(turn / 2), 1e-12), 1e-12)  # by an arc, over its setback
     touches = np.minimum(spare / shortened, np.maximum(reach - near[corner], 0.0) / 2 / quarter)
-    return np.maximum.reduce([reached, touches, spare / 2]) * quarter
+    setback = np.maximum(reached, np.maximum(touches, spare / 2))
+    return np.asarray(setback * quarter)
 
 
 def _touching(
@@ -86,7 +87,8 @@ def _touching(
     touches = np.flatnonzero((inside | next_inside) & (length[of] > 0))
     owner, piece = of[touches], (length / pieces)[of[touches]]
     at = share[touches] * length[owner]
-    amount = np.bincount(owner, weights=(high - low)[touches] * piece, minlength=count)
+    amount = np.zeros(count)
+    np.add.at(amount, owner, (high - low)[touches] * piece)
     begins, ends = np.full(count, np.inf), np.full(count, np.inf)
     np.minimum.at(begins, owner, at + low[touches] * piece)
     np.minimum.at(ends, owner, length[owner] - at - high[touches] * piece)
