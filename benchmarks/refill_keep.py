@@ -1,11 +1,11 @@
 """What `infill refill` leaves of every infill pattern of PrusaSlicer and CuraEngine, with the slicer's own paths.
 
-    python -m benchmarks.refill_keep [--density 10,15,20,40] [--size 60] [--only octagram]
+    python -m benchmarks.refill_keep [--density 10,15,20,40] [--size 60] [--only octagram] [--deli PYTHON]
 
 A box is sliced with every pattern, refilled, and judged by tests/gap_judge.py, which reads G-code by itself: the widest
 gap to the next bead of every layer before and after, the filament of the infill, and how much of it touches walls.
 Printed is a table in Markdown; the command ends with 1 if a pattern lost more than is promised and the report said
-nothing of it.
+nothing of it. `--deli` names a Python that has the package deli-slicer, and adds the patterns of PrusaSlicer 2.9.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from pathlib import Path
 from infill import refill
 from infill.filling.support import LEAST_LENGTH
 from infill.filling.widest_gap import MOST_GROWTH
-from tests.gap_judge import PIXEL, filament, touching_walls, widest_gaps
-from tests.prints import box, cura_print, prusa_print
+from tests.gap_judge import PIXEL, filament, infill_width, touching_walls, widest_gaps
+from tests.prints import PRINT, box, cura_print, prusa_print
+from tests.slicers import run_slicer
 
 PRUSA = [
     "rectilinear",
@@ -57,14 +58,26 @@ CURA = {
     "gyroid": 1,
     "lightning": 1,
 }
+DELI = """
+import sys
+from deli import _engine
+_engine.slice([(sys.argv[1], [1, 1, 1], [0, 0, 0], 1, [], 0.0, [], [])], open(sys.argv[2]).read(), sys.argv[3])
+"""
 CUT = 0.03  # mm that chords may add
+LEAST_TOUCH = 0.97  # of the length that touches walls
 WIDTH = 0.45  # mm of a line
 
 
-def sliced(engine: str, pattern: str, density: int, part: Path, folder: Path) -> Path:
+def sliced(engine: str, pattern: str, density: int, part: Path, folder: Path, deli: str = "") -> Path:
     path = folder / f"{engine}_{pattern}_{density}.gcode"
+    settings = {"fill_pattern": pattern, "fill_density": f"{density}%"}
     if engine == "prusa":
-        return prusa_print(part, path, {"fill_pattern": pattern, "fill_density": f"{density}%"})
+        return prusa_print(part, path, settings)
+    if engine == "deli":
+        config = path.with_suffix(".ini")
+        config.write_text("".join(f"{name} = {value}\n" for name, value in {**PRINT, **settings}.items()))
+        run_slicer([deli, "-c", DELI, str(part), str(config), str(path)], folder)
+        return path
     apart = round(WIDTH * 100 / density * CURA[pattern], 3)
     return cura_print(part, path, {"infill_pattern": pattern, "infill_line_distance": apart})
 
@@ -78,11 +91,12 @@ def row(engine: str, pattern: str, density: int, path: Path) -> bool:
     before, after = (max((pair[k] for pair in gaps), default=0.0) for k in (0, 1))
     growth = max((late / early - 1 for early, late in gaps), default=0.0)
     kept = filament(new) / filament(old)
-    touched = touching_walls(old)
-    touch = touching_walls(new) / touched if touched else 1.0  # concentric lines keep away from walls
+    reach = 1.1 * infill_width(old)
+    touched = touching_walls(old, reach)
+    touch = touching_walls(new, reach) / touched if touched else 1.0  # concentric lines keep away from walls
     time = report["time"]["infill_after_s"] / report["time"]["infill_before_s"]
     wide = any(late > (1 + MOST_GROWTH) * early + CUT + PIXEL for early, late in gaps)
-    good = not wide and (kept >= LEAST_LENGTH or bool(report["problems"]))
+    good = not wide and touch >= LEAST_TOUCH and (kept >= LEAST_LENGTH or bool(report["problems"]))
     cells = (
         engine,
         pattern,
@@ -103,7 +117,9 @@ def main() -> int:
     asked.add_argument("--density", default="10,15,20,40", help="per cent, with commas between")
     asked.add_argument("--size", type=float, default=60.0, help="of the box, mm")
     asked.add_argument("--only", default="", help="patterns with this in their name")
+    asked.add_argument("--deli", default="", help="a Python with the package deli-slicer")
     options = asked.parse_args()
+    engines = {"prusa": PRUSA, "cura": list(CURA)} | ({"deli": PRUSA} if options.deli else {})
     print("| slicer | pattern | density | widest gap (radius) | most in a layer | filament | walls | time | problems |")
     print("|---|---|---|---|---|---|---|---|---|")
     good = True
@@ -111,10 +127,11 @@ def main() -> int:
         folder = Path(name)
         part = box(folder, (options.size, options.size, 3.0))
         for density in map(int, options.density.split(",")):
-            for engine, patterns in (("prusa", PRUSA), ("cura", CURA)):
+            for engine, patterns in engines.items():
                 for pattern in patterns:
                     if options.only in pattern:
-                        good &= row(engine, pattern, density, sliced(engine, pattern, density, part, folder))
+                        path = sliced(engine, pattern, density, part, folder, options.deli)
+                        good &= row(engine, pattern, density, path)
     return 0 if good else 1
 
 

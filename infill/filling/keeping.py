@@ -43,6 +43,7 @@ def stroke_corners(batch: Batch, corner: float, *, acceleration: float) -> Corne
         line_width=batch.line_width,
         wide=True,
         limit=largest_moves(batch),
+        keep_touch=True,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,9 +100,14 @@ def measured(
     """
     before, after = Contact(), Contact()
 
+    @lru_cache(maxsize=2)  # a layer is measured, and then the next one lies on it
+    def drawn(number: int) -> tuple[Samples, Samples]:
+        return old.of(number), new.of(number)
+
     def below(number: int) -> Below:
         walls = others.samples_of(number)
-        return Below(number=number, before=merged(old.of(number), walls), after=merged(new.of(number), walls))
+        then, now = drawn(number)
+        return Below(number=number, before=merged(then, walls), after=merged(now, walls))
 
     there = set(layers.tolist())
     for number in np.unique(old.layer).tolist():
@@ -113,7 +119,8 @@ def measured(
             under = last
         else:
             continue
-        before += contact(old.of(number), under.before, line_width)
-        after += contact(new.of(number), under.after, line_width)
+        then, now = drawn(number)
+        before += contact(then, under.before, line_width)
+        after += contact(now, under.after, line_width)
     final = int(layers[-1]) if len(layers) else 0
     return before, after, below(final) if len(layers) and (final + 1) % stride == 0 else None

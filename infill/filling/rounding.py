@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from infill.filling.corners import Machine, Rounded, rounded
 from infill.filling.curves import MOST_BULGE, Recut, recut
 from infill.filling.surroundings import BESIDE, TOWARDS, Walls, bounded_deviation
+from infill.filling.touch import deviations_that_keep_touch
 from infill.filling.wide import Room, room_of, widened
 from infill.gcode.splicing import UNIT
 from infill.ragged import packed, parted
@@ -126,6 +127,7 @@ def corners_of(
     hard: NDArray[np.bool_] | None = None,
     wide: bool = False,
     limit: Floats | None = None,
+    keep_touch: bool = False,
 ) -> Corners:
     """Cut the curves of some paths anew, and find their corners.
 
@@ -149,6 +151,8 @@ def corners_of(
         Take corners wide where there is room.
     limit : (M,) float64, mm, optional
         How far each path may move at most.
+    keep_touch : bool
+        Leave what touches walls beside them: see `infill.filling.touch`.
     """
 
     def machine(begins: Places) -> Machine:
@@ -168,8 +172,13 @@ def corners_of(
         corners = corners[~hard[curves.source[corners]]]
     is_beside = np.isfinite(near[curves.source[corners]])
     beside, room = corners[is_beside], None
+    layers = of[curves.source]
+    most = None if limit is None else np.repeat(limit, np.diff(curves.first))
+    if keep_touch:
+        most = np.full(len(curves.points), np.inf) if most is None else most
+        touch = deviations_that_keep_touch(curves.points, curves.first, corners, layers, walls, line_width=line_width)
+        most[corners] = np.minimum(most[corners], touch)
     if wide:
-        layers = of[curves.source]
         room = room_of(curves.points, curves.first, corners[~is_beside], layers, walls, line_width=line_width)
     return Corners(
         curves=curves,
@@ -182,7 +191,7 @@ def corners_of(
         walls=walls,
         line_width=line_width,
         room=room,
-        limit=None if limit is None else np.repeat(limit, np.diff(curves.first)),
+        limit=most,
     )
 
 

@@ -23,7 +23,7 @@ Places = NDArray[np.intp]
 STEP = 0.2  # mm between points on other beads
 BESIDE = 1.3  # line widths between the centre lines of a corner and of a bead that it lies beside
 # Line widths that a corner beside a bead may move away from it. At a third, a grid touches walls along 13 % less of its
-# length, at a twelfth 2 to 6 %.
+# length, at a twelfth 2 to 6 %; `touch` leaves the slicer's own infill more.
 ANCHORED = 1 / 12
 TOWARDS = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
@@ -68,10 +68,14 @@ class Beads:
             half=np.concatenate([found.half, np.zeros(ends.shape)]),
         )
 
+    def ends_of(self, number: int) -> Floats:
+        """Return where the beads of a layer begin and end, (K, 2, 2), mm."""
+        low, high = np.searchsorted(self.layer, [number, number + 1])
+        return self.ends[low:high]
+
     def samples_of(self, number: int, step: float = FINE) -> Samples:
         """Return samples of the beads of a layer, at most `step` apart, mm."""
-        low, high = np.searchsorted(self.layer, [number, number + 1])
-        some = self.ends[low:high]
+        some = self.ends_of(number)
         return sampled(some.reshape(-1, 2), np.arange(len(some) + 1) * 2, step)
 
 

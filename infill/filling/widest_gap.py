@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.batch import Batch
-from infill.filling.contact import sampled
 from infill.ragged import picked
 
 Floats = NDArray[np.float64]
@@ -51,18 +50,25 @@ def _widest_gaps(batch: Batch, number: int, some: Places) -> Floats:
     if not np.isfinite(high - low).all() or pixel > spacing:
         return np.full(len(some), spacing / 2)
     shape = tuple(np.ceil((high - low) / pixel).astype(int) + 1)
-    others = batch.others.samples_of(number, pixel / 2).points
-    walls = _raster(others, low, pixel, shape)
-    beads = _raster(np.concatenate([sampled(points, first, pixel / 2).points, points]), low, pixel, shape)
-    region, _ = ndimage.label(~ndimage.binary_dilation(walls))
-    open_sides = np.unique(np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]]))
-    distance = ndimage.distance_transform_edt(~(walls | beads)) * pixel
-    radius = np.zeros(int(region.max()) + 1)
-    np.maximum.at(radius, region.ravel(), distance.ravel())
-    radius = np.maximum(radius - ERROR * pixel, 0.0)
+    others = batch.others.ends_of(number)
+    walls = _raster(others[:, 0], others[:, 1], low, pixel, shape)
+    leg = np.ones(len(points), dtype=bool)
+    leg[first[1:] - 1] = False
+    begins = np.flatnonzero(leg)
+    beads = _raster(points[begins], points[begins + 1], low, pixel, shape)
+    at = np.floor((points - low) / pixel + 0.5).astype(np.intp)
+    beads[at[:, 0], at[:, 1]] = True
+    region, _ = ndimage.label(~_dilated(walls))
+    open_sides = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
+    # The squares of distances, in whole numbers, of which only the largest are needed.
+    row, column = ndimage.distance_transform_edt(~(walls | beads), return_distances=False, return_indices=True)
+    row -= np.arange(shape[0], dtype=row.dtype)[:, None]
+    column -= np.arange(shape[1], dtype=column.dtype)
+    square = np.zeros(int(region.max()) + 1, dtype=row.dtype)
+    np.maximum.at(square, region.ravel(), (row * row + column * column).ravel())
+    radius = np.maximum(np.sqrt(square) * pixel - ERROR * pixel, 0.0)
     radius[0] = np.inf  # beside a wall
     radius[open_sides] = spacing / 2  # around it is nothing that tells where the infill ends
-    at = np.floor((points - low) / pixel + 0.5).astype(np.intp)
     least = np.minimum.reduceat(radius[region[at[:, 0], at[:, 1]]], first[:-1])
     return np.where(np.isfinite(least), least, float(least[np.isfinite(least)].min(initial=spacing / 2)))
 
@@ -82,11 +88,35 @@ def _spacing(points: Floats, first: Places) -> float:
         return 0.0
 
 
-def _raster(points: Floats, low: Floats, pixel: float, shape: tuple[int, ...]) -> Flags:
-    """Return which pixels some points fall into; those outside are left out."""
+def _raster(starts: Floats, ends: Floats, low: Floats, pixel: float, shape: tuple[int, ...]) -> Flags:
+    """Return the pixels that straight pieces of beads pass through; what lies outside is left out.
+
+    Pieces are cut into equal ones of half a pixel at most, and the middle of each is marked.
+    """
     found = np.zeros(shape, dtype=bool)
-    at = np.floor((points - low) / pixel + 0.5)
-    inside = ((at >= 0) & (at < np.array(shape))).all(axis=1)
-    row, column = at[inside].astype(np.intp).T
-    found[row, column] = True
+    high = low + pixel * np.array(shape)
+    # Axis by axis: NumPy is slow along the short axis of an array.
+    near = np.ones(len(starts), dtype=bool)
+    for axis in (0, 1):
+        one, other = starts[:, axis], ends[:, axis]
+        near &= (np.maximum(one, other) >= low[axis] - pixel) & (np.minimum(one, other) <= high[axis])
+    (x, y), (then_x, then_y) = starts[near].T, ends[near].T
+    dx, dy = then_x - x, then_y - y
+    pieces = np.maximum(1, np.ceil(np.hypot(dx, dy) / (pixel / 2) - 1e-9)).astype(np.intp)
+    of = np.repeat(np.arange(len(pieces)), pieces)
+    share = (np.arange(len(of)) - (np.cumsum(pieces) - pieces)[of] + 0.5) / pieces[of]
+    row = np.floor((x[of] + share * dx[of] - low[0]) / pixel + 0.5)
+    column = np.floor((y[of] + share * dy[of] - low[1]) / pixel + 0.5)
+    inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
+    found[row[inside].astype(np.intp), column[inside].astype(np.intp)] = True
+    return found
+
+
+def _dilated(pixels: Flags) -> Flags:
+    """Return pixels and their neighbours on all four sides."""
+    found = pixels.copy()
+    found[1:] |= pixels[:-1]
+    found[:-1] |= pixels[1:]
+    found[:, 1:] |= pixels[:, :-1]
+    found[:, :-1] |= pixels[:, 1:]
     return found

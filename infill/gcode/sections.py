@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -145,12 +146,14 @@ def marked(table: Table, before: Tags) -> Marks:
     purges: list[tuple[int, int]] = []
     wipes: list[tuple[int, int]] = []
     changed_tool = wipe = 0  # the line, or the first one if it stands in a table before
-    printed = np.concatenate([[0], np.cumsum(printing(table))])
+    # Plain lists: single entries of an array cost several times as much.
+    printed_so_far = np.concatenate([[0], np.cumsum(printing(table))])
+    printed, start, data = printed_so_far.tolist(), table.start.tolist(), table.data
     commands = {command.line: command for command in table.commands}
 
     def first_printed(line: int) -> int:
         """Return the first line from one on that prints; the end if none does."""
-        return int(np.searchsorted(printed, printed[line], side="right")) - 1
+        return int(np.searchsorted(printed_so_far, printed[line], side="right")) - 1
 
     for line in sorted([*np.flatnonzero(table.kind == COMMENT).tolist(), *commands]):
         if printed[line] > printed[last]:
@@ -166,7 +169,7 @@ def marked(table: Table, before: Tags) -> Marks:
                 value = command.words.get("P") or command.words.get("S") or 0.0
                 now = now._replace(acceleration=value) if makes_sense(value, "acceleration") else now
         else:
-            tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG].lstrip())
+            tag = tag_of(data[start[line] : min(start[line + 1], start[line] + LONGEST_TAG)].lstrip())
             if tag is None:
                 continue
             if tag[0] == "purged" and now.purging:
@@ -176,7 +179,7 @@ def marked(table: Table, before: Tags) -> Marks:
                 wipes.append((wipe, line if tag[0] == "wipe end" else min(line, first_printed(wipe))))
             wipe = line if tag[0] == "wipe start" else wipe
             tagged[line] = tag[0] not in QUIET or now != then
-        if now != then:
+        if now is not then and now != then:
             at.append(line)
             said.append(now)
     if printed[lines] > printed[last]:
@@ -184,15 +187,17 @@ def marked(table: Table, before: Tags) -> Marks:
     if now.wiping:
         wipes.append((wipe, first_printed(wipe)))
         now = now._replace(wiping=first_printed(wipe) == lines)
-    roles = tuple(dict.fromkeys([tags.role for tags in said] + ["wipe tower"]))
+    fields = dict(zip(Tags._fields, zip(*said, strict=True), strict=True))  # of each, all values
+    place = {role: number for number, role in enumerate(dict.fromkeys([*fields["role"], "wipe tower"]))}
+    roles = tuple(place)
     count = np.diff([*at, lines])
 
-    def spread(values: list[Any], kind: Any) -> NDArray[Any]:  # noqa: ANN401 - a NumPy type
+    def spread(values: Sequence[Any], kind: Any) -> NDArray[Any]:  # noqa: ANN401 - a NumPy type
         return np.repeat(np.array(values, dtype=kind), count)
 
-    role = spread([roles.index(tags.role) for tags in said], np.uint8)
-    purged = spread([tags.changing_tool for tags in said], np.bool_)
-    keys = [(tags.role, tags.layer, tags.part) for tags in said]
+    role = spread([place[name] for name in fields["role"]], np.uint8)
+    purged = spread(fields["changing_tool"], np.bool_)
+    keys = list(zip(fields["role"], fields["layer"], fields["part"], strict=True))
     begins = np.zeros(lines + 1, dtype=bool)
     begins[[line for line, one, other in zip(at[1:], keys[1:], keys[:-1], strict=True) if one != other]] = True
     for first, end in purges:
@@ -210,11 +215,11 @@ def marked(table: Table, before: Tags) -> Marks:
         role=role,
         purged=purged,
         section=section,
-        layer=spread([tags.layer for tags in said], np.intp),
+        layer=spread(fields["layer"], np.intp),
         layers=now.layer - before.layer,
-        width=spread([tags.width for tags in said], np.float64),
-        height=spread([tags.height for tags in said], np.float64),
-        acceleration=spread([tags.acceleration for tags in said], np.float64),
+        width=spread(fields["width"], np.float64),
+        height=spread(fields["height"], np.float64),
+        acceleration=spread(fields["acceleration"], np.float64),
         wiping=wiping,
         names=_for_all(names, section),
         tagged=tagged,
@@ -249,16 +254,21 @@ def _printed(tags: Tags) -> Tags:
 def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
     match meaning:
         case "role":
-            return tags._replace(role=role_of(value), wiping=False, changing_tool=False)
+            role = role_of(value)
+            if role == tags.role and not tags.wiping and not tags.changing_tool:
+                return tags
+            return tags._replace(role=role, wiping=False, changing_tool=False)
         case "layer":
             return _begun(tags, value)
         case "object" | "object end":
             name = value.decode("utf-8", "replace") if meaning == "object" and value != b"NONMESH" else ""
             return tags._replace(part=tags.part + 1, name=name, wiping=False, changing_tool=False)
         case "width":
-            return tags._replace(width=_length(value, tags.width))
+            width = _length(value, tags.width)
+            return tags if width == tags.width else tags._replace(width=width)
         case "height":
-            return tags._replace(height=_length(value, tags.height))
+            height = _length(value, tags.height)
+            return tags if height == tags.height else tags._replace(height=height)
         case "wipe start" | "wipe end":
             return tags._replace(wiping=meaning == "wipe start")
         case "tool change" | "tool change end":
