@@ -120,6 +120,11 @@ class Skin:
         level: Bools = (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
         return level
 
+    @cached_property
+    def whole(self) -> Tree:
+        """All faces."""
+        return Tree.of(self.part)
+
     def tree(self, mouth: int) -> Tree | None:
         """Return the faces that do not belong to a mouth; None if there are none. -1 for all that do not look down."""
         if mouth not in self._trees:

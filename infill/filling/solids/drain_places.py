@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import islice, pairwise
 
 import numpy as np
@@ -97,12 +98,18 @@ class Below:
         nx, ny = (np.ceil(sides / step).astype(int) + 1).tolist()
         return Lattice(low=low + step * (np.array(ASIDE) - 1), step=step, shape=(nx + 1, ny + 1))
 
+    @cached_property
     def lowest(self) -> Floats:
-        """Return the height of the lowest place of every void, (N,) mm."""
+        """The height of the lowest place of every void, (N,) mm."""
         found = np.full(self.count, np.inf)
         used = self.names >= 0
         np.minimum.at(found, self.names[used], np.asarray(self.voids.vertices, dtype=np.float64)[used, 2])
         return found
+
+    @cached_property
+    def owners(self) -> Integers:
+        """The void of every face of the voids, (F,)."""
+        return self.names[self.voids.faces[:, 0]].astype(np.int64)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -131,7 +138,7 @@ class Places:
         """Find the places from which a line straight down leaves the part through solid alone."""
         lattice = below.lattice(needs)
         ways = find_ways(below.part, below.voids, below.names, lattice)
-        lowest = below.lowest()
+        lowest = below.lowest
         free = below.skin.leaving[ways.face]
         if needs.closed_at is not None:
             level = 1e-5 * float(np.ptp(below.part.bounds, axis=0).max())
