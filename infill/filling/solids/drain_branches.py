@@ -15,7 +15,7 @@ from infill.filling.solids.drain_places import Below, Needs
 from infill.surface import Surface
 from infill.surfaces.distance import Tree
 
-MOST_POINTS, LINES = 400, 1600  # of a void
+MOST_POINTS, LINES, LATTICE = 400, 1600, 40_000  # of a void; lines through a void, and through all
 LEVELS = 12  # heights of a line in a void
 OVERLAP = 0.15, 0.3  # mm, and of the radius, the lesser: by which a branch reaches into a void
 PUSHES = 6  # steps by which points are moved inwards
@@ -164,7 +164,7 @@ def _reach(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> 
     starts = _deep_enough(below, needs, points[want], void[want])
     if not len(starts.at):
         return starts
-    goals, owner = _points_near(below, starts.at, points[~want], void[~want], drained, needs.threads)
+    goals, owner = _points_near(below, needs, starts, points[~want], void[~want], drained)
     ends = _deep_enough(below, needs, goals, owner)
     return Reach(
         at=np.concatenate([starts.at, ends.at]),
@@ -175,26 +175,41 @@ def _reach(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> 
 
 
 def _points_near(
-    below: Below, starts: Floats, points: Floats, void: Integers, drained: set[int], threads: int | None
+    below: Below, needs: Needs, starts: Reach, points: Floats, void: Integers, drained: set[int]
 ) -> tuple[Floats, Integers]:
-    """Return the points of drained voids that are nearest to some places: of those given, and of their surfaces."""
+    """Return the points of drained voids that are nearest to some starts: of those given, and of their surfaces."""
     from scipy.spatial import cKDTree
     from trimesh.triangles import closest_point
 
     own = np.isin(void, list(drained))
     points, void = points[own], void[own]
     if len(points):
-        _, number = cKDTree(points).query(starts, k=min(NEAREST, len(points)))
+        _, number = cKDTree(points).query(starts.at, k=min(NEAREST, len(points)))
         near = np.unique(number)
         points, void = points[near], void[near]
-    faces = np.flatnonzero(np.isin(below.owners, list(drained)))
+    faces = _faces_near(below, starts, drained, needs.cell + 2 * (needs.diameter + needs.wall))
     if len(faces):
         surface = Surface(vertices=below.voids.vertices, faces=below.voids.faces[faces])
-        _, face = Tree.of(surface).nearest(starts, threads=threads)
+        _, face = Tree.of(surface).nearest(starts.at, threads=needs.threads)
         corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[face]]
-        nearest = np.asarray(closest_point(corners, starts), dtype=np.float64)  # type: ignore[no-untyped-call]
+        nearest = np.asarray(closest_point(corners, starts.at), dtype=np.float64)  # type: ignore[no-untyped-call]
         points, void = np.concatenate([points, nearest]), np.concatenate([void, below.owners[faces[face]]])
     return points, void
+
+
+def _faces_near(below: Below, starts: Reach, drained: set[int], far: float) -> Integers:
+    """Return the faces of drained voids that come within a distance of the box of the starts of some void."""
+    faces = np.flatnonzero(np.isin(below.owners, list(drained)))
+    low, high = below.boxes[:, faces]
+    near = np.zeros(len(faces), dtype=bool)
+    for each in np.unique(starts.void).tolist():
+        own = starts.at[starts.void == each].astype(np.float32)
+        least, most = own.min(axis=0) - np.float32(far), own.max(axis=0) + np.float32(far)
+        some = np.flatnonzero(~near)
+        for axis in range(3):
+            some = some[(low[some, axis] <= most[axis]) & (high[some, axis] >= least[axis])]
+        near[some] = True
+    return faces[near]
 
 
 def _deep_enough(below: Below, needs: Needs, points: Floats, void: Integers) -> Reach:
@@ -227,7 +242,7 @@ def _deep_enough(below: Below, needs: Needs, points: Floats, void: Integers) -> 
 
 def _points_inside(below: Below, needs: Needs) -> tuple[Floats, Integers]:
     """Return points in voids, (N, 3) mm, and which void each is in."""
-    lattice = below.lattice(needs)
+    lattice = below.lattice(needs, LATTICE)
     line, height, up, face = cross(below.voids, lattice)
     void = below.owners[face]
     order = np.argsort(void, kind="stable")  # lines and heights stay in order

@@ -89,14 +89,22 @@ class Below:
         found: Floats = points @ self.turned
         return found
 
-    def lattice(self, needs: Needs) -> Lattice:
-        """Return lines through all of the part, close enough for drains and cells."""
+    def lattice(self, needs: Needs, most: int = MOST_LINES) -> Lattice:
+        """Return lines through all of the part, close enough for drains and cells if so many suffice."""
         low, high = (np.asarray(each, dtype=np.float64)[:2] for each in self.part.bounds)
         sides = high - low
         step = min(needs.diameter / ACROSS, needs.cell / IN_A_CELL)
-        step = max(step, math.sqrt(float(sides.prod()) / MOST_LINES))
+        step = max(step, math.sqrt(float(sides.prod()) / most))
         nx, ny = (np.ceil(sides / step).astype(int) + 1).tolist()
         return Lattice(low=low + step * (np.array(ASIDE) - 1), step=step, shape=(nx + 1, ny + 1))
+
+    def lattice_of(self, needs: Needs, void: int) -> Lattice:
+        """Return those of the lines that may pass through a void."""
+        whole = self.lattice(needs)
+        own = np.asarray(self.voids.vertices, dtype=np.float64)[self.names == void, :2]
+        first = np.floor((own.min(axis=0) - whole.low) / whole.step)
+        nx, ny = (np.ceil((own.max(axis=0) - whole.low) / whole.step) - first).astype(int).tolist()
+        return Lattice(low=whole.low + whole.step * first, step=whole.step, shape=(nx + 1, ny + 1))
 
     @cached_property
     def lowest(self) -> Floats:
@@ -105,6 +113,13 @@ class Below:
         used = self.names >= 0
         np.minimum.at(found, self.names[used], np.asarray(self.voids.vertices, dtype=np.float64)[used, 2])
         return found
+
+    @cached_property
+    def boxes(self) -> NDArray[np.float32]:
+        """The lowest and highest coordinates of every face of the voids, (2, F, 3) mm."""
+        vertices, faces = np.asarray(self.voids.vertices, dtype=np.float32), self.voids.faces
+        a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+        return np.stack([np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)])
 
     @cached_property
     def owners(self) -> Integers:
@@ -134,9 +149,9 @@ class Places:
     lowest: Floats
 
     @classmethod
-    def of(cls, below: Below, needs: Needs) -> Places:
-        """Find the places from which a line straight down leaves the part through solid alone."""
-        lattice = below.lattice(needs)
+    def of(cls, below: Below, needs: Needs, *, void: int | None = None) -> Places:
+        """Find the places from which a line straight down leaves the part through solid alone; of one void if given."""
+        lattice = below.lattice(needs) if void is None else below.lattice_of(needs, void)
         ways = find_ways(below.part, below.voids, below.names, lattice)
         lowest = below.lowest
         free = below.skin.leaving[ways.face]
@@ -165,6 +180,17 @@ class Places:
         if taken is not None and len(taken) and len(mine):
             apart = np.linalg.norm(self.ways.at[mine][:, None] - taken, axis=2).min(axis=1)
             mine = mine[apart >= needs.diameter + needs.wall]
+        return self._first(mine)
+
+    def nearest(self, at: Floats, skin: float) -> Shaft | None:
+        """Return the hole for any void that is nearest to a place of the skin, or None."""
+        mine = np.concatenate(self.order) if self.order else np.empty(0, dtype=np.int64)
+        away = np.linalg.norm(self.ways.at[mine] - at, axis=1) + np.abs(self.ways.skin[mine] - skin)
+        return self._first(mine[np.argsort(away, kind="stable")][:MOST])
+
+    def _first(self, mine: Integers) -> Shaft | None:
+        """Return the hole along the first of some ways that keeps the wall from other skin, or None."""
+        needs = self.needs
         for up in UP:
             for way, high in islice(self._passing(mine, up), TRIES):
                 shaft = self.below.skin.shaft(
@@ -203,19 +229,6 @@ class Places:
                 )
             for index in np.flatnonzero(away >= needs.wall).tolist():
                 yield int(some[index]), float(high[index])
-
-    def widest(self, void: int) -> float | None:
-        """Return about how wide a hole for a void may be, mm; None if no way leads down from it."""
-        mine = self.order[void][:BEST]
-        if not len(mine):
-            return None
-        tree = self.below.skin.tree(-1)
-        if tree is None:
-            return None
-        ends = np.stack([self.ways.skin[mine], self.ways.floor[mine]])
-        points = np.concatenate([np.column_stack([self.ways.at[mine], height]) for height in ends])
-        away, _ = tree.nearest(points, threads=self.needs.threads)
-        return 2 * (float(away.reshape(2, -1).min(axis=0).max()) - self.needs.wall)
 
 
 def _turned(surface: Surface, turned: Floats) -> Surface:
