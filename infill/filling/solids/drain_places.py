@@ -213,21 +213,22 @@ class Places:
         for begin in range(0, len(ways), AT_ONCE):
             some = ways[begin : begin + AT_ONCE]
             high = np.minimum(self.ways.floor[some] + up * needs.diameter, self.ways.ceiling[some])
-            away = np.empty(len(some))
+            kept = np.empty(len(some), dtype=bool)
             mouths = skin.mouths[self.ways.face[some]]
             mouths = np.where([skin.knows(each) for each in mouths.tolist()], mouths, -1)
             for mouth in np.unique(mouths).tolist():
                 own = mouths == mouth
-                away[own] = skin.roughly(
+                kept[own] = skin.may_keep(
                     self.ways.at[some[own]],
                     self.ways.face[some[own]],
                     self.ways.skin[some[own]],
                     high[own],
-                    needs.radius,
-                    mouth,
-                    needs.threads,
+                    radius=needs.radius,
+                    wall=needs.wall,
+                    mouth=mouth,
+                    threads=needs.threads,
                 )
-            for index in np.flatnonzero(away >= needs.wall).tolist():
+            for index in np.flatnonzero(kept).tolist():
                 yield int(some[index]), float(high[index])
 
 
