@@ -89,6 +89,8 @@ class Undrained:
         Whether nothing leads straight out of it through solid alone.
     fits : float or None
         The widest diameter of those tried with which the whole plan has a hole for this void, mm.
+    together : int
+        How many of the voids that are listed with this one have a hole then.
     place : (x, y, z) or None
         Of the largest that no diameter fits: a place of the skin from which a hole straight in drains it, mm.
     """
@@ -98,6 +100,7 @@ class Undrained:
     at: Floats
     blocked: bool
     fits: float | None = None
+    together: int = 0
     place: tuple[float, float, float] | None = None
 
 
@@ -251,15 +254,19 @@ def _with_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: Needs,
         lower = width if lower is None and not other.high and not other.undrained else lower
         shut = {each.void for each in other.undrained}
         dark = shut | {each.void for each in other.unvented}
-        undrained = [_fitted(each, width, shut) for each in undrained]
-        unvented = [_fitted(each, width, dark) for each in unvented]
+        undrained, unvented = _fitted(undrained, width, shut), _fitted(unvented, width, dark)
     if undrained and undrained[0].fits is None:
         undrained[0] = replace(undrained[0], place=_place_for(undrained[0].void, views, needs, wish))
     return replace(plan, undrained=tuple(undrained), unvented=tuple(unvented), lower=lower)
 
 
-def _fitted(void: Undrained, width: float, shut: set[int]) -> Undrained:
-    return replace(void, fits=width) if void.fits is None and void.void not in shut else void
+def _fitted(voids: list[Undrained], width: float, without: set[int]) -> list[Undrained]:
+    """Return voids, of which those that have a hole of a width and had none of a wider one say so."""
+    together = sum(each.void not in without for each in voids)
+    return [
+        replace(each, fits=width, together=together) if each.fits is None and each.void not in without else each
+        for each in voids
+    ]
 
 
 def _narrower(diameter: float) -> list[float]:

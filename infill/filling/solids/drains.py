@@ -222,11 +222,11 @@ def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float,
         yield said
     if drained.plan.unvented:
         first = drained.plan.unvented[0]
-        fits = first.fits
+        thinner = "" if first.fits is None else f"{_thinner(drained.plan.unvented, 'have one')}; or "
         yield (
             f"{len(drained.plan.unvented)} void(s) have no vent, the largest, of {first.volume:.3g} mm³, with its "
             f"highest place at ({_words(first.at.tolist())}): there is no way for a hole of {request.drain:g} mm up "
-            f"from it; {'' if fits is None else _thinner(drained.plan.unvented, fits) + ', or '}leave vent out"
+            f"from it; {thinner}leave vent out"
         )
     if narrow := drained.plan.narrow:
         worst, place = narrow[0], drained.plan.beside
@@ -248,18 +248,18 @@ def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float,
 
 def _remedy(left: tuple[Undrained, ...]) -> str:
     """Return what drains the largest of the voids that are still closed, if anything that was tried does."""
-    fits, place = left[0].fits, left[0].place
-    if fits is not None:
-        return _thinner(left, fits)
-    if place is not None:
-        return f"a drain at ({_words(list(place))}) opens it"
+    if left[0].fits is not None:
+        return _thinner(left, "drain")
+    if left[0].place is not None:
+        return f"a drain at ({_words(list(left[0].place))}) opens it"
     return "no thinner drain, and none upwards or from a side, has room either; patterns of bars leave fewer voids"
 
 
-def _thinner(left: tuple[Undrained, ...], fits: float) -> str:
-    """Return which diameter suffices for the largest of some voids, and for how many of the others."""
-    reached = sum(each.fits is not None and each.fits >= fits for each in left)
-    return f"drains of {fits:g} mm have room" + ("" if reached == len(left) else f" in {reached} of them, this included")
+def _thinner(left: tuple[Undrained, ...], does: str) -> str:
+    """Return with which diameter the largest of some voids gets its hole, and how many of the others do."""
+    first = left[0]
+    who = "all of them" if first.together == len(left) else f"this and {first.together - 1} of the others"
+    return f"with drains of {first.fits:g} mm, {who} {does}"
 
 
 def _words(place: list[float]) -> str:
