@@ -124,7 +124,8 @@ class Below:
     @cached_property
     def owners(self) -> Integers:
         """The void of every face of the voids, (F,)."""
-        return self.names[self.voids.faces[:, 0]].astype(np.int64)
+        owners: Integers = self.names[self.voids.faces[:, 0]].astype(np.int64)
+        return owners
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

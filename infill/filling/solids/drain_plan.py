@@ -286,7 +286,7 @@ def _place_for(void: int, views: _Views, needs: Needs, wish: _Wish) -> tuple[flo
         below = views.along(_turning_down(way))
         if (shaft := Places.of(below, needs, void=void).shaft(void, None)) is None:
             continue
-        place = tuple(_rounded(below.back(np.array([*shaft.at, shaft.skin]))))
+        place = _rounded(below.back(np.array([*shaft.at, shaft.skin])))
         if _stands(place, void, views, needs, wish.opening):
             return place
     return None
@@ -304,9 +304,10 @@ def _stands(
         return False
 
 
-def _rounded(place: Floats) -> list[float]:
+def _rounded(place: Floats) -> tuple[float, float, float]:
     """Return a place as messages give it, mm."""
-    return [float(f"{each:.2f}") + 0.0 for each in place]
+    x, y, z = (round(each, 2) + 0.0 for each in place.tolist())
+    return x, y, z
 
 
 def _by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
@@ -458,7 +459,7 @@ def _instead(point: Floats, below: Below, views: _Views, needs: Needs) -> str:
     x, y, z = below.turned @ point
     shaft = Places.of(below, needs).nearest(np.array([x, y]), z)
     if shaft is not None:
-        place = tuple(_rounded(below.back(np.array([*shaft.at, shaft.skin]))))
+        place = _rounded(below.back(np.array([*shaft.at, shaft.skin])))
         if _stands(place, None, views, needs, None):
             return "give ({:g}, {:g}, {:g})".format(*place)
     return "leave it out: no place that was tried on that side keeps the wall"

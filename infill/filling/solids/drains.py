@@ -234,7 +234,7 @@ def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float,
             f"{len(narrow)} void(s) drain through branches narrower than {request.drain:g} mm, the largest, of "
             f"{drained.plan.volumes[worst.void]:.3g} mm³, through one of {worst.diameter:g} mm at "
             f"({_words(worst.at.tolist())}), where no wider one was found that keeps the wall"
-            + ("" if place is None else f"; it has room for a drain at ({_words(list(place))})")
+            + ("" if place is None else "; it has room for a drain at ({:g}, {:g}, {:g})".format(*place))
         )
     if high := drained.plan.high:
         worst = max(high, key=lambda hole: hole.above)
@@ -251,7 +251,7 @@ def _remedy(left: tuple[Undrained, ...]) -> str:
     if left[0].fits is not None:
         return _thinner(left, "drain")
     if left[0].place is not None:
-        return f"a drain at ({_words(list(left[0].place))}) opens it"
+        return "a drain at ({:g}, {:g}, {:g}) opens it".format(*left[0].place)
     return "no thinner drain, and none upwards or from a side, has room either; patterns of bars leave fewer voids"
 
 
