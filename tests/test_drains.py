@@ -254,14 +254,15 @@ def test_a_void_that_no_diameter_drains_is_opened_from_the_place_that_is_told() 
 
 
 def test_a_narrower_branch_is_told_with_a_place_that_has_room() -> None:
-    """A thin cell along the top has a branch of a quarter; a hole down from the top is as wide as requested."""
-    part = box(24, 24, 30)
-    low, thin = box(21, 21, 16, (0, 0, -5)), box(15, 15, 0.8, (0, 0, 12.0))
-    found = plan(part, low, thin, diameter=3.0)
-    assert all(hole.diameter == 3.0 for hole in found.holes) or found.beside is not None
-    if found.beside is not None:
-        then = plan(part, low, thin, diameter=3.0, places=(found.beside,))
-        assert then.narrow == ()
+    """A thin cell at a side has room for half the width beside itself; straight in from there, for all of it."""
+    part = box(70, 70, 50)
+    large, thin = box(66, 67, 47, (0.5, 0, 0)), box(0.5, 3, 3, (-33.1, 20, 15))
+    found = plan(part, large, thin, diameter=2.0)
+    assert [hole.diameter for hole in found.narrow] == [1.0]
+    assert found.beside is not None
+    then = plan(part, large, thin, diameter=2.0, places=(found.beside,))
+    assert then.narrow == ()
+    assert sorted(hole.void for hole in then.holes) == [0, 1]
 
 
 def test_a_void_that_is_far_from_the_middle_of_its_large_neighbour_is_joined_to_it() -> None:
