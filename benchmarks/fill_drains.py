@@ -69,14 +69,20 @@ def mesh_of(solid: manifold3d.Manifold) -> trimesh.Trimesh:
 def distances(points: Floats, triangles: Floats) -> Floats:
     """Return how far each point (N, 3) is from the nearest of some triangles (M, 3, 3)."""
     least = np.full(len(points), np.inf)
+    low, high = triangles.min(axis=1), triangles.max(axis=1)
     at_once = max(1, PAIRS // max(len(triangles), 1))
-    for begin in range(0, len(points), at_once):
+    for begin in range(0, len(points), at_once) if len(triangles) else ():
         some = points[begin : begin + at_once]
-        one = np.repeat(np.arange(len(some)), len(triangles))
-        other = np.tile(np.arange(len(triangles)), len(some))
+        # A triangle is no nearer than the box around it, and no further than any of its corners.
+        box = np.zeros((len(some), len(triangles)))
+        corner = np.zeros((len(some), len(triangles)))
+        for axis in range(3):
+            place = some[:, axis, None]
+            box += np.maximum(np.maximum(low[:, axis] - place, place - high[:, axis]), 0) ** 2
+            corner += (triangles[:, 0, axis] - place) ** 2
+        one, other = np.nonzero(box <= corner.min(axis=1, keepdims=True) + 1e-9)
         near = closest_point(triangles[other], some[one])
-        away = np.linalg.norm(near - some[one], axis=1).reshape(len(some), len(triangles))
-        least[begin : begin + at_once] = away.min(axis=1, initial=np.inf)
+        np.minimum.at(least, begin + one, np.linalg.norm(near - some[one], axis=1))
     return least
 
 

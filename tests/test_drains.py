@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +11,11 @@ import manifold3d
 import numpy as np
 import pytest
 import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from made_shapes import box, less, rod, together, union
+from numpy.typing import NDArray
 from typer.testing import CliRunner
 
 from benchmarks import fill_drains
@@ -22,6 +28,7 @@ from infill.filling.solids.drain_places import TURN_OVER, Needs
 from infill.filling.solids.drain_plan import DrainPlan, plan_drains
 from infill.filling.solids.drains import Drained, trapped
 from infill.surfaces.components import shell_names
+from infill.surfaces.distance import Tree
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -50,15 +57,29 @@ def kinds(found: DrainPlan) -> list[str]:
 # --- made parts, judged by the meshes ----------------------------------------------------------------------------------
 
 
+@pytest.fixture(scope="module")
+def bolted() -> tuple[list[str], dict[str, Any]]:
+    """Faults and report of a plate with bolt holes."""
+    options = {**QUICK, "pattern": "grid", "density": 0.15}
+    wrong, report = run(Case(name="bolted", part=PARTS["bolted"](), drain=2.0, wall=WALL, options=options))
+    assert not isinstance(report, str)
+    return wrong, report
+
+
+def test_drains_of_a_bolted_plate_keep_the_law(bolted: tuple[list[str], dict[str, Any]]) -> None:
+    wrong, report = bolted
+    assert wrong == []
+    assert report["drains"]["holes"]
+
+
 @pytest.mark.parametrize(
     ("name", "pattern", "drain", "options"),
     [
         ("box", "grid", 3.0, {}),
         ("tower", "grid", 4.0, {"vent": True}),
-        ("bolted", "grid", 2.0, {}),
-        ("on its edge", "grid", 2.5, {}),
+        ("on its edge", "grid", 2.5, {"density": 0.15}),
         ("arch", "cubic-bars", 3.0, {"cell": 12.0}),
-        ("stair", "grid", 2.0, {"vent": True}),
+        ("stair", "grid", 2.0, {"vent": True, "density": 0.12}),
     ],
 )
 def test_drains_of_made_parts_keep_the_law(name: str, pattern: str, drain: float, options: dict[str, Any]) -> None:
@@ -73,8 +94,8 @@ def test_drains_of_made_parts_keep_the_law(name: str, pattern: str, drain: float
 
 def test_the_judge_finds_holes_where_none_may_be() -> None:
     """Holes through a corner, beside a side and through a void that is not told are planted, and each is found."""
-    part = box(24, 24, 16)
-    result = fill(part, "grid", drain=3, wall=WALL, **QUICK)
+    part, quick = box(24, 24, 16), {"voxel": 0.5, "density": 0.15}
+    result = fill(part, "grid", drain=3, wall=WALL, **quick)
     voids = result.stages.voids.to_trimesh()
     case = Case(name="planted", part=part, drain=3, wall=WALL)
     assert list(faults(case, result, voids)) == []
@@ -90,15 +111,14 @@ def test_the_judge_finds_holes_where_none_may_be() -> None:
     listed = {**report, "drains": {**report["drains"], "holes": [*report["drains"]["holes"], hole]}}
     beside = Planted(less(result.mesh, rod(1.5, 6, (10.0, 0.1, -7.0))), listed)
     assert any("from other skin" in each for each in faults(case, beside, voids))  # type: ignore[arg-type]
-    shut = fill(part, "grid", wall=WALL, **QUICK)
+    shut = fill(part, "grid", wall=WALL, **quick)
     assert any("not told" in each for each in faults(case, shut, voids))
 
 
-def test_the_wall_of_a_hole_is_what_trimesh_measures() -> None:
+def test_the_wall_of_a_hole_is_what_trimesh_measures(bolted: tuple[list[str], dict[str, Any]]) -> None:
     """Exact to a hundredth: points on the mesh of the hole, against triangles of the part."""
-    part = PARTS["bolted"]()
-    result = fill(part, "grid", drain=2.0, wall=WALL, **QUICK)
-    holes = [hole for hole in result.report["drains"]["holes"] if hole["kind"] == "drain"]
+    part, (_, report) = PARTS["bolted"](), bolted
+    holes = [hole for hole in report["drains"]["holes"] if hole["kind"] == "drain"]
     assert holes
     for hole in holes[:6]:
         at, to = np.array(hole["at"]), np.array(hole["to"])
@@ -109,8 +129,7 @@ def test_the_wall_of_a_hole_is_what_trimesh_measures() -> None:
         # A ring of 180 points misses less than a thousandth of a mm; the hole is measured with 0.02 mm to spare.
         assert hole["wall"] == pytest.approx(distances(points, other).min(), abs=0.03)
         assert hole["wall"] >= WALL
-    least = result.report["walls"]["least"]
-    assert least <= min(hole["wall"] for hole in result.report["drains"]["holes"])
+    assert report["walls"]["least"] <= min(hole["wall"] for hole in report["drains"]["holes"])
 
 
 # --- where drains go ---------------------------------------------------------------------------------------------------
@@ -190,13 +209,72 @@ def test_a_void_that_nothing_reaches_is_told_with_its_place() -> None:
     assert left.fits is None or left.fits < 1  # between the slot and the end of the void there is 1.5 mm
 
 
-def test_the_diameter_that_is_said_to_fit_fits() -> None:
-    part, void = box(9, 9, 20), inset(9, 9, 20)
-    (left,) = plan(part, void, diameter=6.9).undrained
-    assert left.fits is not None
-    assert left.fits > 5
-    (hole,) = plan(part, void, diameter=left.fits).holes
-    assert hole.clearance >= WALL
+def between(first: str, last: str, said: str) -> str:
+    return said.partition(first)[2].partition(last)[0]
+
+
+def numbers(words: str) -> tuple[float, float, float]:
+    x, y, z = (float(each) for each in words.split(","))
+    return x, y, z
+
+
+@pytest.mark.parametrize(
+    ("part", "voids", "diameter"),
+    [
+        (box(9, 9, 20), [inset(9, 9, 20)], 6.9),
+        (less(box(40, 12, 24), box(50, 8, 3, (0, 0, -6))), [box(34, 9.6, 6, (0, 0, 5))], 6.0),
+    ],
+)
+def test_each_diameter_that_is_said_to_fit_fits(
+    part: trimesh.Trimesh, voids: list[trimesh.Trimesh], diameter: float
+) -> None:
+    """Every one is followed: planned with it, the void has a hole that keeps the wall."""
+    left = plan(part, *voids, diameter=diameter).undrained
+    assert left
+    for each in left:
+        if each.fits is not None:
+            assert 0.5 <= each.fits < diameter
+            then = plan(part, *voids, diameter=each.fits)
+            assert each.void not in {other.void for other in then.undrained}
+            assert all(hole.clearance >= WALL for hole in then.holes)
+    assert plan(box(9, 9, 20), inset(9, 9, 20), diameter=6.9).undrained[0].fits == pytest.approx(5.1)
+
+
+def test_a_void_that_no_diameter_drains_is_opened_from_the_place_that_is_told() -> None:
+    """Nothing leads straight down, and the other void is a thick wall away; from above there is room."""
+    part = less(box(30, 20, 24), box(28, 18, 4, (0, 0, -6)))
+    void = box(14, 14, 6, (0, 0, 4))
+    (left,) = plan(part, void, diameter=3.0).undrained
+    assert left.blocked
+    assert left.fits is None
+    assert left.place is not None
+    then = plan(part, void, diameter=3.0, places=(left.place,))
+    assert then.undrained == ()
+    assert [hole.kind for hole in then.holes] == ["place"]
+
+
+def test_a_narrower_branch_is_told_with_a_place_that_has_room() -> None:
+    """A thin cell at a side has room for half the width beside itself; straight in from there, for all of it."""
+    part = box(70, 70, 50)
+    large, thin = box(66, 67, 47, (0.5, 0, 0)), box(0.5, 3, 3, (-33.1, 20, 15))
+    found = plan(part, large, thin, diameter=2.0)
+    assert [hole.diameter for hole in found.narrow] == [1.0]
+    assert found.beside is not None
+    then = plan(part, large, thin, diameter=2.0, places=(found.beside,))
+    assert then.narrow == ()
+    assert sorted(hole.void for hole in then.holes) == [0, 1]
+
+
+def test_a_void_that_is_far_from_the_middle_of_its_large_neighbour_is_joined_to_it() -> None:
+    """Of 400 even samples of the large void, none is near a thin cell at its side."""
+    part = box(70, 70, 50)
+    large, thin = box(66, 67, 47, (0.5, 0, 0)), box(0.5, 3, 3, (-33.1, 20, 15))
+    found = plan(part, large, thin, diameter=2.0)
+    assert not found.undrained
+    assert kinds(found) == ["branch", "drain"]
+    (branch,) = (hole for hole in found.holes if hole.kind == "branch")
+    assert np.linalg.norm(branch.at - branch.to) < 4  # mm, of walls and radii: it goes straight across
+    assert branch.clearance >= WALL
 
 
 def test_a_narrow_void_beside_a_wall_is_joined_to_its_neighbour() -> None:
@@ -251,23 +329,39 @@ def test_a_drain_is_where_it_was_asked_for() -> None:
     ("place", "words"),
     [
         ((8.0, 0.0, -10.0), r"leaves 0\.\d+ mm of wall at|runs over"),
-        ((0.0, 0.0, 0.0), r"from the skin of the part; give a place on it, such as"),
+        ((0.0, 0.0, 0.0), "10 mm from the skin of the part"),
         ((9.5, 9.5, -10.0), "no void lies straight behind it|runs over"),
         ((10.0, 10.0, -10.0), "no void lies straight behind it|runs over"),
+        ((10.0, 8.5, 3.0), "leaves|no void lies|runs over"),
+        ((7.0, 7.0, 15.0), "5 mm from the skin of the part"),
     ],
 )
 def test_a_place_that_leaves_no_wall_is_refused(place: tuple[float, float, float], words: str) -> None:
+    """The message names a place that does, and a diameter if one has room: both are followed."""
+    part, void = box(20, 20, 20), inset(20, 20, 20)
     with pytest.raises(GeometryError, match=words) as error:
-        plan(box(20, 20, 20), inset(20, 20, 20), diameter=3.0, places=(place,))
-    assert "\n" not in str(error.value)
-    assert str(error.value).startswith("drain_at is (")
+        plan(part, void, diameter=3.0, places=(place,))
+    said = str(error.value)
+    assert "\n" not in said
+    assert said.startswith("drain_at is (")
+    (hole,) = plan(part, void, diameter=3.0, places=(numbers(between("; give (", ")", said)),)).holes
+    assert hole.clearance >= WALL
+    if "or give drains of" in said:
+        (thin,) = plan(part, void, diameter=float(between("drains of ", " mm", said)), places=(place,)).holes
+        assert thin.clearance >= WALL
+
+
+def test_a_side_without_a_place_is_said_to_have_none() -> None:
+    part, void = box(20, 20, 20), box(1, 1, 16)
+    with pytest.raises(GeometryError, match="leave it out: no place that was tried on that side keeps the wall"):
+        plan(less(part, box(30, 30, 1, (0, 0, -8.5))), void, diameter=3.0, places=((5.0, 5.0, 10.0),))
 
 
 # --- the command and the report ----------------------------------------------------------------------------------------
 
 
 def test_a_drain_wider_than_the_part_is_refused_before_anything_is_computed() -> None:
-    with pytest.raises(GeometryError, match=r"drain is 40 mm, and the part is 30 mm wide.*give less than 27\.6"):
+    with pytest.raises(GeometryError, match=r"drain is 40 mm, and the part is 30 mm wide.*no more than 27\.6"):
         fill(box(30, 30, 30), "grid", drain=40)
     with pytest.raises(GeometryError, match="leave drain out"):
         fill(box(30, 30, 30), "grid", drain=4, wall=16)
@@ -314,6 +408,47 @@ def test_the_command_takes_places_and_vents(tmp_path: Path) -> None:
 
 
 # --- lines through a part ----------------------------------------------------------------------------------------------
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    corners=arrays(np.int64, st.tuples(st.integers(1, 12), st.just(3), st.just(3)), elements=st.integers(-6, 14)),
+    step=st.sampled_from([0.5, 1.0, 1.5]),
+)
+def test_lines_cross_triangles_where_arithmetic_without_rounding_has_it(
+    corners: NDArray[np.int64], step: float
+) -> None:
+    """Lines through corners and along edges included; coordinates are halves, of which products are exact."""
+    lattice = Lattice(low=np.array([-1.0, 0.5]), step=step, shape=(7, 5))
+    soup = Surface(vertices=corners.reshape(-1, 3) / 2, faces=np.arange(3 * len(corners)).reshape(-1, 3))
+    line, height, up, face = cross(soup, lattice)
+    found = Counter(zip(line.tolist(), height.round(9).tolist(), up.tolist(), face.tolist(), strict=True))
+    expected: Counter[tuple[int, float, int, int]] = Counter()
+    for (number, (a, b, c)), node in product(enumerate(corners / 2), range(35)):
+        x, y = lattice.places(np.array([node]))[0]
+        sides = [(p[0] - x) * (q[1] - y) - (p[1] - y) * (q[0] - x) for p, q in ((b, c), (c, a), (a, b))]
+        area = sum(sides)
+        if area and all(side * area >= 0 for side in sides):
+            level = sum(side * p[2] for side, p in zip(sides, (a, b, c), strict=True)) / area
+            expected[node, round(float(level), 9) + 0.0, -1 if area > 0 else 1, number] += 1
+    assert found == expected
+    order = np.lexsort((height, line))
+    assert (order == np.arange(len(line))).all() or (np.diff(height)[np.diff(line) == 0] >= 0).all()
+
+
+def test_a_void_without_room_for_a_hole_costs_few_distances(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each hole that is tried is measured by twelve points first: there were two hundred, of every one."""
+    asked = []
+    nearest = Tree.nearest
+
+    def counted(tree: Tree, points: NDArray[np.floating], **options: Any) -> Any:
+        asked.append(len(points))
+        return nearest(tree, points, **options)
+
+    monkeypatch.setattr(Tree, "nearest", counted)
+    part, void = less(box(24, 24, 30), box(30, 18, 0.8, (0, 0, -5))), box(18, 14, 10, (0, 0, 5))
+    assert plan(part, void, diameter=3.0).undrained
+    assert sum(asked) < 1_000_000  # with four narrower diameters and five other directions; 10 million before
 
 
 def test_lines_cross_a_solid_as_often_in_as_out() -> None:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from infill.filling.solids.drain_columns import cross
 from infill.filling.solids.drain_places import Below, Needs
+from infill.surface import Surface
 from infill.surfaces.distance import Tree
 
-MOST_POINTS = 400  # of a void
+MOST_POINTS, LINES, LATTICE = 400, 1600, 40_000  # of a void; lines through a void, and through all
 LEVELS = 12  # heights of a line in a void
 OVERLAP = 0.15, 0.3  # mm, and of the radius, the lesser: by which a branch reaches into a void
 PUSHES = 6  # steps by which points are moved inwards
@@ -91,8 +93,8 @@ def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: I
     open_, shut = set(drained), set(wanting)
     if not open_ or not shut:
         return []
-    tree = Tree.of(below.part)
-    reach = _reach(below, needs, tree)
+    tree = below.skin.whole
+    reach = _reach(below, needs, open_, shut)
     found: list[Branch] = []
     while shut:
         goals = np.flatnonzero(np.isin(reach.void, list(open_)))
@@ -155,16 +157,74 @@ def _clearance(tree: Tree, start: Floats, end: Floats, needs: Needs) -> tuple[fl
     return math.sqrt(max(float(away[nearest]) ** 2 - half**2, 0.0)) - needs.radius, points[nearest]
 
 
-def _reach(below: Below, needs: Needs, tree: Tree) -> Reach:
-    """Return places for the ends of branches in all voids."""
+def _reach(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> Reach:
+    """Return places for the ends of branches: in all voids that want one, and near those in the drained ones."""
     points, void = _points_inside(below, needs)
-    lowest = below.lowest()
+    want = np.isin(void, list(wanting))
+    starts = _deep_enough(below, needs, points[want], void[want])
+    if not len(starts.at):
+        return starts
+    goals, owner = _points_near(below, needs, starts, points[~want], void[~want], drained)
+    ends = _deep_enough(below, needs, goals, owner)
+    return Reach(
+        at=np.concatenate([starts.at, ends.at]),
+        void=np.concatenate([starts.void, ends.void]),
+        cost=np.concatenate([starts.cost, ends.cost]),
+        above=np.concatenate([starts.above, ends.above]),
+    )
+
+
+def _points_near(
+    below: Below, needs: Needs, starts: Reach, points: Floats, void: Integers, drained: set[int]
+) -> tuple[Floats, Integers]:
+    """Return the points of drained voids that are nearest to some starts: of those given, and of their surfaces."""
+    from scipy.spatial import cKDTree
+    from trimesh.triangles import closest_point
+
+    own = np.isin(void, list(drained))
+    points, void = points[own], void[own]
+    if len(points):
+        _, number = cKDTree(points).query(starts.at, k=min(NEAREST, len(points)))
+        near = np.unique(number)
+        points, void = points[near], void[near]
+    faces = _faces_near(below, starts, drained, needs.cell + 2 * (needs.diameter + needs.wall))
+    if len(faces):
+        surface = Surface(vertices=below.voids.vertices, faces=below.voids.faces[faces])
+        _, face = Tree.of(surface).nearest(starts.at, threads=needs.threads)
+        corners = np.asarray(surface.vertices, dtype=np.float64)[surface.faces[face]]
+        nearest = np.asarray(closest_point(corners, starts.at), dtype=np.float64)  # type: ignore[no-untyped-call]
+        points, void = np.concatenate([points, nearest]), np.concatenate([void, below.owners[faces[face]]])
+    return points, void
+
+
+def _faces_near(below: Below, starts: Reach, drained: set[int], far: float) -> Integers:
+    """Return the faces of drained voids that come within a distance of the box of the starts of some void."""
+    faces = np.flatnonzero(np.isin(below.owners, list(drained)))
+    low, high = below.boxes[:, faces]
+    near = np.zeros(len(faces), dtype=bool)
+    for each in np.unique(starts.void).tolist():
+        own = starts.at[starts.void == each].astype(np.float32)
+        least, most = own.min(axis=0) - np.float32(far), own.max(axis=0) + np.float32(far)
+        some = np.flatnonzero(~near)
+        for axis in range(3):
+            some = some[(low[some, axis] <= most[axis]) & (high[some, axis] >= least[axis])]
+        near[some] = True
+    return faces[near]
+
+
+def _deep_enough(below: Below, needs: Needs, points: Floats, void: Integers) -> Reach:
+    """Move points inwards until a hole around them keeps the wall; leave out those that leave their void by that."""
+    tree, lowest = below.skin.whole, below.lowest
     at, deep = points.copy(), needs.radius + needs.wall
-    for _ in range(PUSHES):
-        away, _ = tree.nearest(at, threads=needs.threads)
+    away = np.full(len(at), -np.inf)
+    for push in range(PUSHES + 1):
         short = np.flatnonzero(away < deep)
         if not len(short):
             break
+        away[short] = tree.nearest(at[short], threads=needs.threads)[0]
+        if push == PUSHES:
+            break
+        short = short[away[short] < deep]
         slope = np.stack(
             [tree.nearest(at[short] + ASIDE * step, threads=needs.threads)[0] - away[short] for step in np.eye(3)],
             axis=1,
@@ -172,7 +232,6 @@ def _reach(below: Below, needs: Needs, tree: Tree) -> Reach:
         length = np.linalg.norm(slope, axis=1, keepdims=True)
         inwards = np.divide(slope, length, out=np.zeros_like(slope), where=length > 0)
         at[short] += (deep - away[short] + ASIDE / 10)[:, None] * inwards
-    away, _ = tree.nearest(at, threads=needs.threads)
     moved = np.linalg.norm(at - points, axis=1)
     overlap = min(OVERLAP[0], OVERLAP[1] * needs.radius)
     kept = (away >= deep) & (moved <= needs.radius - overlap)
@@ -183,32 +242,40 @@ def _reach(below: Below, needs: Needs, tree: Tree) -> Reach:
 
 def _points_inside(below: Below, needs: Needs) -> tuple[Floats, Integers]:
     """Return points in voids, (N, 3) mm, and which void each is in."""
-    lattice = below.lattice(needs)
+    lattice = below.lattice(needs, LATTICE)
     line, height, up, face = cross(below.voids, lattice)
-    void = below.names[below.voids.faces[face, 0]].astype(np.int64)
-    order = np.lexsort((height, line, void))
+    void = below.owners[face]
+    order = np.argsort(void, kind="stable")  # lines and heights stay in order
     line, height, up, void = line[order], height[order], up[order], void[order]
     first = np.flatnonzero((line[1:] == line[:-1]) & (void[1:] == void[:-1]) & (up[:-1] > 0) & (up[1:] < 0))
+    first = first[_evenly(void[first], below.count, LINES)]
     low, high = height[first], height[first + 1]
     places, owner = lattice.places(line[first]), void[first]
-    found, names = [], []
-    for level in range(LEVELS):
-        at = low + np.minimum(needs.radius, (high - low) / 2) + level * needs.radius
-        there = at < high
-        found.append(np.column_stack([places[there], at[there]]))
-        names.append(owner[there])
-    used = below.names >= 0
-    found.append(np.asarray(below.voids.vertices, dtype=np.float64)[used])
-    names.append(below.names[used].astype(np.int64))
+    at = low + np.minimum(needs.radius, (high - low) / 2) + np.arange(LEVELS)[:, None] * needs.radius
+    level, segment = np.nonzero(at < high)
+    inside = np.column_stack([places[segment], at[level, segment]])
+    corners = np.flatnonzero(below.names >= 0)
+    corners = corners[np.argsort(below.names[corners], kind="stable")]
+    corners = corners[_evenly(below.names[corners], below.count, MOST_POINTS)]
+    points = np.concatenate([inside, np.asarray(below.voids.vertices, dtype=np.float64)[corners]])
+    void = np.concatenate([owner[segment], below.names[corners].astype(np.int64)])
     # The corners of a void come last: they are of use only where no line passes through it.
-    rank = np.concatenate([*(np.full(len(each), 0) for each in names[:-1]), np.full(len(names[-1]), 1)])
-    points, void = np.concatenate(found), np.concatenate(names)
+    rank = np.repeat([0, 1], [len(inside), len(corners)])
     order = np.lexsort((points[:, 2], rank, void))
-    ends = np.searchsorted(void[order], np.arange(below.count + 1))
+    kept = order[_evenly(void[order], below.count, MOST_POINTS)]
+    return points[kept], void[kept]
+
+
+def _evenly(names: NDArray[np.integer], count: int, most: int) -> Integers:
+    """Return up to so many places of each name, in even steps, of names in rising order.
+
+    >>> _evenly(np.array([0, 0, 0, 0, 0, 1]), 2, 3).tolist()
+    [0, 2, 4, 5]
+    """
+    ends = np.searchsorted(names, np.arange(count + 1))
     chosen = [
-        order[begin:end][np.unique(np.linspace(0, end - begin - 1, MOST_POINTS).astype(np.int64))]
-        for begin, end in zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True)
+        begin + np.unique(np.linspace(0, end - begin - 1, min(most, end - begin)).astype(np.int64))
+        for begin, end in pairwise(ends.tolist())
         if end > begin
     ]
-    kept = np.concatenate(chosen) if chosen else np.empty(0, dtype=np.int64)
-    return points[kept], void[kept]
+    return np.concatenate(chosen) if chosen else np.empty(0, dtype=np.int64)

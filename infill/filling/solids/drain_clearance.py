@@ -20,8 +20,9 @@ from infill.surfaces.shells import shell_volumes
 
 LEAVING, FACING = 0.5, 0.35  # cosines: how far a face may be from level for a hole to leave through it, or be its mouth
 SMOOTH = math.cos(math.radians(30))  # faces that meet at more are two
-COARSE, FINE = (16, 8), (64, 24)  # points around a hole and along it
 ENDS = (0.0, 0.4, 0.75)  # of the radius: circles on the ends of a hole
+FEW, COARSE, FINE = (4, 3, ()), (16, 8, ENDS), (64, 24)  # points around a hole and along it, and circles on its ends
+CERTAIN = 0.999  # of the wall: what is nearer need not be measured
 RIM = 24  # lines along a hole by which its mouth is found
 NEAR = 1.0  # of diameter and wall: within this of a hole, faces are joined to its mouth
 OUT = 0.25, 0.4  # of the diameter and of the wall, the lesser: how far a hole goes on outside
@@ -120,6 +121,11 @@ class Skin:
         level: Bools = (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
         return level
 
+    @cached_property
+    def whole(self) -> Tree:
+        """All faces."""
+        return Tree.of(self.part)
+
     def tree(self, mouth: int) -> Tree | None:
         """Return the faces that do not belong to a mouth; None if there are none. -1 for all that do not look down."""
         if mouth not in self._trees:
@@ -133,10 +139,19 @@ class Skin:
         """Return whether the tree of a mouth is there already."""
         return mouth in self._trees
 
-    def roughly(
-        self, at: Floats, face: Integers, low: Floats, high: Floats, radius: float, mouth: int, threads: int | None
-    ) -> Floats:
-        """Return about how far holes stay from the skin besides a mouth, (N,) mm: not less than they do.
+    def may_keep(
+        self,
+        at: Floats,
+        face: Integers,
+        low: Floats,
+        high: Floats,
+        *,
+        radius: float,
+        wall: float,
+        mouth: int,
+        threads: int | None,
+    ) -> Bools:
+        """Return which holes may keep the wall from the skin besides a mouth, (N,): by points on them, few at first.
 
         Parameters
         ----------
@@ -145,19 +160,22 @@ class Skin:
             Where the axis leaves.
         low, high : (N,) float64, mm
             Where the axis leaves, and where the hole ends.
-        radius : float, mm
+        radius, wall : float, mm
         mouth : int
         threads : int, optional
         """
         tree = self.tree(mouth)
-        if tree is None:
-            return np.full(len(at), np.inf)
-        z = -self.normals[face, 2]
-        slope = radius * np.sqrt(np.clip(1 - z**2, 0, None)) / z
-        points = _surface_points(at, low - slope, high, radius, *COARSE)
-        away, _ = tree.nearest(points.reshape(-1, 3), threads=threads)
-        least: Floats = away.reshape(len(at), -1).min(axis=1)
-        return least
+        left = np.arange(len(at))
+        if tree is not None:
+            z = -self.normals[face, 2]
+            slope = radius * np.sqrt(np.clip(1 - z**2, 0, None)) / z
+            for around, along, ends in (FEW, COARSE):
+                points = _surface_points(at[left], (low - slope)[left], high[left], radius, around, along, ends)
+                away, _ = tree.nearest(points.reshape(-1, 3), enough=CERTAIN * wall, threads=threads)
+                left = left[away.reshape(points.shape[:2]).min(axis=1, initial=np.inf) >= wall]
+        kept = np.zeros(len(at), dtype=bool)
+        kept[left] = True
+        return kept
 
     def shaft(
         self,
@@ -264,12 +282,14 @@ def _components(pairs: Integers, count: int) -> Integers:
     return names
 
 
-def _surface_points(at: Floats, low: Floats, high: Floats, radius: float, around: int, along: int) -> Floats:
+def _surface_points(
+    at: Floats, low: Floats, high: Floats, radius: float, around: int, along: int, ends: tuple[float, ...] = ENDS
+) -> Floats:
     """Return points on holes, (N, M, 3): on circles along them, and on both ends."""
     angle = 2 * np.pi * np.arange(around) / around
     circle = np.column_stack([np.cos(angle), np.sin(angle)])
     shares = np.linspace(0, 1, along)
-    rings = [(1.0, share) for share in shares] + [(inner, end) for inner in ENDS for end in (0.0, 1.0)]
+    rings = [(1.0, share) for share in shares] + [(inner, end) for inner in ends for end in (0.0, 1.0)]
     flat = np.concatenate([size * radius * circle for size, _ in rings])
     share = np.repeat([share for _, share in rings], around)
     points = np.empty((len(at), len(flat), 3))

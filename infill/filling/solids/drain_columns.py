@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from infill.ragged import spread
 from infill.surface import Surface
+from infill.surfaces.parting import joined
 
-PAIRS_AT_ONCE = 2_000_000  # of triangles and lines that are looked at together
 PART = -1  # the owner of a crossing of the skin of the part
 
 Floats = NDArray[np.float64]
@@ -85,16 +84,11 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
     is a crossing into the part that is followed at once by one into a void. Lines that leave the part or a void more or
     less often than they enter it run along an edge, and are left out.
     """
-    line, height, up, face = cross(part, lattice)
-    own, tops, ups, crossed = cross(voids, lattice)
-    owner = names[voids.faces[crossed, 0]] if len(voids.faces) else np.empty(0, dtype=np.int64)
-    lines = np.concatenate([line, own])
-    heights = np.concatenate([height, tops])
-    rising = np.concatenate([up, ups])
-    owners = np.concatenate([np.full(len(line), PART, dtype=np.int64), owner.astype(np.int64)])
-    faces = np.concatenate([face, np.full(len(own), -1, dtype=np.int64)])
-    order = np.lexsort((heights, lines))
-    lines, heights, rising, owners, faces = (each[order] for each in (lines, heights, rising, owners, faces))
+    both = joined([part, voids])
+    owner = np.full(len(both.faces), PART, dtype=np.int64)
+    owner[len(part.faces) :] = names[voids.faces[:, 0]]
+    lines, heights, rising, faces = cross(both, lattice)
+    owners = owner[faces]
     kind, count = owners == PART, int(np.prod(lattice.shape))
     even = np.ones(count, dtype=bool)
     for some in (kind, ~kind):
@@ -132,6 +126,8 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
 def cross(surface: Surface, lattice: Lattice) -> tuple[Integers, Floats, Integers, Integers]:
     """Find where the lines of a lattice cross a surface: the line, the height in mm, 1 into it or -1 out, and the face.
 
+    They are in the order of the lines, and of the heights on each.
+
     >>> import trimesh
     >>> box = trimesh.creation.box((2, 2, 2))
     >>> lattice = Lattice(low=np.array([0.1, 0.3]), step=1.0, shape=(1, 1))
@@ -139,31 +135,14 @@ def cross(surface: Surface, lattice: Lattice) -> tuple[Integers, Floats, Integer
     >>> sorted(zip(height.round(9).tolist(), up.tolist()))
     [(-1.0, 1), (1.0, -1)]
     """
-    nodes = (np.asarray(surface.vertices, dtype=np.float64)[:, :2] - lattice.low) / lattice.step
-    heights = np.asarray(surface.vertices, dtype=np.float64)[:, 2]
-    corners = nodes[surface.faces]
-    most = np.array(lattice.shape) - 1
-    low = np.clip(np.ceil(corners.min(axis=1)), 0, most + 1).astype(np.int64)
-    high = np.clip(np.floor(corners.max(axis=1)), -1, most).astype(np.int64)
-    across = np.clip(high - low + 1, 0, None)
-    found = []
-    for face, place in spread(across.prod(axis=1), PAIRS_AT_ONCE):
-        i, j = np.divmod(place, across[face, 1])
-        i, j = i + low[face, 0], j + low[face, 1]
-        a, b, c = (corners[face, corner] - np.stack([i, j], axis=1) for corner in range(3))
-        shares = np.stack([_turn(b, c), _turn(c, a), _turn(a, b)], axis=1)
-        area = shares.sum(axis=1)
-        hit = (area != 0) & ((shares * np.sign(area)[:, None]) >= 0).all(axis=1)
-        face, shares, area = face[hit], shares[hit], area[hit]
-        height = (shares * heights[surface.faces[face]]).sum(axis=1) / area
-        found.append((i[hit] * lattice.shape[1] + j[hit], height, np.where(area < 0, 1, -1), face))
-    if not found:
-        none = np.empty(0, dtype=np.int64)
-        return none, np.empty(0), none, none
-    line, height, up, face = (np.concatenate(each) for each in zip(*found, strict=True))
-    return line, height, up, face
+    from infill.kernels.upright import count_crossings, list_crossings
 
-
-def _turn(one: Floats, other: Floats) -> Floats:
-    turned: Floats = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    return turned
+    vertices = np.asarray(surface.vertices, dtype=np.float64)
+    nodes, faces = (vertices[:, :2] - lattice.low) / lattice.step, np.ascontiguousarray(surface.faces)
+    heights, (nx, ny) = np.ascontiguousarray(vertices[:, 2]), lattice.shape
+    counts = np.zeros(nx * ny, dtype=np.int64)
+    count_crossings(nodes, faces, nx, ny, counts)
+    total = int(counts.sum())
+    height, rising, owner = np.empty(total), np.empty(total, dtype=np.int64), np.empty(total, dtype=np.int64)
+    list_crossings(nodes, heights, faces, nx, ny, np.cumsum(counts) - counts, height, rising, owner)
+    return np.repeat(np.arange(nx * ny), counts), height, rising, owner

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import islice, pairwise
 
 import numpy as np
@@ -88,21 +89,43 @@ class Below:
         found: Floats = points @ self.turned
         return found
 
-    def lattice(self, needs: Needs) -> Lattice:
-        """Return lines through all of the part, close enough for drains and cells."""
+    def lattice(self, needs: Needs, most: int = MOST_LINES) -> Lattice:
+        """Return lines through all of the part, close enough for drains and cells if so many suffice."""
         low, high = (np.asarray(each, dtype=np.float64)[:2] for each in self.part.bounds)
         sides = high - low
         step = min(needs.diameter / ACROSS, needs.cell / IN_A_CELL)
-        step = max(step, math.sqrt(float(sides.prod()) / MOST_LINES))
+        step = max(step, math.sqrt(float(sides.prod()) / most))
         nx, ny = (np.ceil(sides / step).astype(int) + 1).tolist()
         return Lattice(low=low + step * (np.array(ASIDE) - 1), step=step, shape=(nx + 1, ny + 1))
 
+    def lattice_of(self, needs: Needs, void: int) -> Lattice:
+        """Return those of the lines that may pass through a void."""
+        whole = self.lattice(needs)
+        own = np.asarray(self.voids.vertices, dtype=np.float64)[self.names == void, :2]
+        first = np.floor((own.min(axis=0) - whole.low) / whole.step)
+        nx, ny = (np.ceil((own.max(axis=0) - whole.low) / whole.step) - first).astype(int).tolist()
+        return Lattice(low=whole.low + whole.step * first, step=whole.step, shape=(nx + 1, ny + 1))
+
+    @cached_property
     def lowest(self) -> Floats:
-        """Return the height of the lowest place of every void, (N,) mm."""
+        """The height of the lowest place of every void, (N,) mm."""
         found = np.full(self.count, np.inf)
         used = self.names >= 0
         np.minimum.at(found, self.names[used], np.asarray(self.voids.vertices, dtype=np.float64)[used, 2])
         return found
+
+    @cached_property
+    def boxes(self) -> NDArray[np.float32]:
+        """The lowest and highest coordinates of every face of the voids, (2, F, 3) mm."""
+        vertices, faces = np.asarray(self.voids.vertices, dtype=np.float32), self.voids.faces
+        a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+        return np.stack([np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)])
+
+    @cached_property
+    def owners(self) -> Integers:
+        """The void of every face of the voids, (F,)."""
+        owners: Integers = self.names[self.voids.faces[:, 0]].astype(np.int64)
+        return owners
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -127,11 +150,11 @@ class Places:
     lowest: Floats
 
     @classmethod
-    def of(cls, below: Below, needs: Needs) -> Places:
-        """Find the places from which a line straight down leaves the part through solid alone."""
-        lattice = below.lattice(needs)
+    def of(cls, below: Below, needs: Needs, *, void: int | None = None) -> Places:
+        """Find the places from which a line straight down leaves the part through solid alone; of one void if given."""
+        lattice = below.lattice(needs) if void is None else below.lattice_of(needs, void)
         ways = find_ways(below.part, below.voids, below.names, lattice)
-        lowest = below.lowest()
+        lowest = below.lowest
         free = below.skin.leaving[ways.face]
         if needs.closed_at is not None:
             level = 1e-5 * float(np.ptp(below.part.bounds, axis=0).max())
@@ -158,6 +181,17 @@ class Places:
         if taken is not None and len(taken) and len(mine):
             apart = np.linalg.norm(self.ways.at[mine][:, None] - taken, axis=2).min(axis=1)
             mine = mine[apart >= needs.diameter + needs.wall]
+        return self._first(mine)
+
+    def nearest(self, at: Floats, skin: float) -> Shaft | None:
+        """Return the hole for any void that is nearest to a place of the skin, or None."""
+        mine = np.concatenate(self.order) if self.order else np.empty(0, dtype=np.int64)
+        away = np.linalg.norm(self.ways.at[mine] - at, axis=1) + np.abs(self.ways.skin[mine] - skin)
+        return self._first(mine[np.argsort(away, kind="stable")][:MOST])
+
+    def _first(self, mine: Integers) -> Shaft | None:
+        """Return the hole along the first of some ways that keeps the wall from other skin, or None."""
+        needs = self.needs
         for up in UP:
             for way, high in islice(self._passing(mine, up), TRIES):
                 shaft = self.below.skin.shaft(
@@ -180,35 +214,23 @@ class Places:
         for begin in range(0, len(ways), AT_ONCE):
             some = ways[begin : begin + AT_ONCE]
             high = np.minimum(self.ways.floor[some] + up * needs.diameter, self.ways.ceiling[some])
-            away = np.empty(len(some))
+            kept = np.empty(len(some), dtype=bool)
             mouths = skin.mouths[self.ways.face[some]]
             mouths = np.where([skin.knows(each) for each in mouths.tolist()], mouths, -1)
             for mouth in np.unique(mouths).tolist():
                 own = mouths == mouth
-                away[own] = skin.roughly(
+                kept[own] = skin.may_keep(
                     self.ways.at[some[own]],
                     self.ways.face[some[own]],
                     self.ways.skin[some[own]],
                     high[own],
-                    needs.radius,
-                    mouth,
-                    needs.threads,
+                    radius=needs.radius,
+                    wall=needs.wall,
+                    mouth=mouth,
+                    threads=needs.threads,
                 )
-            for index in np.flatnonzero(away >= needs.wall).tolist():
+            for index in np.flatnonzero(kept).tolist():
                 yield int(some[index]), float(high[index])
-
-    def widest(self, void: int) -> float | None:
-        """Return about how wide a hole for a void may be, mm; None if no way leads down from it."""
-        mine = self.order[void][:BEST]
-        if not len(mine):
-            return None
-        tree = self.below.skin.tree(-1)
-        if tree is None:
-            return None
-        ends = np.stack([self.ways.skin[mine], self.ways.floor[mine]])
-        points = np.concatenate([np.column_stack([self.ways.at[mine], height]) for height in ends])
-        away, _ = tree.nearest(points, threads=self.needs.threads)
-        return 2 * (float(away.reshape(2, -1).min(axis=0).max()) - self.needs.wall)
 
 
 def _turned(surface: Surface, turned: Floats) -> Surface:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from infill.errors import GeometryError
 from infill.filling.solids.drain_branches import Branch, find_branches
 from infill.filling.solids.drain_clearance import Shaft
-from infill.filling.solids.drain_columns import Lattice, find_ways
+from infill.filling.solids.drain_columns import Lattice, Ways, find_ways
 from infill.filling.solids.drain_places import TURN_OVER, UP, Below, Needs, Places
 from infill.filling.solids.opening import Opening
 from infill.surface import Surface
@@ -27,7 +27,7 @@ DOWN = np.eye(3)
 NUDGE = 1e-4, 0.7e-4  # of the diameter: a line through a corner of a face would cross several
 LEVEL = 0.99  # cosine: ways this near to one another are one
 BRANCHES, NARROWEST = (1.0, 0.5, 0.25), 0.5  # of the diameter, tried in turn for voids that are narrower; mm
-NARROWER, TRIES = 0.9, 6  # of the width of a drain that might fit, and how often one is tried
+NARROWER = 0.75, 0.5, 0.35, 0.25  # of the diameter: what is tried in turn for voids without a hole
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,14 +88,20 @@ class Undrained:
     blocked : bool
         Whether nothing leads straight out of it through solid alone.
     fits : float or None
-        The diameter of a hole that would keep the wall there, mm, if one was found.
+        The widest diameter of those tried with which the whole plan has a hole for this void, mm.
+    together : int
+        How many of the voids that are listed with this one have a hole then.
+    place : (x, y, z) or None
+        Of the largest that no diameter fits: a place of the skin from which a hole straight in drains it, mm.
     """
 
     void: int
     volume: float
     at: Floats
     blocked: bool
-    fits: float | None
+    fits: float | None = None
+    together: int = 0
+    place: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -109,12 +115,32 @@ class DrainPlan:
         Of the voids, mm³, the largest first.
     undrained, unvented : tuple of Undrained
         By falling volume.
+    diameter : float
+        As requested, mm.
+    beside : (x, y, z) or None
+        A place of the skin from which a hole straight in, as wide as requested, drains the largest void that has only
+        narrower branches, mm.
+    lower : float or None
+        The widest diameter of those tried with which every drain begins within it of the lowest place, mm.
     """
 
     holes: tuple[Hole, ...]
     volumes: tuple[float, ...] = ()
     undrained: tuple[Undrained, ...] = ()
     unvented: tuple[Undrained, ...] = ()
+    diameter: float = 0.0
+    beside: tuple[float, float, float] | None = None
+    lower: float | None = None
+
+    @property
+    def narrow(self) -> tuple[Hole, ...]:
+        """The branches that are narrower than requested, that of the largest void first."""
+        return tuple(sorted((each for each in self.holes if each.diameter < self.diameter), key=lambda each: each.void))
+
+    @property
+    def high(self) -> tuple[Hole, ...]:
+        """The drains that begin more than their diameter above the lowest place of their void."""
+        return tuple(each for each in self.holes if each.kind == "drain" and each.above > each.diameter)
 
 
 def plan_drains(
@@ -147,28 +173,141 @@ def plan_drains(
         If there cannot be a hole at one of the places.
     """
     names, volume = _by_volume(voids)
-    count = len(volume)
+    views = _Views(part=part, voids=voids, names=names, count=len(volume))
+    wish = _Wish(vent=vent, places=places, opening=opening)
+    plan = _plan(views, volume, needs, wish)
+    if plan.undrained or plan.unvented or plan.high:
+        plan = _with_remedies(plan, views, volume, needs, wish)
+    if plan.narrow:
+        plan = replace(plan, beside=_place_for(plan.narrow[0].void, views, needs, wish))
+    return plan
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Views:
+    """A part and its voids as they are seen from several directions."""
+
+    part: Surface
+    voids: Surface
+    names: NDArray[np.int64]
+    count: int
+    _seen: dict[bytes, Below] = field(default_factory=dict)
+
+    def along(self, turned: Floats) -> Below:
+        """Return the part turned, which is kept."""
+        key = turned.round(12).tobytes()
+        if key not in self._seen:
+            self._seen[key] = Below.of(self.part, self.voids, self.names, self.count, turned)
+        return self._seen[key]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class _Wish:
+    """Which holes are requested besides a drain for each void, and the opening: see `plan_drains`."""
+
+    vent: bool
+    places: tuple[tuple[float, float, float], ...]
+    opening: Opening | None
+
+
+def _plan(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
+    """Return the holes of one diameter, without remedies for voids that have none."""
+    names, opening, count = views.names, wish.opening, views.count
     voids_open = np.zeros(count, dtype=bool)
     if opening is not None:
-        own, _ = shell_names(voids)
+        own, _ = shell_names(views.voids)
         first = np.unique(own, return_index=True)[1]
-        voids_open[names[first[own[first] >= 0]]] = opening.opened(voids)
-    holes = [_hole_at(place, part, voids, names, count, needs) for place in places]
-    down = Below.of(part, voids, names, count, DOWN)
+        voids_open[names[first[own[first] >= 0]]] = opening.opened(views.voids)
+    holes = [_hole_at(place, views, needs) for place in wish.places]
     low = needs if opening is None or not math.isfinite(opening.low) else replace(needs, closed_at=opening.low)
     done = set(np.flatnonzero(voids_open).tolist()) | {hole.void for hole in holes}
-    found, undrained = _one_way(down, low, "drain", done, set(range(count)) - done, volume, holes)
+    found, undrained = _one_way(views.along(DOWN), low, "drain", done, set(range(count)) - done, volume, holes)
     holes += found
     unvented: tuple[Undrained, ...] = ()
-    if vent:
-        up = Below.of(part, voids, names, count, TURN_OVER)
+    if wish.vent:
         high = needs if opening is None or not math.isfinite(opening.high) else replace(needs, closed_at=-opening.high)
         shut = {each.void for each in undrained}
         wanting = set(range(count)) - shut - set(np.flatnonzero(voids_open).tolist())
         # Voids that are open at a side have their vent there.
-        found, unvented = _one_way(up, high, "vent", set(np.flatnonzero(voids_open).tolist()), wanting, volume, holes)
+        opened = set(np.flatnonzero(voids_open).tolist())
+        found, unvented = _one_way(views.along(TURN_OVER), high, "vent", opened, wanting, volume, holes)
         holes += found
-    return DrainPlan(holes=tuple(holes), volumes=tuple(volume.tolist()), undrained=undrained, unvented=unvented)
+    return DrainPlan(
+        holes=tuple(holes),
+        volumes=tuple(volume.tolist()),
+        undrained=undrained,
+        unvented=unvented,
+        diameter=needs.diameter,
+    )
+
+
+def _with_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
+    """Return a plan that says, of voids without a hole, which of some narrower diameters gives them one."""
+    undrained, unvented, lower = list(plan.undrained), list(plan.unvented), None
+    for width in _narrower(needs.diameter):
+        if all(each.fits is not None for each in undrained + unvented) and (lower is not None or not plan.high):
+            break
+        try:
+            other = _plan(views, volume, replace(needs, diameter=width), wish)
+        except GeometryError:
+            continue
+        lower = width if lower is None and not other.high and not other.undrained else lower
+        shut = {each.void for each in other.undrained}
+        dark = shut | {each.void for each in other.unvented}
+        undrained, unvented = _fitted(undrained, width, shut), _fitted(unvented, width, dark)
+    if undrained and undrained[0].fits is None:
+        undrained[0] = replace(undrained[0], place=_place_for(undrained[0].void, views, needs, wish))
+    return replace(plan, undrained=tuple(undrained), unvented=tuple(unvented), lower=lower)
+
+
+def _fitted(voids: list[Undrained], width: float, without: set[int]) -> list[Undrained]:
+    """Return voids, of which those that have a hole of a width and had none of a wider one say so."""
+    together = sum(each.void not in without for each in voids)
+    return [
+        replace(each, fits=width, together=together) if each.fits is None and each.void not in without else each
+        for each in voids
+    ]
+
+
+def _narrower(diameter: float) -> list[float]:
+    """Return the diameters to try in place of one, mm, in steps that a drill has.
+
+    >>> _narrower(3.0), _narrower(0.6)
+    ([2.2, 1.5, 1.0, 0.7], [0.5])
+    """
+    widths = [math.floor(10 * share * diameter + 1e-9) / 10 for share in NARROWER]
+    kept = [width for width in widths if width >= NARROWEST]
+    return kept or ([NARROWEST] if diameter > NARROWEST else [])
+
+
+def _place_for(void: int, views: _Views, needs: Needs, wish: _Wish) -> tuple[float, float, float] | None:
+    """Return a place of the skin, upwards or at a side, from which a hole straight in drains a void, or None."""
+    for way in np.concatenate([DOWN[2:], DOWN[:2], -DOWN[:2]]):
+        below = views.along(_turning_down(way))
+        if (shaft := Places.of(below, needs, void=void).shaft(void, None)) is None:
+            continue
+        place = _rounded(below.back(np.array([*shaft.at, shaft.skin])))
+        if _stands(place, void, views, needs, wish.opening):
+            return place
+    return None
+
+
+def _stands(
+    place: tuple[float, float, float], void: int | None, views: _Views, needs: Needs, opening: Opening | None
+) -> bool:
+    """Return whether a hole at a place is made as requested, into a void if one is given, not at an open side."""
+    if opening is not None and not opening.low < place[2] < opening.high:
+        return False
+    try:
+        return _hole_at(place, views, needs, remedies=False).void == void or void is None
+    except GeometryError:
+        return False
+
+
+def _rounded(place: Floats) -> tuple[float, float, float]:
+    """Return a place as messages give it, mm."""
+    x, y, z = (round(each, 2) + 0.0 for each in place.tolist())
+    return x, y, z
 
 
 def _by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
@@ -211,9 +350,7 @@ def _one_way(
             joined = {branch.void for branch in branches}
     found += [_branch(each, below) for each in branches]
     missing = [each for each in still if each not in joined]
-    return found, tuple(
-        _undrained(each, below, places, float(volume[each]), tried=not number) for number, each in enumerate(missing)
-    )
+    return found, tuple(_undrained(each, below, places, float(volume[each])) for each in missing)
 
 
 def _hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: float, lowest: float) -> Hole:
@@ -252,91 +389,80 @@ def _branch(branch: Branch, below: Below) -> Hole:
     )
 
 
-def _undrained(void: int, below: Below, places: Places, volume: float, *, tried: bool) -> Undrained:
-    """Return a void that has no hole, and if it is to be tried, the diameter of one that it could have."""
+def _undrained(void: int, below: Below, places: Places, volume: float) -> Undrained:
+    """Return a void that has no hole."""
     vertices = np.asarray(below.voids.vertices, dtype=np.float64)
     own = np.flatnonzero(below.names == void)
     lowest = vertices[own[np.argmin(vertices[own, 2])]]
-    return Undrained(
-        void=void,
-        volume=volume,
-        at=below.back(lowest),
-        blocked=not len(places.order[void]),
-        fits=_fitting(void, below, places) if tried else None,
-    )
+    return Undrained(void=void, volume=volume, at=below.back(lowest), blocked=not len(places.order[void]))
 
 
-def _fitting(void: int, below: Below, places: Places) -> float | None:
-    """Return the diameter of a hole that a void could have, mm, or None if none was found."""
-    widest = places.widest(void)
-    if widest is None:
-        return None
-    width = min(widest, places.needs.diameter) * NARROWER
-    for _ in range(TRIES):
-        if width < 0.1:
-            return None
-        rounded = float(f"{math.floor(width * 10) / 10:.1f}")
-        narrow = Places.of(below, replace(places.needs, diameter=rounded))
-        if narrow.shaft(void, None) is not None:
-            return rounded
-        width *= NARROWER**2
-    return None
-
-
-def _hole_at(
-    place: tuple[float, float, float],
-    part: Surface,
-    voids: Surface,
-    names: NDArray[np.int64],
-    count: int,
-    needs: Needs,
-) -> Hole:
+def _hole_at(place: tuple[float, float, float], views: _Views, needs: Needs, *, remedies: bool = True) -> Hole:
     """Return the hole at a place of the skin, straight in from there, or raise GeometryError."""
     asked = "drain_at is ({:g}, {:g}, {:g})".format(*place)
-    point, face, away = _on_skin(np.array(place), part)
-    if away > needs.radius:
-        there = ", ".join(f"{each:.4g}" for each in point)
-        raise GeometryError(f"{asked}, {away:.3g} mm from the skin of the part; give a place on it, such as {there}")
-    way = _normal(part, face)
-    below = Below.of(part, voids, names, count, _turning_down(way))
+    point, face, away = _on_skin(np.array(place), views.part)
+    below = views.along(_turning_down(_normal(views.part, face)))
     x, y, z = below.turned @ point
     line = Lattice(low=np.array([x, y]) + needs.diameter * np.array(NUDGE), step=1.0, shape=(1, 1))
-    ways = find_ways(below.part, below.voids, names, line)
+    ways = find_ways(below.part, below.voids, below.names, line)
     mine = np.flatnonzero(np.abs(ways.skin - z) < needs.radius)
-    if not len(mine) or not below.skin.leaving[ways.face[mine[0]]]:
-        raise GeometryError(
-            f"{asked}, and no void lies straight behind it; give a place of the outer skin with a void behind it"
+    way = int(mine[0]) if len(mine) and below.skin.leaving[ways.face[mine[0]]] else None
+    shaft = None if way is None else _shaft_at(below, ways, way, needs)
+    if away <= needs.radius and way is not None and shaft is not None and shaft.clearance >= needs.wall:
+        void = int(ways.void[way])
+        upright = np.asarray(views.voids.vertices, dtype=np.float64)[:, 2]
+        lowest = float(upright[views.names == void].min())
+        hole = _hole(shaft, below, "place", void, needs.diameter, 0.0)
+        return replace(hole, above=max(0.0, float(below.back(np.array([*shaft.at, shaft.floor]))[2]) - lowest))
+    if away > needs.radius:
+        said = f"{asked}, {away:.3g} mm from the skin of the part"
+    elif way is None:
+        said = f"{asked}, and no void lies straight behind it"
+    elif shaft is None:
+        said = f"{asked}, and a hole of {needs.diameter:g} mm runs over the edge of the face there"
+    else:
+        near = ", ".join(f"{each:.4g}" for each in below.back(shaft.near))
+        said = (
+            f"{asked}, and a hole of {needs.diameter:g} mm there leaves {shaft.clearance:.2g} mm of wall at ({near}), "
+            f"less than the {needs.wall:g} mm requested"
         )
-    way_in = int(mine[0])
+    remedy = _instead(point, below, views, needs) if remedies else "leave it out"
+    if remedies and shaft is not None:
+        widths = (replace(needs, diameter=width) for width in _narrower(needs.diameter))
+        fits = next((each.diameter for each in widths if _stands(place, None, views, each, None)), None)
+        remedy = remedy if fits is None else f"{remedy}, or give drains of {fits:g} mm"
+    raise GeometryError(f"{said}; {remedy}")
+
+
+def _shaft_at(below: Below, ways: Ways, way: int, needs: Needs) -> Shaft | None:
+    """Return the hole along a way, which reaches less far into the void where it would not keep the wall."""
     shaft = None
     for up in UP:
+        floor, ceiling = float(ways.floor[way]), float(ways.ceiling[way])
         shaft = below.skin.shaft(
-            ways.at[way_in],
-            int(ways.face[way_in]),
-            float(ways.skin[way_in]),
-            float(ways.floor[way_in]),
-            min(float(ways.floor[way_in]) + up * needs.diameter, float(ways.ceiling[way_in])),
+            ways.at[way],
+            int(ways.face[way]),
+            float(ways.skin[way]),
+            floor,
+            min(floor + up * needs.diameter, ceiling),
             radius=needs.radius,
             wall=needs.wall,
             threads=needs.threads,
         )
         if shaft is not None and shaft.clearance >= needs.wall:
             break
-    if shaft is None:
-        raise GeometryError(
-            f"{asked}, and a hole of {needs.diameter:g} mm runs over the edge of the face there; move it further onto "
-            "the face, or give a thinner drain"
-        )
-    if shaft.clearance < needs.wall:
-        near = ", ".join(f"{each:.4g}" for each in below.back(shaft.near))
-        raise GeometryError(
-            f"{asked}, and a hole of {needs.diameter:g} mm there leaves {shaft.clearance:.2g} mm of wall at ({near}), "
-            f"less than the {needs.wall:g} mm asked for; move it away from there, or give a thinner drain"
-        )
-    void = int(ways.void[way_in])
-    lowest = float(np.asarray(voids.vertices, dtype=np.float64)[names == void, 2].min())
-    hole = _hole(shaft, below, "place", void, needs.diameter, 0.0)
-    return replace(hole, above=max(0.0, float(below.back(np.array([*shaft.at, shaft.floor]))[2]) - lowest))
+    return shaft
+
+
+def _instead(point: Floats, below: Below, views: _Views, needs: Needs) -> str:
+    """Return what to do in place of a hole that cannot be: the nearest place where one can, seen the same way."""
+    x, y, z = below.turned @ point
+    shaft = Places.of(below, needs).nearest(np.array([x, y]), z)
+    if shaft is not None:
+        place = _rounded(below.back(np.array([*shaft.at, shaft.skin])))
+        if _stands(place, None, views, needs, None):
+            return "give ({:g}, {:g}, {:g})".format(*place)
+    return "leave it out: no place that was tried on that side keeps the wall"
 
 
 def _on_skin(place: Floats, part: Surface) -> tuple[Floats, int, float]:

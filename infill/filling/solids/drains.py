@@ -5,7 +5,6 @@ lowest place of every void, straight down  ->  branches for the others  ->  vent
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -100,7 +99,10 @@ def check_width(request: Request, bounds: NDArray[np.floating]) -> None:
         given = f"drain is {request.drain:g} mm, and the part is {width:.4g} mm wide"
         if most <= 0:
             raise GeometryError(f"{given}, no more than two walls of {request.wall:g} mm; leave drain out")
-        raise GeometryError(f"{given}: with walls of {request.wall:g} mm, give less than {most:.3g}")
+        raise GeometryError(
+            f"{given}: between walls of {request.wall:g} mm there is room for no more than {most:.3g}; give a thinner "
+            "drain or wall"
+        )
 
 
 def drain(solid: Surface, hollow: Hollow, request: Request, *, threads: int | None = None) -> Drained:
@@ -209,41 +211,55 @@ def told_of_drains(request: Request, drained: Drained, closed: list[tuple[float,
         said += f", the largest, of {volume:.3g} mm³, with its lowest place at ({_words(at)})"
         if left and left[0].blocked:
             said += (
-                f": below it lie other voids or faces too steep for a hole, and no wall beside it is thin enough for a "
-                f"branch of {request.drain:g} mm; give thinner drains, turn the part, or choose a pattern of bars"
+                ": below it lie other voids or faces too steep for a hole, and no wall beside it has room for a branch "
+                f"of {request.drain:g} mm; {_remedy(left)}"
             )
         elif left:
-            fits = left[0].fits
             said += (
                 f": straight down from it, a hole of {request.drain:g} mm leaves less than a wall of {request.wall:g} "
-                f"mm; give {'thinner drains' if fits is None else f'drains of at most {fits:g} mm'}, or turn the part"
+                f"mm; {_remedy(left)}"
             )
         yield said
     if drained.plan.unvented:
         first = drained.plan.unvented[0]
-        fits = first.fits
+        thinner = "" if first.fits is None else f"{_thinner(drained.plan.unvented, 'have one')}; or "
         yield (
             f"{len(drained.plan.unvented)} void(s) have no vent, the largest, of {first.volume:.3g} mm³, with its "
             f"highest place at ({_words(first.at.tolist())}): there is no way for a hole of {request.drain:g} mm up "
-            f"from it; give {'thinner drains' if fits is None else f'drains of at most {fits:g} mm'}, or turn the part"
+            f"from it; {thinner}leave vent out"
         )
-    narrow = [hole for hole in drained.plan.holes if hole.diameter < request.drain]
-    large = [hole for hole in narrow if drained.plan.volumes[hole.void] > math.pi / 6 * request.drain**3]
-    if large:
-        worst = min(large, key=lambda hole: hole.void)
+    if narrow := drained.plan.narrow:
+        worst, place = narrow[0], drained.plan.beside
         yield (
-            f"{len(large)} void(s) drain through branches narrower than {request.drain:g} mm, the largest, of "
+            f"{len(narrow)} void(s) drain through branches narrower than {request.drain:g} mm, the largest, of "
             f"{drained.plan.volumes[worst.void]:.3g} mm³, through one of {worst.diameter:g} mm at "
-            f"({_words(worst.at.tolist())}); give thinner drains, or turn the part"
+            f"({_words(worst.at.tolist())}), where no wider one was found that keeps the wall"
+            + ("" if place is None else "; it has room for a drain at ({:g}, {:g}, {:g})".format(*place))
         )
-    high = [hole for hole in drained.plan.holes if hole.kind == "drain" and hole.above > request.drain]
-    if high:
+    if high := drained.plan.high:
         worst = max(high, key=lambda hole: hole.above)
+        lower = drained.plan.lower
         yield (
             f"{len(high)} drain(s) begin more than {request.drain:g} mm above the lowest place of their void, at most "
-            f"{worst.above:.3g} mm, at ({_words(worst.at.tolist())}): what lies below does not run out; give thinner "
-            "drains, or turn the part"
+            f"{worst.above:.3g} mm, at ({_words(worst.at.tolist())}): what lies below runs out only if the part is "
+            "tilted" + ("" if lower is None else f"; with drains of {lower:g} mm, none does")
         )
+
+
+def _remedy(left: tuple[Undrained, ...]) -> str:
+    """Return what drains the largest of the voids that are still closed, if anything that was tried does."""
+    if left[0].fits is not None:
+        return _thinner(left, "drain")
+    if left[0].place is not None:
+        return "a drain at ({:g}, {:g}, {:g}) opens it".format(*left[0].place)
+    return "no thinner drain, and none upwards or from a side, has room either; patterns of bars leave fewer voids"
+
+
+def _thinner(left: tuple[Undrained, ...], does: str) -> str:
+    """Return with which diameter the largest of some voids gets its hole, and how many of the others do."""
+    first = left[0]
+    who = "all of them" if first.together == len(left) else f"this and {first.together - 1} of the others"
+    return f"with drains of {first.fits:g} mm, {who} {does}"
 
 
 def _words(place: list[float]) -> str:

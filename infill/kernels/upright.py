@@ -1,0 +1,112 @@
+"""Where upright lines through the nodes of a square lattice cross triangles, line by line and from below.
+
+`count_crossings` tells how many crossings each line has, and `list_crossings` then lists them.
+"""
+# mypy: disable-error-code="no-untyped-def"
+# ruff: noqa: ANN001, ANN201, ANN202
+# Compiled lines are invisible to coverage tools.
+
+from __future__ import annotations
+
+import math
+
+from infill.kernels.compiling import njit
+
+
+@njit(nogil=True, cache=True)
+def _range(nodes, face, axis, most):
+    """Return the first and last node of a lattice between the corners of a triangle, along an axis."""
+    a, b, c = nodes[face[0], axis], nodes[face[1], axis], nodes[face[2], axis]
+    return max(math.ceil(min(a, b, c)), 0), min(math.floor(max(a, b, c)), most - 1)
+
+
+@njit(nogil=True, cache=True)
+def _shares(nodes, face, i, j):
+    """Return twice the signed areas of the triangles that a node makes with the three sides, and their sum."""
+    ax, ay = nodes[face[0], 0] - i, nodes[face[0], 1] - j
+    bx, by = nodes[face[1], 0] - i, nodes[face[1], 1] - j
+    cx, cy = nodes[face[2], 0] - i, nodes[face[2], 1] - j
+    first, second, third = bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+    return first, second, third, first + second + third
+
+
+@njit(nogil=True, cache=True)
+def _is_inside(first, second, third, area):
+    """Return whether a node lies within a triangle that has an area, or on its rim."""
+    if area > 0:
+        return first >= 0 and second >= 0 and third >= 0
+    return area < 0 and first <= 0 and second <= 0 and third <= 0
+
+
+@njit(nogil=True, cache=True)
+def count_crossings(nodes, faces, nx, ny, counts):
+    """Count the crossings of each line.
+
+    Parameters
+    ----------
+    nodes : (V, 2) float64
+        x and y of the vertices in steps of the lattice, from its first node.
+    faces : (F, 3) int
+    nx, ny : int
+        Nodes of the lattice.
+    counts : (nx * ny,) int64
+        What is counted is added to it.
+    """
+    for face in faces:
+        low_i, high_i = _range(nodes, face, 0, nx)
+        if low_i > high_i:
+            continue
+        low_j, high_j = _range(nodes, face, 1, ny)
+        for i in range(low_i, high_i + 1):
+            for j in range(low_j, high_j + 1):
+                first, second, third, area = _shares(nodes, face, i, j)
+                if _is_inside(first, second, third, area):
+                    counts[i * ny + j] += 1
+
+
+@njit(nogil=True, cache=True)
+def list_crossings(nodes, heights, faces, nx, ny, ends, height, rising, owner):
+    """List the crossings of each line by rising height; those at one height in the order of their faces.
+
+    Parameters
+    ----------
+    nodes, faces, nx, ny
+        As for `count_crossings`.
+    heights : (V,) float64, mm
+    ends : (nx * ny,) int64
+        Where the list of each line begins; raised to where it ends.
+    height : (N,) float64, mm
+        Of each crossing.
+    rising : (N,) int64
+        1 where a line that goes up enters what faces outwards, -1 where it leaves it.
+    owner : (N,) int64
+        The face that is crossed.
+    """
+    for number in range(len(faces)):
+        face = faces[number]
+        low_i, high_i = _range(nodes, face, 0, nx)
+        if low_i > high_i:
+            continue
+        low_j, high_j = _range(nodes, face, 1, ny)
+        a, b, c = heights[face[0]], heights[face[1]], heights[face[2]]
+        for i in range(low_i, high_i + 1):
+            for j in range(low_j, high_j + 1):
+                first, second, third, area = _shares(nodes, face, i, j)
+                if not _is_inside(first, second, third, area):
+                    continue
+                line = i * ny + j
+                place = ends[line]
+                height[place] = (first * a + second * b + third * c) / area
+                rising[place] = 1 if area < 0 else -1
+                owner[place] = number
+                ends[line] = place + 1
+    begin = 0
+    for line in range(nx * ny):
+        for place in range(begin + 1, ends[line]):
+            level, way, face_there = height[place], rising[place], owner[place]
+            back = place
+            while back > begin and height[back - 1] > level:
+                height[back], rising[back], owner[back] = height[back - 1], rising[back - 1], owner[back - 1]
+                back -= 1
+            height[back], rising[back], owner[back] = level, way, face_there
+        begin = ends[line]
