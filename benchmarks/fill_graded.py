@@ -23,7 +23,7 @@ import trimesh
 
 from benchmarks.pairs import row
 from infill import read_mesh
-from infill.surfaces.solids import solid_of
+from infill.meshes.solids import solid_of
 
 # Cells of 8 mm are whole inside: parts of cells beside the walls would be denser or less dense than whole ones.
 BAR, WALL, LOW, HIGH = (114.4, 34.4, 34.4), 1.2, 0.1, 0.4  # mm

@@ -23,8 +23,8 @@ import trimesh
 
 from benchmarks.pairs import row
 from infill import Surface, check, read_mesh
-from infill.filling.solids.drains import trapped
-from infill.surfaces.distance import Tree
+from infill.lattices.drain_holes import trapped
+from infill.meshes.distance import Tree
 
 PATTERNS = ("gyroid", "honeycomb", "octet", "concentric-heart")
 DENSITIES = (0.15, 0.3)

@@ -24,8 +24,8 @@ import trimesh
 from benchmarks.fill_parts import FOLDER, LEAST, MEASURE, WALL, solids
 from benchmarks.pairs import Run
 from infill import Surface, check, read_mesh
-from infill.surfaces.distance import Tree
-from infill.surfaces.winding import winding
+from infill.meshes.distance import Tree
+from infill.meshes.winding import winding
 
 DENSITY, POINTS = 0.2, 40_000
 WITHIN = 200_000  # points in the box around the part: by chance, the density is off by a third of a percentage point

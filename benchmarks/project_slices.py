@@ -23,7 +23,7 @@ import numpy as np
 from benchmarks.fill_parts import FOLDER, PATTERNS
 from benchmarks.pairs import row
 from infill import Surface, check_project, read_mesh
-from infill.surfaces.solids import FINE, solid_of, status
+from infill.meshes.solids import FINE, solid_of, status
 from tests.slicers import FILLED_SETTINGS, OVERLAP, PERIMETERS, missing_prusa, prusa_volumes
 
 LAYER = float(str(FILLED_SETTINGS["layer_height"]))

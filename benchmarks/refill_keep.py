@@ -16,8 +16,8 @@ import tempfile
 from pathlib import Path
 
 from infill import refill
-from infill.filling.support import LEAST_LENGTH
-from infill.filling.widest_gap import MOST_GROWTH
+from infill.refilling.support import LEAST_LENGTH
+from infill.refilling.widest_gap import MOST_GROWTH
 from tests.gap_judge import PIXEL, filament, infill_width, touching_walls, widest_gaps
 from tests.prints import PRINT, box, cura_print, prusa_print
 from tests.slicers import run_slicer

@@ -1,7 +1,7 @@
 """Fewer triangles within a tolerance: ``python -m benchmarks.simplify [FILE ...]``.
 
 The smooth surface of an annulus (voxels of 0.25 mm, tolerance 0.02 mm), and that of any meshes given (200 voxels along
-the longest side, tolerance a tenth of a voxel), simplified by `infill.surfaces.simplification.simplified`, and by two
+the longest side, tolerance a tenth of a voxel), simplified by `infill.meshes.simplification.simplified`, and by two
 others that are told to stay within the same tolerance: manifold3d collapses short edges, and fast-simplification
 (quadric errors) is run with fewer and fewer triangles until it goes too far or opens the mesh. In pairs; distances both
 ways, at 20 places drawn on each triangle.
@@ -18,9 +18,9 @@ import manifold3d
 import numpy as np
 
 from infill import Surface, read_mesh, smooth_mesh, smooth_volume
-from infill.surfaces.distance import Tree
-from infill.surfaces.intersections import self_intersections
-from infill.surfaces.simplification import simplified
+from infill.meshes.distance import Tree
+from infill.meshes.intersections import self_intersections
+from infill.meshes.simplification import simplified
 
 PLACES = 20  # on each triangle
 HALVINGS = 10

@@ -20,8 +20,8 @@ from scipy.spatial import cKDTree
 from benchmarks.slicer_judge import ROLE, windows
 from infill import refill
 from infill.errors import InfillError
-from infill.filling.families.catalogue import FAMILIES
-from infill.inspection.printing_time import motion
+from infill.paths.families.catalogue import FAMILIES
+from infill.planner.printing_time import motion
 from tests.gcode_judge import lines_of, replayed
 from tests.gcode_structure import layers_of, samples
 from tests.prints import prusa_print

@@ -13,7 +13,7 @@ import numpy as np
 import trimesh
 
 from infill import GeometryError, Surface, smooth_points
-from infill.surfaces.distance import distances
+from infill.meshes.distance import distances
 
 COUNT, VOXEL, NOISE = 30_000, 0.4, 0.1
 SHAPES = {

@@ -27,12 +27,12 @@ from benchmarks.peers.meshers import (
 )
 from benchmarks.solids import Shape, ellipsoid, gyroid, honeycomb, rbox, sphere, torus
 from infill import Smoothing
+from infill.isosurfaces.components import components, data_bits
+from infill.isosurfaces.levels import at_volume, straightened
+from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.surface import Surface
-from infill.surfaces.components import components, data_bits
-from infill.surfaces.levels import at_volume, straightened
-from infill.surfaces.sparse_marching import extract_bricks
 
 CASES = {build.__name__: (build, 0.0) for build in (sphere, ellipsoid, torus, rbox, gyroid, honeycomb)}
 CASES |= {f"sphere_noise{percent}": (sphere, percent / 100) for percent in (10, 20, 30, 40)}

@@ -25,9 +25,9 @@ from numpy.typing import NDArray
 from benchmarks import pairs
 from benchmarks.pairs import row
 from infill import Smoothing, read_mesh, smooth_mesh, smooth_volume
+from infill.isosurfaces.levels import at_volume, counted
+from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.phasefield.sparse import smooth_bricks
-from infill.surfaces.levels import at_volume, counted
-from infill.surfaces.sparse_marching import extract_bricks
 
 SMOOTHING = Smoothing(steps=10)
 UNIT = (1.0, 1.0, 1.0)

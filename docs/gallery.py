@@ -9,8 +9,8 @@ import trimesh
 from PIL import Image
 
 from infill import GeometryError, Result, Surface, fill
-from infill.filling.solids.stages import FillStages
 from infill.inspection.stiffness import Stiffness, stiffness
+from infill.lattices.stages import FillStages
 from infill.pictures.render import render
 from infill.report_keys import FillReport
 from patterns import PATTERNS, Pattern, parameters

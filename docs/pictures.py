@@ -12,9 +12,9 @@ import trimesh
 from PIL import Image
 
 from infill import fill, make, refill, smooth_volume
-from infill.inspection.layer_speeds import layer_speeds
 from infill.pictures.render import render
 from infill.pictures.speeds import write_speeds
+from infill.planner.layer_speeds import layer_speeds
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDER = Path(__file__).parent / "pictures"

@@ -24,28 +24,28 @@ if TYPE_CHECKING:
         ParameterError,
         UsageError,
     )
-    from infill.filling.refilling import RefillResult, refill
-    from infill.filling.solids.filled import fill
-    from infill.formats.label_tables import Segment, read_labels
     from infill.formats.mesh_files import read_mesh, save
     from infill.formats.point_files import read_points
-    from infill.formats.segmentations import Segmentation, read_segmentation
-    from infill.formats.volume_files import read_volume
     from infill.grid import Grid
+    from infill.imaging.label_tables import Segment, read_labels
+    from infill.imaging.segmentations import Segmentation, read_segmentation
+    from infill.imaging.volume_files import read_volume
     from infill.inspection.printability import Inspection, check
-    from infill.inspection.printing_time import Motion, motion
     from infill.inspection.width import WallWidth, wall_width
+    from infill.isosurfaces.marching import isosurface
+    from infill.isosurfaces.stacking import extrude, stack
+    from infill.lattices.job import fill
     from infill.making.block import make
     from infill.phasefield.allen_cahn import Smoothing, rescale
     from infill.phasefield.methods import smooth
+    from infill.planner.printing_time import Motion, motion
+    from infill.projects.doctor import Diagnosis, check_project
+    from infill.projects.saving import save_project
+    from infill.refilling.job import RefillResult, refill
     from infill.result import Result
-    from infill.slicers.doctor import Diagnosis, check_project
-    from infill.slicers.saving import save_project
     from infill.smoothing.labels import smooth_labels
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
     from infill.surface import Surface
-    from infill.surfaces.marching import isosurface
-    from infill.surfaces.stacking import extrude, stack
     from infill.volume import Volume
     from infill.voxels.stamping import stamp, stamp_lines
 
@@ -60,27 +60,27 @@ _HOMES = {
         "ParameterError",
         "UsageError",
     ),
-    "filling.refilling": ("RefillResult", "refill"),
-    "filling.solids.filled": ("fill",),
+    "refilling.job": ("RefillResult", "refill"),
+    "lattices.job": ("fill",),
     "formats.mesh_files": ("read_mesh", "save"),
     "grid": ("Grid",),
     "inspection.printability": ("Inspection", "check"),
-    "inspection.printing_time": ("Motion", "motion"),
+    "planner.printing_time": ("Motion", "motion"),
     "making.block": ("make",),
     "result": ("Result",),
     "formats.point_files": ("read_points",),
     "smoothing.labels": ("smooth_labels",),
-    "formats.label_tables": ("Segment", "read_labels"),
-    "formats.segmentations": ("Segmentation", "read_segmentation"),
+    "imaging.label_tables": ("Segment", "read_labels"),
+    "imaging.segmentations": ("Segmentation", "read_segmentation"),
     "smoothing.solids": ("smooth_mesh", "smooth_points", "smooth_volume"),
     "phasefield.methods": ("smooth",),
-    "surfaces.stacking": ("extrude", "stack"),
+    "isosurfaces.stacking": ("extrude", "stack"),
     "voxels.stamping": ("stamp", "stamp_lines"),
-    "formats.volume_files": ("read_volume",),
-    "slicers.doctor": ("Diagnosis", "check_project"),
-    "slicers.saving": ("save_project",),
+    "imaging.volume_files": ("read_volume",),
+    "projects.doctor": ("Diagnosis", "check_project"),
+    "projects.saving": ("save_project",),
     "surface": ("Surface",),
-    "surfaces.marching": ("isosurface",),
+    "isosurfaces.marching": ("isosurface",),
     "volume": ("Volume",),
     "inspection.width": ("WallWidth", "wall_width"),
 }

@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Generic, Protocol, TypeVar
 import numpy as np
 
 from infill.errors import OutputError
-from infill.formats.label_tables import Colour
+from infill.files.whole_files import whole_file
 from infill.formats.mesh_files import PART_WRITERS, parts_writer, writer
 from infill.formats.parts import Part
-from infill.formats.whole_files import whole_file
+from infill.imaging.label_tables import Colour
+from infill.meshes.split_components import joined
 from infill.pictures.preview import SUFFIXES as PICTURES
 from infill.pictures.preview import is_picture
 from infill.surface import Surface
-from infill.surfaces.parting import joined
 
 if TYPE_CHECKING:
     import trimesh

@@ -130,7 +130,7 @@ class Surface:
         return "closed" in self.__dict__
 
     def knowing(self, *, closed: bool, volume: float, area: float) -> Surface:
-        """Return the same surface with quantities that were measured elsewhere: see `infill.surfaces.measuring`."""
+        """Return the same surface with quantities that were measured elsewhere: see `infill.meshes.measuring`."""
         other = Surface(vertices=self.vertices, faces=self.faces, space=self.space)
         other.__dict__.update(closed=closed, _volume_and_area=(volume, area))
         return other

@@ -33,11 +33,11 @@ from test_3mf_parts import (
 
 from infill import FormatError, MemoryLimitError, check_project, read_mesh
 from infill.errors import InfillError
-from infill.filling.settings import resolve as resolve_refill
-from infill.filling.solids.settings import resolve as resolve_fill
 from infill.formats import threemf_package
+from infill.lattices.settings import resolve as resolve_fill
 from infill.making.settings import resolve as resolve_make
-from infill.slicers.project import SLICERS
+from infill.projects.project import SLICERS
+from infill.refilling.settings import resolve as resolve_refill
 from infill.smoothing.settings import resolve as resolve_smooth
 from patterns import PatternError
 
@@ -227,7 +227,7 @@ def test_transforms_that_grow_are_refused(tmp_path: Path) -> None:
 def test_circles_and_multitudes_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Thirty groups of two of one another are a billion boxes; the limits are lowered, so that the test is quick."""
     monkeypatch.setattr("infill.formats.threemf_reading.MOST_PLACED", 500)
-    monkeypatch.setattr("infill.slicers.reading.MOST_PLACED", 500)
+    monkeypatch.setattr("infill.projects.reading.MOST_PLACED", 500)
     doubled = "".join(group(n, component(n - 1), component(n - 1)) for n in range(2, 32))
     circle = group(1, component(2)) + group(2, component(1), component(1))
     deep = "".join(group(n, component(n - 1)) for n in range(2, 40))

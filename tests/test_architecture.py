@@ -19,28 +19,29 @@ ROOT = Path(__file__).resolve().parents[1]
 # From the ground up. A module imports from lower rows and from its own room; rooms of one row never meet.
 ROWS: tuple[tuple[str, ...], ...] = (
     ("patterns", "hall"),
-    ("kernels",),
+    ("files", "kernels"),
     ("phasefield",),
-    ("surfaces",),
+    ("meshes", "contours", "paths"),
+    ("isosurfaces", "imaging", "drawings"),
     ("formats", "voxels", "gcode"),
-    ("inspection",),
-    ("pictures",),
-    ("result",),
-    ("making", "smoothing", "filling", "slicers"),
+    ("planner", "inspection", "interior"),
+    ("pictures", "options", "drains"),
+    ("report",),
+    ("making", "smoothing", "lattices", "refilling", "projects"),
     ("cli", "studio"),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROWS) for room in rooms}
-ANSWERS = {"result", "report", "report_keys"}
-HALL = {"version", "errors", "checks", "machine", "ragged", "sections", "grid", "volume", "surface"}
+REPORTS = {"result", "report", "report_keys"}
+HALL = {"version", "errors", "checks", "machine", "ragged", "sections", "grid", "volume", "surface", "drawing"}
 MOST_FLOORS = 12
 
 # Packages of others that only some may import: a room, or one module.
 KEPT = {
     "numba": "infill.kernels",
     "llvmlite": "infill.kernels",
-    "SimpleITK": "infill.formats.medical",
+    "SimpleITK": "infill.imaging.medical",
     "DracoPy": "infill.formats.draco",
-    "pydicom": "infill.formats.dicom_files",
+    "pydicom": "infill.imaging.dicom_files",
     "typer": "infill.cli",
     "rich": "infill.cli",
 }
@@ -116,8 +117,8 @@ def room_of(name: str) -> str | None:
         return "front"
     if len(rest) == 1 and rest[0] in HALL:
         return "hall"
-    if len(rest) == 1 and rest[0] in ANSWERS:
-        return "result"
+    if len(rest) == 1 and rest[0] in REPORTS:
+        return "report"
     return rest[0] if rest[0] in FLOOR and rest[0] not in ("hall", "patterns") else None
 
 
@@ -302,13 +303,13 @@ def test_no_private_name_comes_into_a_test(folder: str) -> None:
 WRONG = {
     "up": (
         "infill/surface.py",
-        "from infill.surfaces.merging import surface_of",
-        "infill.surface -> infill.surfaces.merging: up, from hall to surfaces",
+        "from infill.meshes.merging import surface_of",
+        "infill.surface -> infill.meshes.merging: up, from hall to meshes",
     ),
     "a module of a room above": (
         "infill/phasefield/inplace.py",
-        "from infill.surfaces import marching",
-        "infill.phasefield.inplace -> infill.surfaces.marching: up, from phasefield to surfaces",
+        "from infill.isosurfaces import marching",
+        "infill.phasefield.inplace -> infill.isosurfaces.marching: up, from phasefield to isosurfaces",
     ),
     "lazily": (
         "infill/formats/stl.py",
@@ -318,7 +319,7 @@ WRONG = {
     "for types only": (
         "infill/result.py",
         "if TYPE_CHECKING:\n    from infill.making.request import Block",
-        "infill.result -> infill.making.request: up, from result to making",
+        "infill.result -> infill.making.request: up, from report to making",
     ),
     "across": (
         "infill/voxels/from_mesh.py",
@@ -346,9 +347,9 @@ WRONG = {
         "infill.formats.obj -> .rows: relative",
     ),
     "in a circle": (
-        "infill/formats/whole_files.py",
-        "def f():\n    from infill.formats.mesh_files import save",
-        "circle: infill.formats.mesh_files -> infill.formats.whole_files",
+        "infill/meshes/merging.py",
+        "def f():\n    from infill.meshes.split_components import split",
+        "circle: infill.meshes.merging -> infill.meshes.split_components",
     ),
     "numba": (
         "infill/phasefield/dense.py",
@@ -356,9 +357,9 @@ WRONG = {
         "infill.phasefield.dense -> numba: only infill.kernels imports it",
     ),
     "SimpleITK": (
-        "infill/formats/volume_files.py",
+        "infill/imaging/volume_files.py",
         "import SimpleITK",
-        "infill.formats.volume_files -> SimpleITK: only infill.formats.medical imports it",
+        "infill.imaging.volume_files -> SimpleITK: only infill.imaging.medical imports it",
     ),
     "a terminal": (
         "infill/making/settings.py",

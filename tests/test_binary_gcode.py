@@ -34,7 +34,7 @@ from infill.gcode.binary import (
     stored,
     text_pieces,
 )
-from infill.gcode.piece_file import LONGEST_TEXT, as_file
+from infill.gcode.chunked_io import LONGEST_TEXT, as_file
 
 TEXT = b"""M201 X1000 Y1000 Z200 E5000
 ;LAYER_CHANGE

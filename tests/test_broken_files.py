@@ -14,9 +14,9 @@ from PIL import Image
 from test_frames_and_more_formats import mgh, vti, vtk
 
 from infill import FormatError, MemoryLimitError, Volume, read_mesh, save
-from infill.formats.broken import told_broken
+from infill.files.broken import told_broken
 from infill.formats.point_files import read_points
-from infill.formats.volume_files import read_volume, write_field
+from infill.imaging.volume_files import read_volume, write_field
 
 BOX = trimesh.creation.box((3, 4, 5))
 VALUES = np.indices((6, 7, 8)).sum(axis=0).astype(np.uint8)
@@ -92,13 +92,13 @@ READERS: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object], str]]
     "3mf, placed": (mesh(".3mf"), read_mesh, "infill.formats.threemf_reading._transform"),
     "points": (text, read_points, "infill.formats.point_files._parted_by"),
     "ply points": (mesh(".ply"), read_points, "infill.formats.point_files._ply_rows"),
-    "npz": (field(".npz"), read_volume, "infill.formats.arrays._axes"),
-    "tif": (tiff, read_volume, "infill.formats.slices._tiff_spacing"),
-    "png": (pictures, read_volume, "infill.formats.slices._read_png"),
-    "nifti": (nifti, read_volume, "infill.formats.nifti._scaled"),
-    "mgh": (mgh_file, read_volume, "infill.formats.freesurfer._read"),
-    "vtk": (vtk_file, read_volume, "infill.formats.vtk_images._lattice"),
-    "vti": (vti_file, read_volume, "infill.formats.vtk_xml._extent"),
+    "npz": (field(".npz"), read_volume, "infill.imaging.arrays._axes"),
+    "tif": (tiff, read_volume, "infill.imaging.slices._tiff_spacing"),
+    "png": (pictures, read_volume, "infill.imaging.slices._read_png"),
+    "nifti": (nifti, read_volume, "infill.imaging.nifti._scaled"),
+    "mgh": (mgh_file, read_volume, "infill.imaging.freesurfer._read"),
+    "vtk": (vtk_file, read_volume, "infill.imaging.vtk_images._lattice"),
+    "vti": (vti_file, read_volume, "infill.imaging.vtk_xml._extent"),
 }
 
 

@@ -16,7 +16,7 @@ from shapes import assert_printable
 from test_command_line import one_line_error, run
 
 from infill import GeometryError, ParameterError, Surface, read_mesh, smooth_mesh
-from infill.surfaces.parting import edge_components, joined, parted
+from infill.meshes.split_components import edge_components, joined, parted
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 

@@ -13,10 +13,10 @@ from made_shapes import box
 from test_slabs import asked
 
 from infill import Surface, fill
-from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.space import space_inside
-from infill.surfaces.distance import Tree
-from infill.surfaces.winding import winding
+from infill.interior.interior import space_inside
+from infill.lattices.choosing import voids_of
+from infill.meshes.distance import Tree
+from infill.meshes.winding import winding
 from patterns import Cross, Pattern, cell_parameter
 from patterns.cross import Cross3D
 

@@ -519,7 +519,7 @@ def test_sizes_and_bytes_are_read_as_people_write_them() -> None:
 
 
 def test_toml_quotes_what_it_must() -> None:
-    from infill.formats.toml import toml_rows
+    from infill.options.toml import toml_rows
 
     assert toml_rows({"name": 'a "b" \\ c'}) == ['name = "a \\"b\\" \\\\ c"']
 

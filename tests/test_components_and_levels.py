@@ -11,12 +11,12 @@ from scipy import ndimage
 from infill import Smoothing
 from infill.inspection.bricks import Verdict, compared, verdict
 from infill.inspection.thickness import thinnest_walls
+from infill.isosurfaces.components import components, cores, data_bits, opened, shells, solid_bits, without
+from infill.isosurfaces.levels import at_level, at_volume, straightened
+from infill.isosurfaces.sparse_marching import extract_level
 from infill.kernels.sparse import BRICK
 from infill.phasefield.profile import STRAIGHT
 from infill.phasefield.sparse import smooth_bricks
-from infill.surfaces.components import components, cores, data_bits, opened, shells, solid_bits, without
-from infill.surfaces.levels import at_level, at_volume, straightened
-from infill.surfaces.sparse_marching import extract_level
 
 UNIT = (1.0, 1.0, 1.0)
 EDGES = ndimage.generate_binary_structure(3, 2)

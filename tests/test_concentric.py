@@ -13,14 +13,14 @@ from made_shapes import ball, box, less, rod, together, union
 from test_slabs import asked, in_slabs, surface
 
 from infill import ParameterError, Result, Surface, fill
-from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.drawn_voids import Drawn
-from infill.filling.solids.layers import Layers
-from infill.filling.solids.shadow import shadow_of
-from infill.filling.solids.space import space_inside
-from infill.surfaces.distance import Tree
-from infill.surfaces.solids import FINE, status
-from infill.surfaces.winding import winding
+from infill.interior.interior import space_inside
+from infill.interior.layer_stack import Layers
+from infill.interior.shadow import shadow_of
+from infill.lattices.choosing import voids_of
+from infill.lattices.drawn_voids import Drawn
+from infill.meshes.distance import Tree
+from infill.meshes.solids import FINE, status
+from infill.meshes.winding import winding
 
 pytestmark = pytest.mark.usefixtures("compiled")
 

@@ -11,13 +11,13 @@ import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from infill.filling.contact import STEP as CONTACT_STEP
-from infill.filling.contact import Contact, Samples, contact, merged, sampled
-from infill.filling.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
-from infill.filling.curves import GENTLE, MOST_BULGE, recut
-from infill.filling.regions import NEARER, STEP, region_of
-from infill.filling.surroundings import ANCHORED, BESIDE, TOWARDS, Around, bounded_deviation, foot, walls_of
-from infill.filling.timing import neutral_limits, path_seconds
+from infill.paths.contact import STEP as CONTACT_STEP
+from infill.paths.contact import Contact, Samples, contact, merged, sampled
+from infill.paths.corners import COARSEST, SHARPEST, SHORTEST_CHORD, Machine, rounded
+from infill.paths.curves import GENTLE, MOST_BULGE, recut
+from infill.paths.neighbours import ANCHORED, BESIDE, TOWARDS, Around, bounded_deviation, foot, walls_of
+from infill.refilling.regions import NEARER, STEP, region_of
+from infill.refilling.timing import neutral_limits, path_seconds
 
 EXACT = 1e-9  # mm: of coordinates up to 100 mm, computed in a handful of steps
 WIDTH = 0.45  # mm

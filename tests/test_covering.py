@@ -13,15 +13,15 @@ from lines import BRACKET, DISC, PARTS, RING, least_spacing, length_of
 from shapely import MultiPolygon, Polygon, box
 
 from infill import GeometryError, ParameterError
-from infill.filling.clipping import clip
-from infill.filling.covering import cover, solve_cell, total_length
-from infill.filling.families.catalogue import FAMILIES
-from infill.filling.families.protocol import TOUCH, Path
-from infill.filling.ground import ground_of
-from infill.filling.joining import join
-from infill.filling.ordering import order, travel
-from infill.filling.outlines import outline_of
-from infill.filling.surroundings import walls_of
+from infill.paths.clipping import clip
+from infill.paths.covering import cover, solve_cell, total_length
+from infill.paths.families.catalogue import FAMILIES
+from infill.paths.families.protocol import TOUCH, Path
+from infill.paths.joining import join
+from infill.paths.layer_below import ground_of
+from infill.paths.neighbours import walls_of
+from infill.paths.ordering import order, travel
+from infill.paths.outlines import outline_of
 
 WIDTH = 0.45
 GAP = TOUCH * WIDTH

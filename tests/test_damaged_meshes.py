@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError, Surface, check, read_mesh
 from infill.errors import InfillError
-from infill.surfaces.solids import status
+from infill.meshes.solids import status
 
 WORDS = [
     "0", "-1", "3", "8", "1e400", "nan", "inf", "99999999999999999999", "1,5", "", "x", "\x1b[2J", "#", "\\", "/", "1/2/3",

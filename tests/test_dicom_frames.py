@@ -22,7 +22,7 @@ from pydicom.uid import RLELossless
 
 from infill import Volume, read_volume
 from infill.errors import FormatError, InfillError, ParameterError
-from infill.formats import dicom_pixels
+from infill.imaging import dicom_pixels
 from infill.smoothing.sources import read_source
 from tests.handmade_dicom import (
     AXIAL,

@@ -58,7 +58,7 @@ def test_every_picture_is_shown() -> None:
 
 
 def test_every_pattern_of_refill_is_on_its_page() -> None:
-    from infill.filling.families.catalogue import FAMILIES
+    from infill.paths.families.catalogue import FAMILIES
 
     text = (ROOT / "docs" / "refill.md").read_text(encoding="utf-8")
     for name in FAMILIES:

@@ -22,13 +22,13 @@ from benchmarks import fill_drains
 from benchmarks.fill_drains import PARTS, Case, distances, faults, mouth_of, run, tilted
 from infill import GeometryError, Surface, UsageError, fill
 from infill.cli.app import build
-from infill.filling.solids.drain_clearance import Skin
-from infill.filling.solids.drain_columns import Lattice, cross, find_ways
-from infill.filling.solids.drain_places import TURN_OVER, Needs
-from infill.filling.solids.drain_plan import DrainPlan, plan_drains
-from infill.filling.solids.drains import Drained, trapped
-from infill.surfaces.components import shell_names
-from infill.surfaces.distance import Tree
+from infill.drains.drain_clearance import Skin
+from infill.drains.drain_columns import Lattice, cross, find_ways
+from infill.drains.drain_places import TURN_OVER, Needs
+from infill.drains.drain_plan import DrainPlan, plan_drains
+from infill.isosurfaces.components import shell_names
+from infill.lattices.drain_holes import Drained, trapped
+from infill.meshes.distance import Tree
 
 pytestmark = pytest.mark.usefixtures("compiled")
 

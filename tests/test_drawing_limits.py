@@ -15,10 +15,10 @@ import pytest
 from test_command_line import one_line_error, run
 
 from infill import FormatError
+from infill.drawing import MOST_POINTS
+from infill.drawings.drawing_files import read_drawing
 from infill.errors import GeometryError
-from infill.filling.tile_lines import borders
-from infill.formats.drawing import MOST_POINTS
-from infill.formats.drawings import read_drawing
+from infill.paths.tiles.borders import borders
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">'
 
@@ -110,7 +110,7 @@ def test_a_deep_or_long_wkt_is_refused_by_its_limit(name: str, tmp_path: Path) -
     text, limit = WKT[name]
     path = tmp_path / "a.wkt"
     path.write_text(text, encoding="utf-8")
-    code = f"from infill.formats.drawings import read_drawing; read_drawing({str(path)!r})"
+    code = f"from infill.drawings.drawing_files import read_drawing; read_drawing({str(path)!r})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 1
     assert f"{limit}; the limit is" in done.stderr.splitlines()[-1]

@@ -14,14 +14,15 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 from PIL import Image, ImageDraw
 
+from infill.drawing import Drawing, Picture
+from infill.drawings.drawing_files import READERS, read_drawing
+from infill.drawings.svg_paths import bezier_points, path_lines
+from infill.drawings.tile_files import drawn
 from infill.errors import FormatError, GeometryError, ParameterError
-from infill.filling.covering import cover, solve_cell
-from infill.filling.drawn import BLUR_PER_RADIUS, Drawn, drawn
-from infill.filling.tile_fields import ALPHA
-from infill.filling.tile_nodes import COARSEST, colours, distances, tile_grid
-from infill.formats.drawing import Drawing, Picture
-from infill.formats.drawings import READERS, read_drawing
-from infill.formats.svg_paths import bezier_points, path_lines
+from infill.paths.covering import cover, solve_cell
+from infill.paths.tiles.drawn_family import BLUR_PER_RADIUS, Drawn
+from infill.paths.tiles.nodes import COARSEST, colours, distances, tile_grid
+from infill.paths.tiles.two_colours import ALPHA
 
 WIDTH = 0.45
 FLAT = 2e-4  # of the size of a drawing: chords lie within 1e-4 of their curves, and simplifying takes half as much
@@ -370,7 +371,7 @@ def test_pictures_without_a_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     with pytest.raises(FormatError, match="broken"):
         read_drawing(path)
     path.write_bytes(data)
-    monkeypatch.setattr("infill.formats.bitmaps.MOST_PIXELS", 1000)
+    monkeypatch.setattr("infill.drawings.bitmaps.MOST_PIXELS", 1000)
     with pytest.raises(FormatError, match="60 × 60 pixels; the limit is 1000"):
         read_drawing(path)
 

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import check
+from infill.meshes.hole_filling import open_edges
+from infill.meshes.shells import in_batches, shell_volumes, vertex_components, with_faces
 from infill.surface import Edges, Surface
-from infill.surfaces.capping import open_edges
-from infill.surfaces.shells import in_batches, shell_volumes, vertex_components, with_faces
 
 faces_of = st.lists(st.tuples(*[st.integers(0, 9)] * 3), min_size=1, max_size=20).map(
     lambda faces: np.array(faces, dtype=np.int32)

@@ -16,14 +16,14 @@ from scipy.spatial import cKDTree
 from shapely import box
 
 from infill import ParameterError
-from infill.filling.families.catalogue import FAMILIES
-from infill.filling.families.grid import TURN as HALF_RIGHT
-from infill.filling.families.heart import ConcentricHeart
-from infill.filling.families.honeycomb import Honeycomb
-from infill.filling.families.level_sets import Gyroid, SchwarzD, SchwarzP
-from infill.filling.families.protocol import TOUCH, Family, Path, RegionFamily
-from infill.filling.families.spirals import Spirals
-from infill.filling.families.waves import BOND
+from infill.paths.families.catalogue import FAMILIES
+from infill.paths.families.grid import TURN as HALF_RIGHT
+from infill.paths.families.heart import ConcentricHeart
+from infill.paths.families.honeycomb import Honeycomb
+from infill.paths.families.level_sets import Gyroid, SchwarzD, SchwarzP
+from infill.paths.families.protocol import TOUCH, Family, Path, RegionFamily
+from infill.paths.families.spirals import Spirals
+from infill.paths.families.waves import BOND
 from patterns.cross import SIDE
 from patterns.hilbert import numbers
 from patterns.octagons import NEAR as NEAR_SIDE
@@ -86,13 +86,11 @@ def test_the_paper_comes_first_and_names_are_told_by_the_families() -> None:
 
 
 def test_the_catalogue_loads_no_family() -> None:
-    code = "import sys; from infill.filling.families.catalogue import FAMILIES; list(FAMILIES); print(*sys.modules)"
+    code = "import sys; from infill.paths.families.catalogue import FAMILIES; list(FAMILIES); print(*sys.modules)"
     loaded = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, encoding="utf-8", check=True
     ).stdout.split()
-    assert not {"shapely", "scipy", "infill.filling.families.honeycomb", "infill.filling.families.level_sets"} & set(
-        loaded
-    )
+    assert not {"shapely", "scipy", "infill.paths.families.honeycomb", "infill.paths.families.level_sets"} & set(loaded)
 
 
 @every_family

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from scipy import ndimage
 
 from infill import Smoothing
-from infill.inspection import fates
-from infill.inspection.fates import fate, overlaps, summed
+from infill.inspection import component_matching as fates
+from infill.inspection.component_matching import fate, overlaps, summed
+from infill.isosurfaces.components import components, data_bits, shared_cells, solid_bits
 from infill.phasefield.sparse import smooth_bricks
-from infill.surfaces.components import components, data_bits, shared_cells, solid_bits
 
 
 def labels(text: str) -> np.ndarray:

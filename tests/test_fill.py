@@ -19,19 +19,19 @@ from test_command_line import run as command
 from test_report import FILL, PAGE, described, differences, misfits
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, UsageError, fill, read_mesh
-from infill.filling.solids import telling
-from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.grading import NONE
-from infill.filling.solids.hollowing import hollowed
-from infill.filling.solids.opening import Opening
-from infill.filling.solids.request import checked
-from infill.filling.solids.roots import root
-from infill.filling.solids.telling import least_wall, outside
+from infill.interior.opening import Opening
+from infill.interior.root_finding import root
+from infill.lattices import quality_checks as telling
+from infill.lattices.choosing import voids_of
+from infill.lattices.grading import NONE
+from infill.lattices.hollowing import hollowed
+from infill.lattices.quality_checks import least_wall, outside
+from infill.lattices.request import checked
+from infill.meshes.distance import Tree
+from infill.meshes.solids import FINE, in_one_place, shortened, solid_of, status
+from infill.meshes.winding import winding
 from infill.report_keys import FillReport
 from infill.result import Clock
-from infill.surfaces.distance import Tree
-from infill.surfaces.solids import FINE, in_one_place, shortened, solid_of, status
-from infill.surfaces.winding import winding
 from patterns import PATTERNS
 from patterns.cellular import CELLULAR
 from patterns.cross import Cross3D

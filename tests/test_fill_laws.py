@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from made_shapes import box, union
 
 from infill import Surface, fill
-from infill.filling.solids.fillets import DEGREES, TIPS
-from infill.filling.solids.line_sample import faces_between, sized, square
-from infill.surfaces.distance import Tree
-from infill.surfaces.winding import winding
+from infill.lattices.fillets import DEGREES, TIPS
+from infill.lattices.line_sample import faces_between, sized, square
+from infill.meshes.distance import Tree
+from infill.meshes.winding import winding
 from patterns import PATTERNS, Pattern
 from patterns.cellular import CELLULAR, InSpace
 from patterns.cross import Cross3D

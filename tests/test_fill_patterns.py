@@ -16,8 +16,8 @@ from test_command_line import one_line_error
 from test_command_line import run as command
 
 from infill import FormatError, ParameterError, fill
-from infill.filling.solids.naming import kind_of
-from infill.filling.solids.tiled import tiled
+from infill.lattices.resolve_pattern import kind_of
+from infill.lattices.tiled import tiled
 from patterns import Honeycomb, Pattern, PatternError, parameter
 from patterns.cellular import CELLULAR
 from patterns.linework import clip

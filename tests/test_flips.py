@@ -15,14 +15,14 @@ from scipy.ndimage import gaussian_filter, label
 from infill import InfillError, Smoothing, Surface, Volume, smooth_volume
 from infill.inspection.bricks import verdict, verdict_by_flips
 from infill.inspection.fidelity import fidelity
-from infill.inspection.flips import Flips, near_each_other
+from infill.inspection.sign_changes import Flips, near_each_other
+from infill.isosurfaces.components import data_bits
 from infill.kernels.flips import simple
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.levelling import levelled
 from infill.smoothing.placing import placed, raw_surface
 from infill.smoothing.request import Given, Request
 from infill.smoothing.sources import read_source
-from infill.surfaces.components import data_bits
 from infill.voxels.from_mesh import voxelise
 from infill.voxels.segmentation import threshold
 

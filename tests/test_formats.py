@@ -18,9 +18,9 @@ import trimesh
 from shapes import assert_printable, smooth_noise
 
 from infill import FormatError, OutputError, Surface, isosurface, make, read_mesh, save
+from infill.files.whole_files import check_target, whole_file, whole_files
 from infill.formats import stl
 from infill.formats.mesh_files import READERS, WRITERS
-from infill.formats.whole_files import check_target, whole_file, whole_files
 
 every_format = pytest.mark.parametrize("suffix", list(WRITERS))
 

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from infill.errors import FormatError, MemoryLimitError, ParameterError
-from infill.formats.volume_files import read_volume
+from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
 from infill.voxels.cropping import cropped, part
 

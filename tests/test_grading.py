@@ -15,7 +15,7 @@ from test_command_line import one_line_error, run, usage_error
 
 from infill import GeometryError, InfillError, UsageError, fill
 from infill.errors import FormatError
-from infill.surfaces.solids import solid_of
+from infill.meshes.solids import solid_of
 
 pytestmark = pytest.mark.usefixtures("compiled")
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from infill import FormatError, GeometryError, Surface, check, isosurface, save
 from infill.inspection.printability import guess_unit
-from infill.surfaces.intersections import self_intersections
+from infill.meshes.intersections import self_intersections
 
 BOX = trimesh.creation.box((10, 10, 10))
 
@@ -166,7 +166,7 @@ def test_many_pairs_are_tried_some_at_a_time(monkeypatch: pytest.MonkeyPatch) ->
     both = joined(sphere, moved(sphere, 0.5, 0.2, 0.1))
     whole = self_intersections(both.vertices, both.faces)
     assert whole > 50
-    monkeypatch.setattr("infill.surfaces.intersections.PAIRS_AT_ONCE", 100)
+    monkeypatch.setattr("infill.meshes.intersections.PAIRS_AT_ONCE", 100)
     assert self_intersections(both.vertices, both.faces) == whole
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from infill import refill
-from infill.filling.support import LEAST_LENGTH
-from infill.filling.widest_gap import MOST_GROWTH
+from infill.refilling.support import LEAST_LENGTH
+from infill.refilling.widest_gap import MOST_GROWTH
 from tests.gap_judge import PIXEL, filament, touching_walls, widest_gaps
 from tests.prints import box, cura_print, prusa_print
 from tests.slicers import missing_cura, missing_prusa

@@ -14,6 +14,7 @@ from scipy import ndimage
 from scipy.ndimage import convolve1d, map_coordinates
 
 from infill import Smoothing
+from infill.isosurfaces.components import Components, cells_of, components, cores, data_bits, grown, opened
 from infill.kernels import components as parts
 from infill.kernels import refining
 from infill.kernels.compiling import njit
@@ -37,7 +38,6 @@ from infill.kernels.sparse_marching import BLOCK, place, sum_volumes, volumes
 from infill.kernels.threads import MOST, VARIABLE, in_threads, thread_count
 from infill.kernels.transfer import gather
 from infill.phasefield.sparse import SparseField, smooth_bricks, states_of
-from infill.surfaces.components import Components, cells_of, components, cores, data_bits, grown, opened
 
 SINGLE = 2e-6  # of numbers about 1: some ten roundings of float32
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from infill import Segment, read_labels, read_segmentation
 from infill.errors import FormatError
-from infill.formats.file_names import MOST_BYTES, safe_names
-from infill.formats.label_tables import segments_of_nrrd
-from infill.formats.name_templates import filled, is_template
+from infill.files.file_names import MOST_BYTES, safe_names
+from infill.imaging.label_tables import segments_of_nrrd
+from infill.imaging.name_templates import filled, is_template
 
 SNAP = """################################################
 # ITK-SnAP Label Description File

@@ -273,7 +273,7 @@ def test_a_format_of_one_mesh_is_told(result: Result[Any, Any], tmp_path: Path) 
 
 def test_no_more_files_are_open_at_a_time_than_one(tmp_path: Path) -> None:
     """A system may allow 256."""
-    from infill.formats.whole_files import deliver
+    from infill.files.whole_files import deliver
 
     held: list[Any] = []
 

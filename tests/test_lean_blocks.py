@@ -17,14 +17,14 @@ from hypothesis import strategies as st
 from shapes import BUILT_IN, as_manifold, assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Result, Smoothing, check, extrude, make, smooth
+from infill.contours.prisms import prism
+from infill.contours.straightening import straightened
+from infill.contours.strips import strips
+from infill.contours.triangulation import filled
+from infill.contours.zero_contours import Contours, contours
 from infill.inspection.layers import solid_area, topology
+from infill.isosurfaces.stacking import extruded
 from infill.making.request import plan
-from infill.surfaces.contours import Contours, contours
-from infill.surfaces.prisms import prism
-from infill.surfaces.stacking import extruded
-from infill.surfaces.straightening import straightened
-from infill.surfaces.strips import strips
-from infill.surfaces.triangulation import filled
 from patterns import PATTERNS, parameters
 
 ROUNDING = 1e-5  # mm: marching cubes keeps its vertices as 32-bit numbers

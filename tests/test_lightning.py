@@ -13,15 +13,15 @@ from made_shapes import box
 from scipy.ndimage import distance_transform_edt
 
 from infill import ParameterError, UsageError, fill
-from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.forest import NONE, Forest
-from infill.filling.solids.grading import NONE as EVEN
-from infill.filling.solids.layered import Layered
-from infill.filling.solids.request import checked
-from infill.filling.solids.settings import DEFAULTS
-from infill.filling.solids.space import Space, space_inside
+from infill.interior.interior import Space, space_inside
 from infill.kernels.layered import beside_lines, from_layers
-from infill.surfaces.merging import surface_of
+from infill.lattices.choosing import voids_of
+from infill.lattices.forest import NONE, Forest
+from infill.lattices.grading import NONE as EVEN
+from infill.lattices.layered import Layered
+from infill.lattices.request import checked
+from infill.lattices.settings import DEFAULTS
+from infill.meshes.merging import surface_of
 from patterns.errors import PatternError
 
 pytestmark = pytest.mark.usefixtures("compiled")

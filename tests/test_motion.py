@@ -18,15 +18,15 @@ from typer.testing import CliRunner
 import infill
 from infill import FormatError, Motion, ParameterError, motion
 from infill.cli.app import build
-from infill.gcode import timeline
-from infill.gcode.chords import chords
-from infill.gcode.columns import chained, part
 from infill.gcode.found_limits import CURA, KLIPPER, MARLIN, found_limits
 from infill.gcode.limits import LIMITING_CODES, Limits, commanded
-from infill.gcode.timeline import Timeline
-from infill.inspection.layer_speeds import PIECE, layer_speeds
-from infill.inspection.printing_time import FeatureMotion
 from infill.pictures.speeds import colours
+from infill.planner import timeline
+from infill.planner.chords import chords
+from infill.planner.layer_speeds import PIECE, layer_speeds
+from infill.planner.printing_time import FeatureMotion
+from infill.planner.struct_of_arrays import chained, part
+from infill.planner.timeline import Timeline
 from tests import slicers
 from tests.prints import FAST, box, cura_print, prusa_print
 

@@ -342,12 +342,12 @@ def test_python_callers_read_the_names_of_their_arguments(folder: Path) -> None:
 def test_the_choices_are_those_of_the_library() -> None:
     from typing import get_args
 
-    from infill.filling.solids.grading import Varies
-    from infill.filling.solids.opening import Open
-    from infill.filling.solids.request import Align, Form
-    from infill.formats.units import UNITS
+    from infill.imaging.units import UNITS
+    from infill.interior.opening import Open
+    from infill.lattices.grading import Varies
+    from infill.lattices.request import Align, Form
     from infill.making.request import DEFAULT_CELLS
-    from infill.slicers.project import SLICERS
+    from infill.projects.project import SLICERS
 
     told = {(command, name_of(option)): option.metavar for command in COMMANDS for option in options_of(command)}
     assert told["smooth", "--smooth"].split("|") == [*METHODS]

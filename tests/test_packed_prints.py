@@ -16,7 +16,7 @@ from test_command_line import one_line_error, run
 
 from infill import FormatError, ParameterError, motion, refill
 from infill.gcode.binary import encoded, stored
-from infill.inspection.layer_speeds import layer_speeds, middle_layer
+from infill.planner.layer_speeds import layer_speeds, middle_layer
 from tests.gcode_judge import changed, judge
 from tests.handmade_prints import Dialect, written
 

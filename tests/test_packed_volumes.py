@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from infill.errors import FormatError, InfillError, MemoryLimitError
-from infill.formats.segmentations import read_segmentation
-from infill.formats.volume_files import read_volume
+from infill.imaging.segmentations import read_segmentation
+from infill.imaging.volume_files import read_volume
 from tests import volume_writers as w
 from tests.volume_writers import WAYS, Written
 

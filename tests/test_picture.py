@@ -12,11 +12,11 @@ from PIL import Image
 from test_command_line import run
 
 from infill import FormatError, OutputError, Smoothing, Surface, make, smooth_labels, smooth_mesh, smooth_volume
+from infill.meshes.winding import bounds_solid, winding
 from infill.pictures.before_and_after import FAR, Marked
 from infill.pictures.preview import check_preview
 from infill.pictures.render import render
 from infill.pictures.sheet import CAPTION, MARGIN, PANEL
-from infill.surfaces.winding import bounds_solid, winding
 
 WHITE = 255
 

@@ -17,14 +17,14 @@ from test_command_line import refused, run
 from test_parameters import offered
 
 from infill import FormatError, ParameterError, refill
-from infill.filling.covering import cover, solve_cell
-from infill.filling.families.catalogue import FAMILIES
-from infill.filling.families.honeycomb import Honeycomb
-from infill.filling.families.protocol import TOUCH, Family
-from infill.filling.families.turned import Turned
-from infill.filling.outlines import outline_of
-from infill.filling.placement import family_of, unplaced
-from infill.filling.settings import ENDLESS, parse_radius, parse_range, parse_share_or_same, resolve
+from infill.paths.covering import cover, solve_cell
+from infill.paths.families.catalogue import FAMILIES
+from infill.paths.families.honeycomb import Honeycomb
+from infill.paths.families.protocol import TOUCH, Family
+from infill.paths.families.turned import Turned
+from infill.paths.outlines import outline_of
+from infill.refilling.placement import family_of, unplaced
+from infill.refilling.settings import ENDLESS, parse_radius, parse_range, parse_share_or_same, resolve
 from patterns import PatternError
 from patterns.declared import parameters, wanted
 from patterns.given import assigned

@@ -12,12 +12,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import ArrayLike
 
-from infill.gcode.bounds import Moves, bounded
-from infill.gcode.columns import chained, part
-from infill.gcode.cruising import tops
-from infill.gcode.junctions import joint_limits
 from infill.gcode.limits import INFINITE, JERKS, LEAST, MODELS, MOST, Limits
-from infill.gcode.planner import PIECE, Plan, look_ahead, plan, settle
+from infill.planner.bounds import Moves, bounded
+from infill.planner.cruising import tops
+from infill.planner.junctions import joint_limits
+from infill.planner.lookahead import PIECE, Plan, look_ahead, plan, settle
+from infill.planner.struct_of_arrays import chained, part
 
 FREE = (INFINITE,) * 4
 # A machine without limits of its axes: what is left is the path's.

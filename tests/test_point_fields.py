@@ -14,8 +14,8 @@ from scipy.spatial.transform import Rotation
 from infill import ParameterError, Surface, smooth_points
 from infill.kernels.point_fields import signed_distances
 from infill.kernels.threads import in_threads
+from infill.meshes.distance import distances
 from infill.smoothing.sources import read_source, smooth_source
-from infill.surfaces.distance import distances
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.point_fields import (
     PASSES,

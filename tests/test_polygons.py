@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from polygon_meshes import KEYHOLE, SOLIDS, Solid, prism
 
 from infill import Surface
-from infill.surfaces.polygons import split_fan, split_polygons, split_strips
+from infill.meshes.polygons import split_fan, split_polygons, split_strips
 
 
 def split(solid: Solid) -> Surface:

@@ -13,9 +13,9 @@ from made_shapes import box
 from test_command_line import run as command
 
 from infill import Surface, fill, save_project
-from infill.filling.solids.narrow import too_narrow, without_narrow
+from infill.interior.narrow import too_narrow, without_narrow
+from infill.meshes.solids import in_one_place, solid_of, status
 from infill.result import Result
-from infill.surfaces.solids import in_one_place, solid_of, status
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -87,7 +87,7 @@ def test_infill_that_slicers_do_not_print_is_left_out_and_told(
     assert not in_one_place(infill).any()
     assert printed(found, size, tmp_path) == pytest.approx(volume_in(infill, size), rel=0.05)
 
-    monkeypatch.setattr("infill.filling.solids.projected.NARROW", 1.0)
+    monkeypatch.setattr("infill.lattices.projected.NARROW", 1.0)
     whole = filled(pattern, density, size, phase=HARDLY_SHIFTED)
     before = whole.surfaces["infill"]
     assert whole.report["infill"]["left_out"] == 0

@@ -17,8 +17,8 @@ from made_shapes import ball
 from numpy.typing import NDArray
 
 from infill import fill, save_project
-from infill.slicers import cura as cura_project
-from infill.slicers import prusaslicer
+from infill.projects import cura as cura_project
+from infill.projects import prusaslicer
 
 pytestmark = pytest.mark.usefixtures("compiled")
 

@@ -22,14 +22,14 @@ from test_command_line import one_line_error, usage_error
 from test_command_line import run as command
 
 from infill import FormatError, Surface, UsageError, check_project, fill, read_mesh, save_project
-from infill.filling.solids.request import checked
-from infill.filling.solids.settings import DEFAULTS
-from infill.filling.solids.sizing import larger
+from infill.lattices.request import checked
+from infill.lattices.settings import DEFAULTS
+from infill.lattices.sizing import larger
+from infill.meshes.solids import solid_of
+from infill.projects.project import SLICERS, Project, Slicer
+from infill.projects.saving import project_writer
 from infill.report_keys import FillReport
 from infill.result import Result
-from infill.slicers.project import SLICERS, Project, Slicer
-from infill.slicers.saving import project_writer
-from infill.surfaces.solids import solid_of
 
 pytestmark = pytest.mark.usefixtures("compiled")
 
@@ -389,7 +389,7 @@ def test_prusaslicer_does_what_the_doctor_says(rule: str, project: Project, tmp_
 @cura
 def test_cura_prints_the_infill(filled: Result[Any, FillReport], tmp_path: Path) -> None:
     """By its engine, which reads no 3MF: with the settings that the project has."""
-    from infill.slicers.cura import INFILL_SETTINGS
+    from infill.projects.cura import INFILL_SETTINGS
 
     own = {**INFILL_SETTINGS, "infill_line_distance": "0.45"}  # which Cura derives from the density
     del own["infill_sparse_density"]

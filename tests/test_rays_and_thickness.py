@@ -13,9 +13,9 @@ from infill import Grid, Smoothing, smooth_mesh
 from infill.inspection.rays import way_inside
 from infill.inspection.thickness import thinnest_walls
 from infill.inspection.width import wall_width
+from infill.isosurfaces.sparse_marching import extract_bricks
 from infill.kernels.rays import follow
 from infill.phasefield.sparse import smooth_bricks
-from infill.surfaces.sparse_marching import extract_bricks
 
 UNIT = (1.0, 1.0, 1.0)
 

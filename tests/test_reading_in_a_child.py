@@ -16,8 +16,8 @@ import pytest
 
 from infill.cli.console import log_said, say, warn
 from infill.errors import FormatError, InfillError, MemoryLimitError, OutputError, ParameterError, printable
-from infill.formats.child_process import read_in_child
-from infill.formats.volume_files import read_volume
+from infill.files.child_process import read_in_child
+from infill.imaging.volume_files import read_volume
 from tests import volume_writers as w
 
 READERS = "tests.child_readers:"
@@ -127,7 +127,7 @@ def test_a_reader_that_takes_all_memory_is_refused() -> None:
 def test_no_child_and_no_file_outlives_its_parent(number: signal.Signals, tmp_path: Path) -> None:
     """Ctrl-C, the end of a session, and an end that nobody can answer."""
     text = (
-        "from infill.formats.child_process import read_in_child; from pathlib import Path; "
+        "from infill.files.child_process import read_in_child; from pathlib import Path; "
         f"read_in_child({READERS + 'sleeps'!r}, {str(tmp_path / 'pid')!r}, path=Path('scan.dcm'))"
     )
     scratch = tmp_path / "scratch"
@@ -159,7 +159,7 @@ def test_nothing_is_left_in_the_folder_for_temporary_files(tmp_path: Path, monke
 def test_a_system_whose_files_have_names_works_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As on Windows, which passes no numbers of files and removes no file that is mapped."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    monkeypatch.setattr("infill.formats.child_process.NAMELESS", False)
+    monkeypatch.setattr("infill.files.child_process.NAMELESS", False)
     assert read_in_child(f"{READERS}arrays", 60, "u1", path=SCAN).arrays["values"].sum() == 1770
     with pytest.raises(FormatError):
         read_in_child(f"{READERS}leaves", 1, path=SCAN)

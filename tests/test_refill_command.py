@@ -332,7 +332,7 @@ def test_keeping_paths_needs_no_compiler(gcode: Path) -> None:
     code = f"import sys; sys.argv = ['infill', 'refill', {str(gcode)!r}, '-q']; import infill.cli; infill.cli.main()"
     loaded = modules_after(code)
     assert STAMP in gcode.read_bytes()
-    assert "infill.filling.refilling" in loaded
+    assert "infill.refilling.job" in loaded
     assert not {"numba", "llvmlite", "skimage", "trimesh", "manifold3d", "shapely", "PIL"} & loaded
 
 

@@ -13,19 +13,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import FormatError, OutputError, ParameterError, refill
-from infill.filling.batch import Batch
-from infill.filling.families.catalogue import FAMILIES
-from infill.filling.measuring import Drawing, measured
-from infill.filling.planning import planned
-from infill.filling.request import Request
-from infill.filling.rounding import Rounding
-from infill.filling.rules import Rules
-from infill.filling.support import AIM, LEAST_SHARE, first_enough, largest_deviation, samples
-from infill.filling.surroundings import Beads
-from infill.filling.tally import Amounts, Tally
-from infill.filling.telling import report_of_refill
 from infill.gcode.survey import survey
+from infill.paths.families.catalogue import FAMILIES
+from infill.paths.neighbours import Beads
+from infill.paths.rounding import Rounding
 from infill.ragged import packed
+from infill.refilling.batch import Batch
+from infill.refilling.measuring import Drawing, measured
+from infill.refilling.planning import planned
+from infill.refilling.report import report_of_refill
+from infill.refilling.request import Request
+from infill.refilling.rules import Rules
+from infill.refilling.stats import Amounts, Tally
+from infill.refilling.support import AIM, LEAST_SHARE, first_enough, largest_deviation, samples
 from tests.gcode_judge import judge, lines_of
 from tests.gcode_structure import bonded, layers_of, supported
 from tests.prints import box, prusa_print
@@ -189,7 +189,7 @@ def test_a_print_that_lost_too_much_is_drawn_again(
     chosen: float, honeycomb: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Whatever a few layers told."""
-    monkeypatch.setattr("infill.filling.support.largest_deviation", lambda *_: chosen)
+    monkeypatch.setattr("infill.refilling.support.largest_deviation", lambda *_: chosen)
     report = refill(honeycomb, output=tmp_path / "again.gcode").report
     assert report["rounding"]["deviation_mm"] < chosen
     assert min(report["contact"]["kept_supported"], report["contact"]["kept_bonded"]) >= LEAST_SHARE

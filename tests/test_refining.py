@@ -9,14 +9,14 @@ import pytest
 from scipy.ndimage import gaussian_filter
 
 from infill import ParameterError, Smoothing, smooth_volume
+from infill.isosurfaces.components import components, data_bits
+from infill.isosurfaces.levels import at_volume, straightened
 from infill.phasefield.allen_cahn import STEEPNESS
 from infill.phasefield.profile import REFINED
 from infill.phasefield.refining import filtered_bricks, filtered_reference, refine_bricks, refine_reference
 from infill.phasefield.schedule import FILTERS, Schedule
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
-from infill.surfaces.components import components, data_bits
-from infill.surfaces.levels import at_volume, straightened
 
 TWENTY = Smoothing(steps=20)
 CELLS = REFINED.scale * 2 / STEEPNESS  # what a refined distance of 1 stands for

@@ -19,7 +19,7 @@ import tifffile
 from PIL import Image
 
 from infill.errors import FormatError, MemoryLimitError, OutputError, ParameterError
-from infill.formats.volume_files import FIELD_WRITERS, READERS, read_volume, write_field
+from infill.imaging.volume_files import FIELD_WRITERS, READERS, read_volume, write_field
 from infill.volume import Volume
 
 SHAPE = (5, 6, 7)
@@ -644,7 +644,7 @@ def test_reading_arrays_loads_nothing_medical() -> None:
         [
             sys.executable,
             "-c",
-            "import infill.formats.volume_files, infill.formats.arrays, json, sys; print(json.dumps(list(sys.modules)))",
+            "import infill.imaging.volume_files, infill.imaging.arrays, json, sys; print(json.dumps(list(sys.modules)))",
         ],
         capture_output=True,
         encoding="utf-8",

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from test_command_line import run
 
 from infill import Surface, check, save
-from infill.surfaces.sealed_voids import count_sealed_voids
+from infill.meshes.sealed_voids import count_sealed_voids
 
 pytestmark = pytest.mark.usefixtures("silent_compiler")
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from skimage.filters import threshold_otsu
 
 from infill.errors import ParameterError
-from infill.formats.volume_files import read_volume
+from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
 from infill.voxels.segmentation import contrast, edge_window, grey, otsu_threshold, threshold
 

@@ -16,14 +16,14 @@ from skimage.measure import marching_cubes
 
 from infill.errors import GeometryError, ParameterError
 from infill.kernels import quadrics
+from infill.meshes import edge_collapse as collapsing
+from infill.meshes.distance import LEAF, Tree
+from infill.meshes.edge_collapse import Table, collapsed
+from infill.meshes.hausdorff_samples import CLEAR, SURE, between, level_faces, same_faces
+from infill.meshes.intersections import self_intersections
+from infill.meshes.project_back import MANY, mended
+from infill.meshes.simplification import simplified
 from infill.surface import Surface
-from infill.surfaces import collapsing
-from infill.surfaces.collapsing import Table, collapsed
-from infill.surfaces.distance import LEAF, Tree
-from infill.surfaces.intersections import self_intersections
-from infill.surfaces.mending import MANY, mended
-from infill.surfaces.simplification import simplified
-from infill.surfaces.watching import CLEAR, SURE, between, level_faces, same_faces
 
 DRIFT = 0.05  # of the tolerance: how far the surface may have moved outwards or inwards on average
 PER_TRIANGLE = 25  # places at which a triangle's distance is measured

@@ -14,21 +14,22 @@ from made_shapes import box, less, rod, turned, union
 from scipy.spatial import KDTree
 
 from infill import GeometryError, Surface, Volume, fill
-from infill.filling.solids import hollowing, layers
-from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.drawn_voids import Drawn
-from infill.filling.solids.hollowing import share_of_cells
-from infill.filling.solids.layers import Layers
-from infill.filling.solids.request import Request, checked
-from infill.filling.solids.slabwise import surfaces_by_slabs, unmade
-from infill.filling.solids.space import Space, space_inside
-from infill.filling.solids.surfacing import smoothing_for, surfaces_of
-from infill.surfaces import slabs
-from infill.surfaces.capping import open_edges
-from infill.surfaces.distance import Tree
-from infill.surfaces.shells import with_faces
-from infill.surfaces.slabs import Piece, few_of, piece_between, shells_of, stitched, volumes_of
-from infill.surfaces.solids import FINE, shortened_between, status
+from infill.interior import layer_stack as layers
+from infill.interior.interior import Space, space_inside
+from infill.interior.layer_stack import Layers
+from infill.isosurfaces import slabs
+from infill.isosurfaces.slabs import Piece, few_of, piece_between, shells_of, stitched, volumes_of
+from infill.lattices import hollowing
+from infill.lattices.choosing import voids_of
+from infill.lattices.drawn_voids import Drawn
+from infill.lattices.hollowing import share_of_cells
+from infill.lattices.request import Request, checked
+from infill.lattices.slabwise import surfaces_by_slabs, unmade
+from infill.lattices.surfacing import smoothing_for, surfaces_of
+from infill.meshes.distance import Tree
+from infill.meshes.hole_filling import open_edges
+from infill.meshes.shells import with_faces
+from infill.meshes.solids import FINE, shortened_between, status
 from patterns import Pattern
 from patterns.shared import cell_parameter
 
@@ -145,7 +146,7 @@ def test_a_space_in_slabs_measures_as_the_whole(space: Space) -> None:
 
 
 def test_a_large_part_is_measured_slab_by_slab(monkeypatch: pytest.MonkeyPatch) -> None:
-    from infill.filling.solids import space as module
+    from infill.interior import interior as module
 
     part = surface(box(10, 12, 30))
     whole = space_inside(part, wall=1.2, voxel=0.4)
@@ -228,7 +229,7 @@ def test_corners_outside_of_the_walls_are_none() -> None:
 
 def test_too_few_layers_beside_a_slab_are_seen(space: Space, monkeypatch: pytest.MonkeyPatch) -> None:
     """The comparison can fail: without them, pieces do not meet, or surfaces differ."""
-    from infill.filling.solids import slabwise
+    from infill.lattices import slabwise
 
     request = asked("honeycomb", smooth_radius=1.5)
     voids = voids_of(request, space.part.bounds, None)
@@ -305,7 +306,7 @@ def test_simplified_slabs_stay_within_the_tolerance(pattern: str, space: Space) 
 
 @pytest.mark.parametrize("pattern", ["honeycomb", "concentric-heart", "concentric"])
 def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    from infill.filling.solids import space as module
+    from infill.interior import interior as module
 
     mesh = union(less(box(26, 20, 40), rod(4, 60)), box(8, 8, 30, (9, 6, 20)))
     monkeypatch.setattr(module, "WHOLE", 1000)
@@ -326,7 +327,7 @@ def test_a_part_filled_in_slabs_keeps_all_promises(pattern: str, monkeypatch: py
 
 
 def test_slabs_are_planned_for_upright_voids_alone() -> None:
-    from infill.filling.solids.sizing import goes_by_slabs
+    from infill.lattices.sizing import goes_by_slabs
 
     bounds = np.array([[0.0, 0, 0], [20, 20, 20]])
     for pattern, more, expected in (
@@ -342,7 +343,7 @@ def test_slabs_are_planned_for_upright_voids_alone() -> None:
 
 
 def test_a_tall_part_has_voxels_as_fine_as_a_low_one() -> None:
-    from infill.filling.solids.sizing import sizes_for, voxel_for
+    from infill.lattices.sizing import sizes_for, voxel_for
 
     request = asked("honeycomb", cell=None, line_width=None, density=0.2, voxel=None)
     found = []

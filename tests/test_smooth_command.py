@@ -20,7 +20,7 @@ from test_command_line import one_line_error, refused, run
 
 from infill import Volume, read_mesh, read_volume
 from infill.cli.console import log_said
-from infill.formats.volume_files import write_field
+from infill.imaging.volume_files import write_field
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 

@@ -16,7 +16,7 @@ from PIL import Image
 from test_command_line import one_line_error, run
 
 from infill import Volume, read_mesh
-from infill.formats.volume_files import write_field
+from infill.imaging.volume_files import write_field
 
 pytestmark = pytest.mark.usefixtures("compiled", "silent_compiler")
 

@@ -30,11 +30,11 @@ from infill import (
     smooth_points,
     smooth_volume,
 )
+from infill.isosurfaces.levels import SMALLEST
 from infill.kernels.compiling import told_of_compiling
+from infill.meshes.distance import distances
 from infill.phasefield.sparse import smooth_bricks
 from infill.smoothing.attempt import OFF
-from infill.surfaces.distance import distances
-from infill.surfaces.levels import SMALLEST
 
 Solid = NDArray[np.bool_]
 

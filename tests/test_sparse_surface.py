@@ -9,13 +9,10 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from infill import GeometryError, Smoothing
-from infill.kernels.sparse_marching import UNDECIDED
-from infill.phasefield.sparse import SparseField, smooth_bricks
-from infill.surface import Surface
-from infill.surfaces.components import data_bits
-from infill.surfaces.levels import tried
-from infill.surfaces.marching import extract
-from infill.surfaces.sparse_marching import (
+from infill.isosurfaces.components import data_bits
+from infill.isosurfaces.levels import tried
+from infill.isosurfaces.marching import extract
+from infill.isosurfaces.sparse_marching import (
     cube_table,
     euler_number_of_bits,
     extract_bricks,
@@ -23,6 +20,9 @@ from infill.surfaces.sparse_marching import (
     measured,
     raw_counts,
 )
+from infill.kernels.sparse_marching import UNDECIDED
+from infill.phasefield.sparse import SparseField, smooth_bricks
+from infill.surface import Surface
 
 UNIT = (1.0, 1.0, 1.0)
 NOTHING = (0.0, 0.0, 0.0)
@@ -167,7 +167,7 @@ def test_a_surface_is_measured_as_it_is_made(monkeypatch: pytest.MonkeyPatch) ->
     x = np.indices((30, 30, 40)) - np.array([14.2, 15.1, 19.7])[:, None, None, None]
     field = smooth_bricks((x**2).sum(axis=0) < 121, Smoothing(steps=8), spacing=(0.5, 0.5, 0.4))
     assert measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02) is None
-    monkeypatch.setattr("infill.surfaces.sparse_marching.LARGE", 0)
+    monkeypatch.setattr("infill.isosurfaces.sparse_marching.LARGE", 0)
     volume, slope = measured(field, spacing=(0.5, 0.5, 0.4), level=-0.02, threads=2)
     made = extract_level(field, spacing=(0.5, 0.5, 0.4), level=-0.02)
     assert volume == pytest.approx(made.surface.volume, rel=1e-9)

@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from test_command_line import run, usage_error
 
 from infill import UsageError, fill
-from infill.filling.solids import crossing
-from infill.filling.solids.crossing import median_width
-from infill.filling.solids.stretching import place, slopes_of, stretched, walls_in
-from infill.filling.solids.voids import NODES
-from infill.surfaces.solids import solid_of
+from infill.interior import crossing
+from infill.interior.conformal_map import place, slopes_of, stretched, walls_in
+from infill.interior.crossing import median_width
+from infill.lattices.voids import NODES
+from infill.meshes.solids import solid_of
 from patterns.tpms import GYROID
 
 pytestmark = pytest.mark.usefixtures("compiled")
@@ -122,8 +122,8 @@ def specification(table: NDArray[np.float32], coordinates: Floats, step: float, 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_the_kernel_computes_what_it_is_to(sign: float) -> None:
-    from infill.filling.solids.voids import period_table
     from infill.kernels.stretched import from_stretched_period
+    from infill.lattices.voids import period_table
 
     random = np.random.default_rng(3)
     nodes, step, period = (4, 5, 4), 5.0, 11.0

@@ -12,15 +12,15 @@ from made_shapes import box
 from scipy.ndimage import distance_transform_edt
 
 from infill import ParameterError, fill
-from infill.filling.solids.choosing import voids_of
-from infill.filling.solids.grading import NONE
-from infill.filling.solids.request import checked
-from infill.filling.solids.settings import DEFAULTS
-from infill.filling.solids.space import Space, space_inside
-from infill.filling.solids.subdivided import Subdivided, Tree
+from infill.interior.interior import Space, space_inside
 from infill.kernels.cells import colour_of_cube, colours_of_cubes, from_cubes
-from infill.surfaces.merging import surface_of
-from infill.surfaces.winding import winding
+from infill.lattices.choosing import voids_of
+from infill.lattices.grading import NONE
+from infill.lattices.request import checked
+from infill.lattices.settings import DEFAULTS
+from infill.lattices.subdivided import Subdivided, Tree
+from infill.meshes.merging import surface_of
+from infill.meshes.winding import winding
 from infill.voxels.scanlines import crossings, filled
 from patterns.cellular import CELLULAR
 from patterns.errors import PatternError

@@ -13,7 +13,7 @@ from shapes import assert_printable, smooth_noise
 
 from infill import GeometryError, ParameterError, Smoothing, Surface, extrude, isosurface, smooth, stack
 from infill.inspection.layers import topology
-from infill.surfaces.stacking import layer_count
+from infill.isosurfaces.stacking import layer_count
 
 
 def ball(radius: float = 12.0, half: int = 16) -> np.ndarray:

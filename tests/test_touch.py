@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 import shapely
 
-from infill.filling.rounding import Rounding, corners_of
-from infill.filling.surroundings import walls_of
-from infill.filling.touch import MOST_LOST, REACH, deviations_that_keep_touch
+from infill.paths.neighbours import walls_of
+from infill.paths.rounding import Rounding, corners_of
+from infill.paths.touch import MOST_LOST, REACH, deviations_that_keep_touch
 
 WIDTH = 0.45
 # What arcs lose where they leave a wall before the slanted leg would have, and chords: 0.47 % at most of 60 such paths.

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from test_command_line import one_line_error, run
 
 from infill import FormatError
-from infill.filling.settings import resolve as resolve_refill
-from infill.filling.solids.settings import resolve as resolve_fill
-from infill.formats.trust import check_trusted
+from infill.lattices.settings import resolve as resolve_fill
+from infill.options.trust import check_trusted
+from infill.refilling.settings import resolve as resolve_refill
 from infill.smoothing.settings import resolve as resolve_smooth
 
 CODE = """

@@ -14,7 +14,7 @@ from test_command_line import run
 
 from infill import ParameterError, Surface, check, read_mesh, save
 from infill.formats.mesh_files import READERS, WRITERS
-from infill.formats.units import STATED, guess_unit
+from infill.imaging.units import STATED, guess_unit
 from infill.smoothing.sources import read_source
 
 SIZES = [0.01, 0.3, 0.5, 0.51, 1.0, 1.5, 1.999, 2.0, 2.001, 7.0, 60.0, 500.0, 2000.0, 2001.0, 5000.0]

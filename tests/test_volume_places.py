@@ -17,7 +17,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from infill.errors import FormatError
-from infill.formats.volume_files import read_volume
+from infill.imaging.volume_files import read_volume
 from infill.volume import Volume
 from tests import volume_writers as w
 

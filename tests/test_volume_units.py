@@ -13,8 +13,8 @@ import tifffile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from infill.formats.units import millimetres
-from infill.formats.volume_files import read_volume
+from infill.imaging.units import millimetres
+from infill.imaging.volume_files import read_volume
 from tests import volume_writers as w
 
 VALUES = np.arange(210).reshape(6, 7, 5).astype("u2")

@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from infill import GeometryError, MemoryLimitError, ParameterError, Surface, read_mesh
-from infill.surfaces.capping import agreeing, capped, loops, open_edges
-from infill.surfaces.merging import merged
+from infill.meshes.hole_filling import agreeing, capped, loops, open_edges
+from infill.meshes.merging import merged
 from infill.volume import Volume
 from infill.voxels.flooding import enclosed
 from infill.voxels.from_mesh import voxelise, voxelise_reported

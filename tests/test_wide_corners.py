@@ -10,14 +10,14 @@ import shapely
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from infill.filling.contact import TOUCHING
-from infill.filling.corners import COARSEST, Machine, rounded
-from infill.filling.curves import MOST_BULGE, recut
-from infill.filling.families.hilbert import Hilbert
-from infill.filling.families.protocol import TOUCH
-from infill.filling.rounding import Rounding, corners_of
-from infill.filling.surroundings import BESIDE, walls_of
-from infill.filling.wide import ASIDE, HAIRPIN
+from infill.paths.contact import TOUCHING
+from infill.paths.corner_offset import ASIDE, HAIRPIN
+from infill.paths.corners import COARSEST, Machine, rounded
+from infill.paths.curves import MOST_BULGE, recut
+from infill.paths.families.hilbert import Hilbert
+from infill.paths.families.protocol import TOUCH
+from infill.paths.neighbours import BESIDE, walls_of
+from infill.paths.rounding import Rounding, corners_of
 from infill.ragged import packed, parted
 from tests.test_corners_and_curves import length_of, one, turns, walk, walks
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, uniform_filter
 
+from infill.isosurfaces.marching import extract
 from infill.surface import Surface
-from infill.surfaces.marching import extract
 
 Field = NDArray[np.floating]
 

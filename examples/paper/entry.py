@@ -11,7 +11,7 @@ from pathlib import Path
 
 from examples.paper.models import MissingModels
 from infill import InfillError
-from infill.formats.whole_files import whole_file
+from infill.files.whole_files import whole_file
 
 PICTURE_ONLY = "picture only"
 NOT_GIVEN = "–"

@@ -14,8 +14,8 @@ from benchmarks.peers.meshers import surface_nets
 from examples.paper import models, plots
 from examples.paper.entry import NOT_GIVEN, PICTURE_ONLY, Entry, Row, run
 from infill import Smoothing, smooth_points
+from infill.meshes.distance import distances
 from infill.smoothing.placing import some
-from infill.surfaces.distance import distances
 
 STEPS, WIDTH = 30, 5  # voxels
 

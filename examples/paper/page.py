@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from examples.paper.entry import Entry, load
-from infill.formats.whole_files import whole_file
+from infill.files.whole_files import whole_file
 
 HEAD = """# The paper, reproduced
 

@@ -13,7 +13,7 @@ import shapely
 from numpy.typing import NDArray
 from PIL import Image
 
-from infill.formats.whole_files import whole_file
+from infill.files.whole_files import whole_file
 from infill.pictures.render import directions, render
 from infill.surface import Surface
 

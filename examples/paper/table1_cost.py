@@ -16,8 +16,8 @@ from examples.paper.complexity import FITS, FITTED, SIZES, THEIRS, draw, exponen
 from examples.paper.entry import NOT_GIVEN, Entry, Row, run
 from examples.paper.measures import mse
 from examples.paper.timing import CHOI, CHOI_PLAIN, DENSE, PLAIN, ROUNDS, SPARSE, STEPS, in_turn, methods, swing
+from infill.isosurfaces.marching import extract
 from infill.kernels.threads import thread_count
-from infill.surfaces.marching import extract
 
 NOISE = 0.2
 

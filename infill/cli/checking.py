@@ -12,8 +12,8 @@ from infill.errors import InfillError
 
 if TYPE_CHECKING:
     from infill.inspection.printability import Inspection
-    from infill.slicers.doctor import Diagnosis
-    from infill.slicers.project import Slicer
+    from infill.projects.doctor import Diagnosis
+    from infill.projects.project import Slicer
 
 
 def check(
@@ -71,7 +71,7 @@ def check(
 
 def _check_projects(paths: list[Path], slicer: Slicer, *, strict: bool, as_json: bool) -> None:
     """Say what a slicer will do with projects, and exit 1 if one of them is not as it should be."""
-    from infill.slicers.doctor import check_project
+    from infill.projects.doctor import check_project
 
     passed, told = True, []
     for path in paths:

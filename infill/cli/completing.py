@@ -22,7 +22,7 @@ def surface_names(incomplete: str) -> list[str]:
 
 def unit_names(incomplete: str) -> list[str]:
     """Return the units of length that begin with the word."""
-    from infill.formats.units import UNITS
+    from infill.imaging.units import UNITS
 
     return [name for name in UNITS if name.startswith(incomplete)]
 
@@ -63,7 +63,7 @@ def pattern_assignments(context: typer.Context, incomplete: str) -> list[tuple[s
 
 def placement_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
     """Return ``name=`` for the parameters of the pattern of a refill."""
-    from infill.filling.placement import unplaced
+    from infill.refilling.placement import unplaced
     from patterns import parameters
 
     return _assignments(parameters(unplaced(context.params.get("pattern") or "keep")), incomplete)

@@ -32,7 +32,7 @@ ByComponent = Annotated[
 
 def check_fields(outputs: Sequence[Path]) -> None:
     """Raise BadParameter for an output that is a field: components have none in common."""
-    from infill.formats.volume_files import FIELD_WRITERS
+    from infill.imaging.volume_files import FIELD_WRITERS
 
     for path in outputs:
         if path.suffix.lower() in FIELD_WRITERS:

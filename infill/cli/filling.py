@@ -14,7 +14,7 @@ from infill.cli.completing import fill_assignments, fill_names, unit_names
 from infill.cli.console import is_typed, log_said, print_json, progress_bar, say
 
 if TYPE_CHECKING:
-    from infill.filling.solids.settings import FillSettings
+    from infill.lattices.settings import FillSettings
     from infill.pictures.sections import Cut
     from infill.report_keys import FillReport
     from infill.result import Result
@@ -322,7 +322,7 @@ def fill(
     from infill.cli.filled_words import show_plan, summary
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
-    from infill.filling.solids.settings import resolve
+    from infill.lattices.settings import resolve
 
     outputs = [with_suffix(path) for path in output or []]
     if not (outputs or preview or as_json or save_config or dry_run):
@@ -377,8 +377,8 @@ def fill(
             say(f"wrote {', '.join(written)}")
         return
     with progress_bar(shown=not quiet and not dry_run) as progress:
-        from infill.filling.solids.filled import filled
-        from infill.filling.solids.planning import planned_fill
+        from infill.lattices.job import filled
+        from infill.lattices.planning import planned_fill
         from infill.smoothing.sources import read_source
 
         if progress is not None:
@@ -429,7 +429,7 @@ def _writer(
     write = writer(path, ascii=ascii_stl)
     if settings.slicer is None:
         return lambda result, title, file: write(result.surface, file)  # noqa: ARG005 - as projects are written
-    from infill.slicers.saving import check_suffix, project_of, project_writer
+    from infill.projects.saving import check_suffix, project_of, project_writer
 
     slicer, units = settings.slicer, settings.units
     check_suffix(path)

@@ -98,7 +98,7 @@ class Written:
 
 def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
     """Return whether every label is asked for; raise BadParameter for options that make no sense otherwise."""
-    from infill.formats.name_templates import is_template
+    from infill.imaging.name_templates import is_template
 
     if each_label or any(is_template(path) for path in outputs):
         return True
@@ -120,7 +120,7 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
     """Smooth every label, write the files and say what was done."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import parts_writer, writer
-    from infill.formats.name_templates import is_template
+    from infill.imaging.name_templates import is_template
 
     single = [path for path in written.outputs if not is_template(path)]
     for path in written.outputs:
@@ -130,7 +130,7 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
     text = next(iter(written.saved), None)
     check_outputs(single, text=text, overwrite=written.force, as_json=written.as_json)
     with progress_bar(shown=not written.quiet) as progress, log_said(shown=not written.quiet):
-        from infill.formats.label_tables import read_labels
+        from infill.imaging.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
         from infill.smoothing.sources import read_labelled
 
@@ -180,7 +180,7 @@ def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[
     """Return what writes each file."""
     from infill.errors import OutputError
     from infill.formats.mesh_files import parts_writer, writer
-    from infill.formats.name_templates import filled, is_template
+    from infill.imaging.name_templates import filled, is_template
     from infill.result import parts_of
 
     # All names, also of labels that failed: what a file is called does not depend on the others.

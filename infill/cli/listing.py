@@ -73,7 +73,7 @@ def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
-    from infill.formats.whole_files import check_targets, deliver
+    from infill.files.whole_files import check_targets, deliver
     from infill.pictures.drawing import write_drawing
     from infill.pictures.preview import check_preview
 

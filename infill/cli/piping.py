@@ -16,7 +16,7 @@ from typing import BinaryIO
 import typer
 
 from infill.errors import OutputError
-from infill.formats.whole_files import check_targets, deliver
+from infill.files.whole_files import check_targets, deliver
 
 STDOUT = "-"
 
@@ -59,7 +59,7 @@ def check_outputs(
     BadParameter
         If stdout is named twice, or the report goes there.
     OutputError
-        If stdout is a terminal or does not exist, or as `infill.formats.whole_files.check_targets`.
+        If stdout is a terminal or does not exist, or as `infill.files.whole_files.check_targets`.
     """
     binary = [path for path in paths if path is not None]
     every = [*binary, *([] if text is None else [text])]

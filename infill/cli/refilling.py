@@ -19,7 +19,7 @@ from infill.errors import InfillError
 from patterns.errors import PatternError
 
 if TYPE_CHECKING:
-    from infill.inspection.layer_speeds import LayerSpeeds
+    from infill.planner.layer_speeds import LayerSpeeds
 
 ALIKE = 0.995  # of the filament of the infill: no less is the old amount
 PATHS, WHERE, FILES, RUN = "Paths", "Where", "Files", "Run"
@@ -155,8 +155,8 @@ def refill(
             _logged(gcode, context, in_place=output is None and not dry_run),
             progress_bar(shown=not quiet) as progress,
         ):
-            from infill.filling.refilling import refill as refilled
-            from infill.filling.settings import resolve
+            from infill.refilling.job import refill as refilled
+            from infill.refilling.settings import resolve
 
             asked = resolve(flags, config, assigned or [], trust=trust)
             number = 0
@@ -186,9 +186,9 @@ def _before(
     gcode: Path, preview: Path, layers: tuple[int, int] | None, *, overwrite: bool
 ) -> tuple[int, dict[str, LayerSpeeds]]:
     """Return the number of the middle layer of a print, or of those nearest to it that are asked for, and the layer."""
-    from infill.formats.whole_files import check_targets
-    from infill.inspection.layer_speeds import layer_speeds, middle_layer
+    from infill.files.whole_files import check_targets
     from infill.pictures.preview import check_preview
+    from infill.planner.layer_speeds import layer_speeds, middle_layer
 
     check_targets([check_preview(preview)], overwrite=overwrite)
     if not gcode.is_file():
@@ -202,9 +202,9 @@ def _before(
 def _write_preview(number: int, before: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
     from functools import partial
 
-    from infill.formats.whole_files import deliver
-    from infill.inspection.layer_speeds import layer_speeds
+    from infill.files.whole_files import deliver
     from infill.pictures.speeds import write_speeds
+    from infill.planner.layer_speeds import layer_speeds
 
     deliver({preview: partial(write_speeds, {**before, f"layer {number}, refilled": layer_speeds(path, number)})})
 

@@ -293,7 +293,7 @@ def smooth(
     from infill.cli.piping import check_outputs, deliver_all, with_suffix
     from infill.cli.words import parse_bytes
     from infill.formats.mesh_files import WRITERS, writer
-    from infill.formats.volume_files import FIELD_WRITERS, field_writer
+    from infill.imaging.volume_files import FIELD_WRITERS, field_writer
     from infill.smoothing.settings import resolve
 
     outputs = [with_suffix(path) for path in output or []]

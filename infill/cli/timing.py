@@ -12,7 +12,7 @@ import typer
 from infill.cli.console import print_json, say, table
 
 if TYPE_CHECKING:
-    from infill.inspection.printing_time import FeatureMotion, Motion
+    from infill.planner.printing_time import FeatureMotion, Motion
 
 MACHINE, FILES = "The machine, instead of what the file says", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
@@ -92,7 +92,7 @@ def motion(
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object to stdout.")] = False,
 ) -> None:
     """Plan every move of a print as firmware does, and say how long each feature takes, and why."""
-    from infill.inspection.printing_time import motion as planned
+    from infill.planner.printing_time import motion as planned
 
     given: dict[str, Any] = {
         "model": model,
@@ -122,16 +122,16 @@ def motion(
 
 
 def _check_plot(path: Path, *, overwrite: bool) -> None:
-    from infill.formats.whole_files import check_targets
+    from infill.files.whole_files import check_targets
     from infill.pictures.preview import check_preview
 
     check_targets([check_preview(path)], overwrite=overwrite)
 
 
 def _write_plot(paths: Sequence[Path], layer: int, given: dict[str, Any], plot: Path) -> None:
-    from infill.formats.whole_files import deliver
-    from infill.inspection.layer_speeds import layer_speeds
+    from infill.files.whole_files import deliver
     from infill.pictures.speeds import write_speeds
+    from infill.planner.layer_speeds import layer_speeds
 
     layers = {
         f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **given)

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from typing import Any, BinaryIO
 
 from infill.errors import FormatError
-from infill.formats.label_tables import Colour
 from infill.formats.parts import Part, plain
+from infill.imaging.label_tables import Colour
 from infill.surface import Surface
 from infill.version import __version__
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError, printable
 from infill.formats.draco import unpack_draco
 from infill.machine import require_memory
-from infill.surfaces.polygons import split_fan, split_strips
+from infill.meshes.polygons import split_fan, split_strips
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]

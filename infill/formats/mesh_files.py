@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import readable, told_broken
+from infill.files.broken import readable, told_broken
+from infill.files.whole_files import whole_file
 from infill.formats.gltf import write_glb, write_glb_parts
 from infill.formats.gltf_reader import read_glb, read_gltf
 from infill.formats.obj import read_obj, write_obj
@@ -23,9 +24,8 @@ from infill.formats.ply import read_ply, write_ply
 from infill.formats.stl import read_stl, write_stl, write_stl_ascii
 from infill.formats.threemf import write_3mf, write_3mf_parts
 from infill.formats.threemf_reading import read_3mf
-from infill.formats.whole_files import whole_file
+from infill.meshes.merging import closed_or_merged, surface_of
 from infill.surface import Surface
-from infill.surfaces.merging import closed_or_merged, surface_of
 
 if TYPE_CHECKING:
     import trimesh

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.excerpts import quote_word
+from infill.files.excerpts import quote_word
 from infill.formats.rows import write_rows
 from infill.formats.text_lines import Lines, are_blank, plain_text, without_breaks, without_comments
+from infill.meshes.polygons import CORNERS, split_polygons
 from infill.surface import Surface
-from infill.surfaces.polygons import CORNERS, split_polygons
 from infill.version import __version__
 
 SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces, which are no polygons

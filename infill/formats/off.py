@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from infill.errors import FormatError
 from infill.formats.ply import require_corners
 from infill.formats.text_lines import Lines, number_complaint, plain_text, without_comments
-from infill.surfaces.polygons import split_polygons
+from infill.meshes.polygons import split_polygons
 
 # Texture coordinates, colours, normals, a fourth coordinate, and any number of coordinates, which come next.
 KEYWORD = re.compile(rb"\s*((?:ST)?C?N?4?n?OFF)(?![A-Za-z])", re.IGNORECASE)

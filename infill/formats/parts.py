@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from infill.formats.label_tables import Colour
+from infill.imaging.label_tables import Colour
 from infill.surface import Surface
 
 

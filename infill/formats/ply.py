@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.excerpts import quote_word
+from infill.files.excerpts import quote_word
 from infill.formats.text_lines import Lines, number_complaint
+from infill.meshes.polygons import split_polygons, split_strips
 from infill.surface import Surface
-from infill.surfaces.polygons import split_polygons, split_strips
 from infill.version import __version__
 
 FACE = np.dtype([("count", "u1"), ("corners", "<i4", 3)])

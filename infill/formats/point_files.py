@@ -16,7 +16,7 @@ from numpy.lib import format as npy_format
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import readable, told_broken
+from infill.files.broken import readable, told_broken
 
 AXES = 3
 MOST_COLUMNS = 16  # of a point: a place, a normal, a colour and more; an array with more is a picture

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.excerpts import quote_word
+from infill.files.excerpts import quote_word
 
 Integers = NDArray[np.int64]
 TAB, NEWLINE, RETURN, BLANK = 9, 10, 13, 32

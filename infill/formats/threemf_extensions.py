@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from infill.errors import FormatError
-from infill.formats.excerpts import excerpt
+from infill.files.excerpts import excerpt
 from infill.formats.threemf_package import Model
 
 SEPARATE = re.compile(r"[\s,]+")

@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError, InfillError
-from infill.formats.broken import told_broken
-from infill.formats.excerpts import excerpt
+from infill.files.broken import told_broken
+from infill.files.excerpts import excerpt
 from infill.machine import require_memory
 
 AGAIN = "export the mesh again"

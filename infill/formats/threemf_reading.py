@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import FormatError
-from infill.formats.broken import told_broken
-from infill.formats.excerpts import excerpt
+from infill.files.broken import told_broken
+from infill.files.excerpts import excerpt
 from infill.formats.threemf_extensions import check_required, is_harmless, name_of
 from infill.formats.threemf_package import (
     AGAIN,
@@ -42,9 +42,9 @@ from infill.formats.threemf_roles import (
     settings_of,
     slic3r_volumes,
 )
+from infill.meshes.merging import closed_or_merged
+from infill.meshes.solids import without
 from infill.surface import Surface
-from infill.surfaces.merging import closed_or_merged
-from infill.surfaces.solids import without
 
 UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"

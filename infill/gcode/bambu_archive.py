@@ -18,7 +18,7 @@ from copy import copy
 from typing import BinaryIO
 
 from infill.errors import FormatError, ParameterError
-from infill.gcode.piece_file import LONGEST_TEXT, whole_lines
+from infill.gcode.chunked_io import LONGEST_TEXT, whole_lines
 
 PLATE = re.compile(r"Metadata/plate_([0-9]+)\.gcode")
 SUM = ".md5"

@@ -17,11 +17,11 @@ from infill.gcode.lines import MOVE
 from infill.gcode.numbers import write_words
 from infill.gcode.sections import FILAMENT_UNIT, Strokes
 from infill.gcode.table import Table, read
+from infill.paths.corners import UNIT
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-UNIT = 0.001  # mm: the last decimal of a position
 RATE_TOLERANCE = 0.005  # of the filament per mm, beyond what decimals cost
 
 

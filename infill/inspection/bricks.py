@@ -17,11 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.changes import Changes, Counts
-from infill.inspection.fates import Fate, Overlaps, fate, summed
-from infill.inspection.flips import Flips, all_stay, connected_alike
-from infill.kernels.threads import thread_count, together
-from infill.phasefield.sparse import SparseField
-from infill.surfaces.components import (
+from infill.inspection.component_matching import Fate, Overlaps, fate, summed
+from infill.inspection.sign_changes import Flips, all_stay, connected_alike
+from infill.isosurfaces.components import (
     Components,
     cells_of,
     components,
@@ -33,8 +31,10 @@ from infill.surfaces.components import (
     solid_bits,
     with_thickness,
 )
-from infill.surfaces.levels import Levelled
-from infill.surfaces.sparse_marching import euler_number_of_bits
+from infill.isosurfaces.levels import Levelled
+from infill.isosurfaces.sparse_marching import euler_number_of_bits
+from infill.kernels.threads import thread_count, together
+from infill.phasefield.sparse import SparseField
 
 LARGE = 100  # cells: if two components of this size or more run together, it is reported
 SMALLEST_PART = 8  # cells: anything smaller that comes off a component is a crumb, not a part of it

@@ -14,9 +14,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.meshes.distance import Tree, along_curve
+from infill.meshes.measuring import face_areas
 from infill.surface import Surface
-from infill.surfaces.distance import Tree, along_curve
-from infill.surfaces.measuring import face_areas
 
 Word = Literal["kept", "changed a little", "lost"]
 Floats = NDArray[np.float64]

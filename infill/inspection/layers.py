@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.contours.zero_contours import TIE
 from infill.grid import VOID
 from infill.inspection.changes import Changes, Counts
-from infill.inspection.fates import fate, overlaps
-from infill.surfaces.marching import TIE
+from infill.inspection.component_matching import fate, overlaps
 
 PINHOLE = 3  # cells: in a void with no room for a square of this side, every cell touches a wall
 

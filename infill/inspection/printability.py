@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from infill.errors import FormatError
 from infill.formats.mesh_files import read_mesh
-from infill.formats.units import STATED, guess_unit
+from infill.imaging.units import STATED, guess_unit
+from infill.meshes import solids
+from infill.meshes.intersections import self_intersections
+from infill.meshes.merging import closed_or_merged, merged, surface_of
+from infill.meshes.sealed_voids import count_sealed_voids
+from infill.meshes.shells import vertex_components
 from infill.surface import Edges, Surface
-from infill.surfaces import solids
-from infill.surfaces.intersections import self_intersections
-from infill.surfaces.merging import closed_or_merged, merged, surface_of
-from infill.surfaces.sealed_voids import count_sealed_voids
-from infill.surfaces.shells import vertex_components
 
 if TYPE_CHECKING:
     import trimesh

@@ -1,4 +1,4 @@
-"""What `infill.surfaces.components` does to rows of bits and to triangles, compiled.
+"""What `infill.isosurfaces.components` does to rows of bits and to triangles, compiled.
 
 A row of a brick is sixteen bits, set where a cell is of the kind being labelled. The things labelled are not cells but
 runs of set bits, found by a few operations on the whole row:

@@ -265,7 +265,7 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
     ----------
     points : (N, 3) float64
     corners : (F, 3, 3) float64
-        In the order of the tree's leaves: see `infill.surfaces.distance.Tree`.
+        In the order of the tree's leaves: see `infill.meshes.distance.Tree`.
     low, high : (2 L - 1, 3) float64
         Boxes of the tree: the children of box n are 2 n + 1 and 2 n + 2, the last L are leaves.
     leaf : int

@@ -1,4 +1,4 @@
-"""Cells that change sign one after the other, compiled: see `infill.inspection.flips`.
+"""Cells that change sign one after the other, compiled: see `infill.inspection.sign_changes`.
 
 The 27 cells around one are numbered 9 (i + 1) + 3 (j + 1) + k + 1; number 13 is the cell itself.
 """

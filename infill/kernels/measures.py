@@ -1,4 +1,4 @@
-"""What a surface of many triangles is asked for again and again, compiled: see `infill.surfaces.measuring`."""
+"""What a surface of many triangles is asked for again and again, compiled: see `infill.meshes.measuring`."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.

@@ -1,4 +1,4 @@
-"""What `infill.surfaces.sparse_marching` does to bricks, compiled.
+"""What `infill.isosurfaces.sparse_marching` does to bricks, compiled.
 
 A row of sixteen cells along k is one number of sixteen bits, set where a cell is above the level. A row of cubes lies
 between four rows of 17 cells each: the last cell is taken from the next brick. Bricks own the cubes whose lowest
@@ -16,7 +16,7 @@ Vertices are numbered without a table of edges: those of a brick begin at `offse
 `masks`. So any cube finds the vertices on its twelve edges, including those of its neighbours, without synchronisation.
 
 There are two passes: `count` says how much every brick will write, cumulative sums of that say where, and `write`
-writes. A cube's eight signs choose its triangles from a table of 256 (`infill.surfaces.sparse_marching.cube_table`);
+writes. A cube's eight signs choose its triangles from a table of 256 (`infill.isosurfaces.sparse_marching.cube_table`);
 where signs do not decide (`UNDECIDED`: a face with a saddle, or opposite corners), its corner values are returned.
 """
 # mypy: disable-error-code="no-untyped-def, call-arg, var-annotated"

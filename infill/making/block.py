@@ -15,10 +15,14 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import shapely
 
+from infill.contours.prisms import prism
+from infill.contours.straightening import straightened
+from infill.contours.zero_contours import contours
 from infill.errors import GeometryError
 from infill.inspection.changes import Changes
 from infill.inspection.layers import Regions, changes, regions, solid_area
 from infill.inspection.width import WallWidth, wall_width
+from infill.isosurfaces.stacking import extruded
 from infill.making.forecast import exact_width
 from infill.making.request import DEFAULT_CELLS, Block, StampMethod, SurfaceMethod, plan
 from infill.making.stages import MakeStages
@@ -26,10 +30,6 @@ from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
 from infill.report import report_of
 from infill.result import Clock, Progress, Result
-from infill.surfaces.contours import contours
-from infill.surfaces.prisms import prism
-from infill.surfaces.stacking import extruded
-from infill.surfaces.straightening import straightened
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
 from patterns import Pattern

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import shapely
 
+from infill.contours.straightening import straightened
+from infill.contours.strips import CORNERS
+from infill.contours.zero_contours import contours
 from infill.grid import Grid
 from infill.inspection.width import wall_width
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.methods import smooth
-from infill.surfaces.contours import contours
-from infill.surfaces.straightening import straightened
-from infill.surfaces.strips import CORNERS
 from infill.voxels.stamping import stamp as stamp_points
 from infill.voxels.stamping import stamp_lines
 from patterns.linework import sample

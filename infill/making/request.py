@@ -13,9 +13,9 @@ import shapely
 from infill.checks import length, whole, within
 from infill.errors import ParameterError, UsageError
 from infill.grid import Grid
+from infill.isosurfaces.stacking import layer_count
 from infill.machine import require_memory
 from infill.phasefield.allen_cahn import Smoothing
-from infill.surfaces.stacking import layer_count
 from patterns import PATTERNS, Pattern, PatternError, lacking, parameter_values
 from patterns.protocol import lines_of
 

@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from infill.errors import ParameterError, UsageError
-from infill.formats.assignments import SET, gathered, table_of
-from infill.formats.excerpts import quote_value
-from infill.formats.options import LONGEST_WORD, within_floats
-from infill.formats.toml import read_toml, toml_rows
+from infill.files.excerpts import quote_value
+from infill.options.assignments import SET, gathered, table_of
+from infill.options.keyword_options import LONGEST_WORD, within_floats
+from infill.options.toml import read_toml, toml_rows
 from patterns import PATTERNS, Pattern, parameter_values
 
 if TYPE_CHECKING:

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from infill.inspection.fidelity import sampled
+from infill.meshes.distance import Tree
+from infill.meshes.winding import bounds_solid
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, Window, directions, render
 from infill.pictures.sheet import BACKGROUND, PANEL, sheet
 from infill.surface import Surface
-from infill.surfaces.distance import Tree
-from infill.surfaces.winding import bounds_solid
 
 FAR = 1.5  # voxels: what lies further away is marked
 PITCH = 0.7  # voxels between points by which the area is found

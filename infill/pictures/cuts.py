@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from infill.meshes.solids import FINE, solid_of, status_of, surface_from
 from infill.pictures.render import AZIMUTH, ELEVATION, Colour, Floats, render
 from infill.pictures.sections import Cut, choose_cuts
 from infill.pictures.sheet import BACKGROUND, PANEL, sheet
 from infill.surface import Surface
-from infill.surfaces.solids import FINE, solid_of, status_of, surface_from
 
 CUT: Colour = (240, 160, 60)
 BEHIND: Colour = (196, 200, 206)

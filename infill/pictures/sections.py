@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import ParameterError, UsageError
+from infill.meshes.solids import FINE, solid_of, status_of
 from infill.surface import Surface
-from infill.surfaces.solids import FINE, solid_of, status_of
 
 if TYPE_CHECKING:
     import manifold3d

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from infill.inspection.layer_speeds import LayerSpeeds
+from infill.planner.layer_speeds import LayerSpeeds
 
 PANEL: Final = 640  # pixels
 MARGIN, CAPTION, BAR = 16, 28, 44

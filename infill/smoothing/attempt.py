@@ -19,10 +19,12 @@ import numpy as np
 from infill.errors import GeometryError
 from infill.inspection.bricks import Verdict, verdict, verdict_by_flips
 from infill.inspection.fidelity import Fidelity, fidelity
-from infill.inspection.flips import Flips, near_each_other
+from infill.inspection.sign_changes import Flips, near_each_other
 from infill.inspection.thickness import thinnest_walls
 from infill.kernels.compiling import told_of_compiling
 from infill.kernels.threads import thread_count, together
+from infill.meshes.distance import distances
+from infill.meshes.measuring import with_measures
 from infill.phasefield.refining import refine_bricks
 from infill.phasefield.sparse import smooth_bricks
 from infill.report import report_of
@@ -34,8 +36,6 @@ from infill.smoothing.crumbs import Crumbs, without_crumbs
 from infill.smoothing.levelling import Surfaced, levelled
 from infill.smoothing.placing import lightened, placed, raw_surface
 from infill.smoothing.stages import SmoothStages
-from infill.surfaces.distance import distances
-from infill.surfaces.measuring import with_measures
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField

@@ -11,13 +11,13 @@ import numpy as np
 from infill.checks import length, whole
 from infill.errors import GeometryError, InfillError, ParameterError, UsageError
 from infill.inspection.fidelity import Word
+from infill.meshes.split_components import parted
 from infill.report import FORM
 from infill.result import Clock, Result, told_between
 from infill.smoothing.meshes import ways_of_mesh
 from infill.smoothing.remedies import best_of
 from infill.smoothing.request import Request
 from infill.surface import Surface
-from infill.surfaces.parting import parted
 from infill.version import __version__
 from infill.voxels.from_mesh import RESOLUTION
 
@@ -89,10 +89,10 @@ def by_components(
 
     Notes
     -----
-    A cavity belongs to the component around it: see `infill.surfaces.parting`. All components are smoothed with voxels
-    of one size. If that was not asked for, those that are less than 8 voxels long get finer ones, and so do those of
-    which something would be lost. If broken results are allowed, a component that cannot be smoothed is left out, and
-    the report says so.
+    A cavity belongs to the component around it: see `infill.meshes.split_components`. All components are smoothed with
+    voxels of one size. If that was not asked for, those that are less than 8 voxels long get finer ones, and so do
+    those of which something would be lost. If broken results are allowed, a component that cannot be smoothed is left
+    out, and the report says so.
     """
     fixed = resolution is not None or voxel is not None
     size = _voxel(surface, resolution, voxel)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from infill.errors import ParameterError
+from infill.isosurfaces.components import components, data_bits, without
 from infill.machine import available_memory, require_memory
 from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.sparse import smooth_bricks
-from infill.surfaces.components import components, data_bits, without
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from infill.errors import GeometryError
 from infill.inspection.fidelity import LOST
+from infill.meshes.distance import distances
 from infill.smoothing.placing import summary
-from infill.surfaces.distance import distances
 
 if TYPE_CHECKING:
     from infill.report_keys import PointDistances, SmoothReport, VerdictKeys

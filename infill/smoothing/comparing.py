@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.inspection.fidelity import COUNTS, HIDDEN, SHEET, THIN, Fidelity, Kinds, Word
-from infill.surfaces.components import data_bits, set_at, sturdy
+from infill.isosurfaces.components import data_bits, set_at, sturdy
 from infill.voxels.noise import NOISY
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.isosurfaces.levels import Levelled, component_of_shells
 from infill.surface import Surface
-from infill.surfaces.levels import Levelled, component_of_shells
 
 if TYPE_CHECKING:
     from infill.smoothing.levelling import Surfaced

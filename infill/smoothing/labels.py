@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from infill.errors import InfillError, ParameterError
-from infill.formats.label_tables import Segment
 from infill.formats.parts import hexadecimal
-from infill.formats.segmentations import Segmentation
 from infill.grid import spacing_of
+from infill.imaging.label_tables import Segment
+from infill.imaging.segmentations import Segmentation
 from infill.kernels.sparse import BRICK
 from infill.report import FORM
 from infill.result import Clock, Result, told_between

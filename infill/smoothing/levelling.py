@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.isosurfaces.components import Components, components, data_bits
+from infill.isosurfaces.levels import Levelled, at_level, at_volume, counted, nearest_components, volumes_of
 from infill.phasefield.profile import REFINED
-from infill.surfaces.components import Components, components, data_bits
-from infill.surfaces.levels import Levelled, at_level, at_volume, counted, nearest_components, volumes_of
 
 if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField

@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.errors import GeometryError
+from infill.isosurfaces.components import shell_names
+from infill.isosurfaces.sparse_marching import extract_bricks
+from infill.meshes.distance import distances
+from infill.meshes.edge_collapse import collapsed
+from infill.meshes.simplification import simplified, with_volume
 from infill.phasefield.sparse import SparseField
 from infill.surface import Surface
-from infill.surfaces.collapsing import collapsed
-from infill.surfaces.components import shell_names
-from infill.surfaces.distance import distances
-from infill.surfaces.simplification import simplified, with_volume
-from infill.surfaces.sparse_marching import extract_bricks
 from infill.volume import Volume
 
 if TYPE_CHECKING:

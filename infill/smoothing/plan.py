@@ -20,6 +20,7 @@ from infill.errors import GeometryError
 from infill.grid import Grid
 from infill.kernels.compiling import told_of_compiling
 from infill.machine import require_memory
+from infill.meshes.merging import closed_or_merged
 from infill.phasefield.schedule import FEWEST
 from infill.smoothing.cleaning import BYTES_PER_SURFACE_CELL, BYTES_TO_REFINE
 from infill.smoothing.meshes import BYTES_PER_CELL as MESH_BYTES_PER_CELL
@@ -29,7 +30,6 @@ from infill.smoothing.request import AUTO, Request
 from infill.smoothing.scans import ways_of_scan, ways_of_volume
 from infill.smoothing.sources import AXES, Source, check_fitting, threshold_of, voxel_of_points
 from infill.surface import Surface
-from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
 from infill.voxels.from_mesh import enclosed_cells, grid_around
 from infill.voxels.from_points import grid_around_points, voxelise_points

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from infill.errors import ParameterError
-from infill.formats.options import (
+from infill.options.keyword_options import (
     Reader,
     parse_flag,
     parse_level,
@@ -27,8 +27,8 @@ from infill.formats.options import (
     parse_word,
     parsed,
 )
-from infill.formats.toml import read_toml, toml_rows
-from infill.formats.trust import check_trusted
+from infill.options.toml import read_toml, toml_rows
+from infill.options.trust import check_trusted
 
 if TYPE_CHECKING:
     from infill.smoothing.request import LevelMethod, Method, Options
@@ -169,7 +169,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool
     config : Path, optional
         A TOML file.
     trust : bool
-        Whether the file may name files from elsewhere: see `infill.formats.trust`.
+        Whether the file may name files from elsewhere: see `infill.options.trust`.
 
     Raises
     ------

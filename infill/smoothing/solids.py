@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from infill.errors import ParameterError
 from infill.grid import spacing_of
+from infill.meshes.merging import surface_of
 from infill.result import Result
 from infill.smoothing.by_component import ComponentStages, by_components
 from infill.smoothing.cloud_data import phase_of_points
@@ -26,7 +27,6 @@ from infill.smoothing.request import Options, Request
 from infill.smoothing.scans import range_of, ways_of_scan, ways_of_volume
 from infill.smoothing.stages import SmoothStages
 from infill.surface import Surface
-from infill.surfaces.merging import surface_of
 from infill.volume import Volume
 from infill.voxels.from_points import voxelise_points
 from infill.voxels.masked import void_where_masked
@@ -113,7 +113,7 @@ def smooth_volume(
     Notes
     -----
     Source: Wang et al. 2020, sections 2.2 and 3.3. Choosing the level is this package's own addition: see
-    `infill.surfaces.levels`.
+    `infill.isosurfaces.levels`.
 
     >>> ball = np.sum((np.indices((30, 30, 30)) - 14.5) ** 2, axis=0) < 100
     >>> result = smooth_volume(ball)

@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 
 from infill.checks import whole
 from infill.errors import FormatError, GeometryError, ParameterError, UsageError
-from infill.formats.broken import BROKEN
+from infill.files.broken import BROKEN
 from infill.formats.mesh_files import READERS, read_mesh
 from infill.formats.point_files import read_points_and_normals
-from infill.formats.segmentations import Segmentation, read_segmentation
-from infill.formats.units import STATED, UNITS, guess_unit
-from infill.formats.volume_files import read_volume
 from infill.grid import spacing_of
+from infill.imaging.segmentations import Segmentation, read_segmentation
+from infill.imaging.units import STATED, UNITS, guess_unit
+from infill.imaging.volume_files import read_volume
 from infill.surface import Surface
 from infill.volume import Volume
 from infill.voxels.cropping import cropped
@@ -71,7 +71,7 @@ def read_source(
         Cell size of a volume, mm; if left out, the one stated in the file.
     array, series : str, optional
     frame : int, optional
-        See `infill.formats.volume_files.read_volume`.
+        See `infill.imaging.volume_files.read_volume`.
     roi : (x0, x1, y0, y1, z0, z1), optional
         The part of a volume to take, mm: see `infill.voxels.cropping.cropped`.
 

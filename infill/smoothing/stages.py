@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from PIL import Image
 
+    from infill.isosurfaces.levels import Levelled
     from infill.surface import Surface
-    from infill.surfaces.levels import Levelled
     from infill.volume import Volume
 
 

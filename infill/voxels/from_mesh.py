@@ -12,9 +12,9 @@ from infill.checks import length, whole
 from infill.errors import GeometryError, ParameterError, UsageError
 from infill.grid import Grid
 from infill.machine import require_memory
+from infill.meshes.hole_filling import capped, components
+from infill.meshes.merging import closed_or_merged
 from infill.surface import Surface
-from infill.surfaces.capping import capped, components
-from infill.surfaces.merging import closed_or_merged
 from infill.volume import Volume
 from infill.voxels.nesting import inside_out
 from infill.voxels.partial import Enclosed, distances_in_cells, enclosed

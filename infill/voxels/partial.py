@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from infill.kernels.threads import in_threads, thread_count
+from infill.meshes.winding import winding
 from infill.ragged import spread
 from infill.surface import Surface
-from infill.surfaces.winding import winding
 from infill.volume import Volume
 from infill.voxels.scanlines import crossings
 

@@ -1,0 +1,1 @@
+"""Closed rings in a plane: contours of a field, straightening, triangulation, prisms."""

@@ -1,0 +1,39 @@
+"""Contours made solid: vertical walls between two flat caps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from infill.contours.strips import strips
+from infill.contours.triangulation import filled
+from infill.contours.zero_contours import Contours
+from infill.surface import Surface
+
+
+def prism(contours: Contours, height: float, *, base: float = 0.0) -> Surface:
+    """Return the solid inside contours, extruded from z = `base` to `base` + `height`, mm.
+
+    Every edge of a contour is a rectangle of two triangles; both caps have the same triangles. Long contours get some
+    corners more, where the caps are cut into strips: see `infill.contours.strips`.
+
+    Raises
+    ------
+    GeometryError
+        If the caps cannot be filled.
+
+    >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
+    >>> cube = prism(square, 1)
+    >>> len(cube.faces), cube.closed, cube.volume
+    (12, True, 1.0)
+    """
+    pieces = strips(contours)
+    rings = pieces.contours
+    cap = pieces.order[filled(Contours(points=rings.points[pieces.order], first=pieces.first))]
+    count, ahead = len(rings.points), rings.ahead
+    here = np.arange(count)
+    walls = [[here, ahead, ahead + count], [here, ahead + count, here + count]]
+    faces = [cap[:, ::-1], cap + count, *(np.stack(wall, axis=1) for wall in walls)]
+    vertices = np.empty((2 * count, 3))
+    vertices[:count, :2] = vertices[count:, :2] = rings.points
+    vertices[:count, 2], vertices[count:, 2] = base, base + height
+    return Surface(vertices=vertices, faces=np.concatenate(faces).astype(np.int32))

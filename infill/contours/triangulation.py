@@ -1,0 +1,80 @@
+"""Rings filled with well-shaped triangles, without a corner of their own."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from infill.contours.zero_contours import Contours
+from infill.errors import GeometryError
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+UNFILLED = "the outline cannot be filled with triangles; smooth less, or use walls of more cells"
+
+
+def filled(rings: Contours) -> Indices:
+    """Return triangles (T, 3) that fill the solid inside rings, counter-clockwise, as numbers of corners.
+
+    Parameters
+    ----------
+    rings : Contours
+        Around solid counter-clockwise, around holes clockwise. Rings around different pieces may share sides.
+
+    Raises
+    ------
+    GeometryError
+        If the triangles would not fill the solid.
+
+    Notes
+    -----
+    The constrained Delaunay triangulation of every piece, by GEOS: of all triangulations without further corners it has
+    the largest smallest angle. It takes time that grows with the square of a piece's corners.
+
+    >>> square = Contours(points=np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), first=np.array([0, 4]))
+    >>> len(filled(square))
+    2
+    """
+    areas = rings.areas
+    try:
+        found = shapely.get_coordinates(shapely.constrained_delaunay_triangles(_pieces(rings, areas)))
+    except shapely.GEOSException as error:
+        raise GeometryError(UNFILLED) from error
+    triangles = _numbers(rings.points, found.reshape(-1, 4, 2)[:, :3])
+    a, b, c = (rings.points[triangles[:, i]] for i in range(3))
+    doubled = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    triangles = np.where(doubled[:, None] > 0, triangles, triangles[:, ::-1])
+    # A piece of n corners and h holes has n + 2 h - 2 triangles.
+    wanted = len(rings.points) + 2 * int((areas < 0).sum()) - 2 * int((areas > 0).sum())
+    if len(triangles) != wanted or not np.isclose(np.abs(doubled).sum() / 2, areas.sum(), rtol=1e-9):
+        raise GeometryError(UNFILLED)
+    return triangles
+
+
+def _pieces(rings: Contours, areas: Floats) -> NDArray[np.object_]:
+    """Return the polygons that the rings are: every hole in the smallest shell around it."""
+    counts = np.diff(rings.first)
+    closed = np.insert(np.arange(len(rings.points)), rings.first[1:], rings.first[:-1])
+    lines = shapely.linearrings(rings.points[closed], indices=np.repeat(np.arange(len(counts)), counts + 1))
+    shells, holes = np.flatnonzero(areas > 0), np.flatnonzero(areas < 0)
+    if len(holes) == 0:
+        return np.asarray(shapely.polygons(lines))
+    shells = shells[np.argsort(areas[shells], kind="stable")]
+    tree = shapely.STRtree(shapely.polygons(lines[shells]))
+    inner, outer = tree.query(shapely.points(rings.points[rings.first[holes]]), predicate="within")
+    owner = np.full(len(holes), len(shells))
+    np.minimum.at(owner, inner, outer)
+    if (owner == len(shells)).any():
+        raise GeometryError("a hole lies outside the solid; smooth less, or use walls of more cells")
+    piece = np.concatenate([np.arange(len(shells)), owner])
+    order = np.argsort(piece, kind="stable")  # the shell comes first
+    return np.asarray(shapely.polygons(lines[np.concatenate([shells, holes])[order]], indices=piece[order]))
+
+
+def _numbers(points: Floats, corners: Floats) -> Indices:
+    """Return which of the points (N, 2) corners (..., 2) are; one of them, where several are the same."""
+    key, sought = points @ (1, 1j), corners @ (1, 1j)
+    order = np.argsort(key)
+    return np.asarray(order[np.searchsorted(key, sought, sorter=order)])

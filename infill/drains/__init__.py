@@ -1,0 +1,1 @@
+"""Drain holes: columns, clearance, branches, places."""

@@ -1,0 +1,148 @@
+"""Lines straight up through a part: where each enters its solid, and the void it meets first above that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.meshes.split_components import joined
+from infill.surface import Surface
+
+PART = -1  # the owner of a crossing of the skin of the part
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Lattice:
+    """Vertical lines through the nodes of a square lattice.
+
+    Parameters
+    ----------
+    low : (2,) float64, mm
+        The first node.
+    step : float, mm
+    shape : (nx, ny)
+    """
+
+    low: Floats
+    step: float
+    shape: tuple[int, int]
+
+    def places(self, lines: Integers) -> Floats:
+        """Return where lines stand, (N, 2) mm."""
+        return self.low + self.step * np.stack(np.divmod(lines, self.shape[1]), axis=1)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Ways:
+    """Lines that enter the solid of a part and meet a void next, (N,) each.
+
+    Parameters
+    ----------
+    line : (N,) int64
+        Number of the line in its lattice.
+    at : (N, 2) float64, mm
+    skin : (N,) float64, mm
+        Height at which the line enters the solid.
+    face : (N,) int64
+        The face of the part there.
+    void : (N,) int64
+        The void above.
+    floor, ceiling : (N,) float64, mm
+        Heights between which the line lies in that void.
+    """
+
+    line: Integers
+    at: Floats
+    skin: Floats
+    face: Integers
+    void: Integers
+    floor: Floats
+    ceiling: Floats
+
+
+def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice: Lattice) -> Ways:
+    """Find the lines of a lattice that pass from outside a part through solid alone into a void.
+
+    Parameters
+    ----------
+    part : Surface, mm
+        Closed, facing outwards.
+    voids : Surface, mm
+        Closed, each facing outwards from itself.
+    names : (V,) int
+        The void of every vertex.
+    lattice : Lattice
+
+    Notes
+    -----
+    Upwards along a line, the skin of the part and those of the voids are crossed in the order of their heights. A way
+    is a crossing into the part that is followed at once by one into a void. Lines that leave the part or a void more or
+    less often than they enter it run along an edge, and are left out.
+    """
+    both = joined([part, voids])
+    owner = np.full(len(both.faces), PART, dtype=np.int64)
+    owner[len(part.faces) :] = names[voids.faces[:, 0]]
+    lines, heights, rising, faces = cross(both, lattice)
+    owners = owner[faces]
+    kind, count = owners == PART, int(np.prod(lattice.shape))
+    even = np.ones(count, dtype=bool)
+    for some in (kind, ~kind):
+        even &= np.bincount(lines[some], weights=rising[some], minlength=count) == 0
+    depth = np.cumsum(np.where(kind, rising, 0))  # of all lines before too
+    odd = np.concatenate(
+        [[0.0], np.cumsum(np.where(~even, np.bincount(lines[kind], weights=rising[kind], minlength=count), 0))]
+    )
+    depth = depth - odd[lines]
+    first = np.arange(max(len(lines) - 2, 0))
+    second, third = first + 1, first + 2
+    kept = (
+        (lines[first] == lines[third])
+        & even[lines[first]]
+        & kind[first]
+        & (rising[first] > 0)
+        & (depth[first] == 1)
+        & ~kind[second]
+        & (rising[second] > 0)
+        & (owners[third] == owners[second])
+        & (rising[third] < 0)
+    )
+    found = np.flatnonzero(kept)
+    return Ways(
+        line=lines[found],
+        at=lattice.places(lines[found]),
+        skin=heights[found],
+        face=faces[found],
+        void=owners[found + 1],
+        floor=heights[found + 1],
+        ceiling=heights[found + 2],
+    )
+
+
+def cross(surface: Surface, lattice: Lattice) -> tuple[Integers, Floats, Integers, Integers]:
+    """Find where the lines of a lattice cross a surface: the line, the height in mm, 1 into it or -1 out, and the face.
+
+    They are in the order of the lines, and of the heights on each.
+
+    >>> import trimesh
+    >>> box = trimesh.creation.box((2, 2, 2))
+    >>> lattice = Lattice(low=np.array([0.1, 0.3]), step=1.0, shape=(1, 1))
+    >>> line, height, up, _ = cross(Surface(vertices=box.vertices, faces=box.faces), lattice)
+    >>> sorted(zip(height.round(9).tolist(), up.tolist()))
+    [(-1.0, 1), (1.0, -1)]
+    """
+    from infill.kernels.upright import count_crossings, list_crossings
+
+    vertices = np.asarray(surface.vertices, dtype=np.float64)
+    nodes, faces = (vertices[:, :2] - lattice.low) / lattice.step, np.ascontiguousarray(surface.faces)
+    heights, (nx, ny) = np.ascontiguousarray(vertices[:, 2]), lattice.shape
+    counts = np.zeros(nx * ny, dtype=np.int64)
+    count_crossings(nodes, faces, nx, ny, counts)
+    total = int(counts.sum())
+    height, rising, owner = np.empty(total), np.empty(total, dtype=np.int64), np.empty(total, dtype=np.int64)
+    list_crossings(nodes, heights, faces, nx, ny, np.cumsum(counts) - counts, height, rising, owner)
+    return np.repeat(np.arange(nx * ny), counts), height, rising, owner

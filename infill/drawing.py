@@ -1,0 +1,111 @@
+"""What a drawing is, whatever file it came from: lines, or dark and light."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+
+Line = NDArray[np.float64]
+Bounds = tuple[float, float, float, float]
+
+LARGEST = 1e5  # mm: beyond a hundred metres, a drawing is a mistake in its units
+MOST_POINTS = 500_000  # with those of curves, before they are simplified
+FLATNESS = 1e-4  # of the size of a drawing: how far its chords may lie from its curves
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Drawing:
+    """Lines of a drawing.
+
+    Parameters
+    ----------
+    lines : tuple of (N, 2) float64
+        Points in mm, y upwards; the first equals the last where a line is closed.
+    page : (x0, y0, x1, y1), optional
+        The page in mm, for formats that have one.
+    left_out : tuple of str
+        What the file holds besides lines, in words: "2 texts".
+    """
+
+    lines: tuple[Line, ...]
+    page: Bounds | None = None
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def bounds(self) -> Bounds:
+        """The smallest box around the lines, mm."""
+        points = np.concatenate(self.lines)
+        (x0, y0), (x1, y1) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        return x0, y0, x1, y1
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Picture:
+    """A picture of dark shapes on a light ground.
+
+    Parameters
+    ----------
+    field : (columns, rows) float32
+        From -1 (light) to +1 (dark), 0 midway between both; [x, y], y upwards.
+    """
+
+    field: NDArray[np.float32]
+    left_out: tuple[str, ...] = ()
+
+
+class TooComplexError(FormatError):
+    """A drawing exceeds one of the limits that keep its reading within seconds; the path is not in the message."""
+
+
+def require_at_most(limit: int, count: float, what: str) -> None:
+    """Raise TooComplexError where a drawing has more of something than the limit.
+
+    >>> require_at_most(3, 4, "elements")
+    Traceback (most recent call last):
+    ...
+    infill.drawing.TooComplexError: has 4 elements; the limit is 3
+    """
+    if count > limit:
+        raise TooComplexError(f"has {count:.0f} {what}; the limit is {limit}")
+
+
+def count_points(lines: Iterable[Line]) -> Iterator[Line]:
+    """Yield the lines; raise TooComplexError as soon as they have more than MOST_POINTS points together."""
+    points = 0
+    for line in lines:
+        points += len(line)
+        require_at_most(MOST_POINTS, points, "points or more")
+        yield line
+
+
+def checked_drawing(
+    path: object, lines: list[Line], *, page: Bounds | None = None, left_out: dict[str, int] | None = None
+) -> Drawing:
+    """Return the drawing with its lines simplified, or raise FormatError where no line is left or one is not finite."""
+    import shapely
+
+    left_out = left_out or {}
+    words = tuple(f"{count} {what}{'s' if count > 1 else ''}" for what, count in left_out.items())
+    long = [line for line in lines if len(line) > 1]
+    if not long:
+        only = f", only {' and '.join(words)}" if words else ""
+        raise FormatError(f"{path} holds no lines{only}; draw outlines or strokes, and turn texts into paths")
+    points = np.concatenate(long)
+    largest = np.abs(points).max()
+    if not largest <= LARGEST:
+        raise FormatError(f"{path} holds a point at {largest:g} mm; the limit is {LARGEST:g} mm; check its units")
+    size = float(np.ptp(points, axis=0).max())
+    if size == 0:
+        raise FormatError(f"{path} holds lines without length; draw outlines or strokes")
+    simple = shapely.simplify(shapely.linestrings(points, indices=_owners(long)), size * FLATNESS / 2)
+    kept = (np.array(line.coords) for line in simple[shapely.length(simple) > 0])
+    return Drawing(lines=tuple(kept), page=page, left_out=words)
+
+
+def _owners(lines: list[Line]) -> NDArray[np.intp]:
+    return np.repeat(np.arange(len(lines)), [len(line) for line in lines])

@@ -1,0 +1,53 @@
+"""Pictures as patterns: what is dark is solid. PNG, JPEG and BMP by Pillow."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.drawing import Picture
+from infill.errors import FormatError
+from infill.files.broken import told_broken
+
+MOST_PIXELS = 16_000_000
+LEAST = 0.05  # of black to white: a fainter picture is one of a single colour
+
+
+def read_grey(path: Path) -> NDArray[np.float32]:
+    """Return a picture as greys from 0, black, to 1, white: rows from above; what is transparent is white."""
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        with told_broken(path), Image.open(path) as image:
+            width, height = image.size
+            if width * height > MOST_PIXELS:
+                raise FormatError(
+                    f"{path} has {width} × {height} pixels; the limit is {MOST_PIXELS} in all; make it smaller"
+                )
+            coloured = image.convert("RGBA")
+            ground = Image.new("RGBA", coloured.size, "white")
+            return np.asarray(Image.alpha_composite(ground, coloured).convert("L"), dtype=np.float32) / np.float32(255)
+    except (UnidentifiedImageError, OSError, Image.DecompressionBombError) as error:
+        raise FormatError(f"{path} is broken or not a picture; save it again") from error
+
+
+def read_bitmap(path: Path) -> Picture:
+    """Return a picture as a field from -1, light, to +1, dark; what is transparent is light.
+
+    The limit between dark and light is the one that parts its greys best (Otsu, IEEE Transactions on Systems, Man,
+    and Cybernetics 9 (1979) 62).
+    """
+    from skimage.filters import threshold_otsu
+
+    grey = read_grey(path)
+    dark, light = float(grey.min()), float(grey.max())
+    if light - dark < LEAST:
+        raise FormatError(f"{path} is a picture of one colour; draw dark shapes on a light ground")
+    middle = float(threshold_otsu(grey))  # type: ignore[no-untyped-call]
+    if not dark < middle < light:
+        middle = (dark + light) / 2
+    # Both sides of the threshold are stretched to 1, so that half-covered pixels at an edge keep their place.
+    field = np.clip((middle - grey) / min(middle - dark, light - middle), -1, 1)
+    return Picture(field=np.ascontiguousarray(field[::-1].T))

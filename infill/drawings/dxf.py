@@ -1,0 +1,157 @@
+"""DXF by ezdxf (extra `drawings`): lines, arcs, ellipses, splines, polylines with bulges, and blocks, in mm.
+
+What is on layers that are off or frozen is left out, and so is what is not a line: texts, dimensions, solids.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from infill.drawing import (
+    FLATNESS,
+    MOST_POINTS,
+    Drawing,
+    Line,
+    checked_drawing,
+    count_points,
+    require_at_most,
+)
+from infill.errors import FormatError
+from infill.files.broken import one_line, told_broken
+
+AGAIN = "save it again as DXF (R2000 or later, text)"
+LARGEST_FILE = 10_000_000  # bytes, of which a second reads one
+MOST_ENTITIES = 50_000
+MOST_FIT_POINTS = 1000  # of a spline: finding its controls takes time and memory with the square of them
+HIGHEST_DEGREE = 20  # of a spline
+DEEPEST = 50  # blocks in blocks
+DRAWN = ("LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX")
+TEXTS = ("TEXT", "MTEXT", "ATTRIB", "ATTDEF")
+
+
+def _ezdxf() -> ModuleType:
+    try:
+        import ezdxf
+    except ImportError as error:
+        raise FormatError("reading .dxf needs the extra drawings: pip install 'phasefill[drawings]'") from error
+    module: ModuleType = ezdxf
+    return module
+
+
+def read_dxf(path: Path) -> Drawing:
+    """Return the lines in the model space of a DXF file; a file that states no unit is in mm."""
+    require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
+    ezdxf = _ezdxf()
+    left_out: Counter[str] = Counter()
+    try:
+        with told_broken(path, advice=AGAIN), np.errstate(all="ignore"):
+            document = ezdxf.readfile(path)
+            lines = _lines(document, left_out)
+            unit = _millimetres(path, document.header.get("$INSUNITS", 0))
+    except (ezdxf.DXFError, OSError, StopIteration) as error:
+        raise FormatError(f"{path} is broken or not a .dxf file ({one_line(error)}); {AGAIN}") from error
+    return checked_drawing(path, [line * unit for line in lines], left_out=+left_out)
+
+
+def _millimetres(path: Path, unit: int) -> float:
+    """Return the length of a DXF unit; 0 states none, which is read as mm."""
+    from ezdxf import enums, units
+
+    try:
+        return float(units.conversion_factor(enums.InsertUnits(unit), enums.InsertUnits.Millimeters)) if unit else 1.0
+    except (ValueError, TypeError) as error:
+        raise FormatError(
+            f"{path} states the unit {unit!r} ($INSUNITS), which DXF does not define; set the drawing's units to "
+            "millimetres (4) and save it again"
+        ) from error
+
+
+def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401 - a document of ezdxf
+    from ezdxf import disassemble, path
+
+    hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
+    _require_few_entities(document)
+    paths, corners, points = [], [], 0
+    entities: Iterable[Any] = disassemble.recursive_decompose(document.modelspace())
+    for entity in entities:
+        kind = entity.dxftype()
+        if entity.dxf.get("layer", "0") in hidden or entity.dxf.get("invisible", 0):
+            left_out["hidden line"] += 1
+            continue
+        if kind in DRAWN:
+            _require_short(_curves(entity))
+            added = [path.make_path(entity)]
+            left_out["empty line"] += not len(added[0])
+        elif kind == "HATCH":
+            _require_short(_curves(entity))
+            added = list(path.from_hatch(entity))
+        else:
+            left_out["text" if kind in TEXTS else kind.lower()] += 1
+            continue
+        for each in added:
+            if len(each):
+                paths.append(each)
+                corners.append(np.array([(v.x, v.y) for v in each.control_vertices()]))
+                points += len(corners[-1])
+        require_at_most(MOST_POINTS, points, "points or more")
+    if not corners:
+        return []
+    size = float(np.ptp(np.concatenate(corners), axis=0).max())
+    if not (math.isfinite(size) and size > 0):
+        raise ValueError(f"its lines extend over {size:g}")
+    parts = (part for each in paths for part in (each.sub_paths() if each.has_sub_paths else [each]) if len(part))
+    flat = (np.array([(v.x, v.y) for v in part.flattening(FLATNESS * size / 2)]) for part in parts)
+    return list(count_points(flat))
+
+
+def _curves(entity: Any) -> Iterator[Any]:  # noqa: ANN401 - an entity of ezdxf
+    """Yield the splines of an entity: itself, or those of the boundaries of a hatch."""
+    if entity.dxftype() in ("SPLINE", "HELIX"):
+        yield entity
+    elif entity.dxftype() == "HATCH":
+        for boundary in entity.paths:
+            yield from (edge for edge in getattr(boundary, "edges", ()) if hasattr(edge, "fit_points"))
+
+
+def _require_short(splines: Iterable[Any]) -> None:
+    """Raise TooComplexError for a spline that takes minutes or gigabytes to be drawn."""
+    for spline in splines:
+        require_at_most(MOST_FIT_POINTS, len(spline.fit_points), "points that a spline goes through")
+        degree = spline.dxf.degree if hasattr(spline, "dxf") else spline.degree
+        require_at_most(HIGHEST_DEGREE, degree, "as the degree of a spline")
+
+
+def _require_few_entities(document: Any) -> None:  # noqa: ANN401 - a document of ezdxf
+    """Raise TooComplexError if the model space holds too many entities, those of repeated blocks counted each time.
+
+    The weight of a block is found from the blocks in it first, so that blocks of blocks of blocks are never gone
+    through.
+    """
+    weights: dict[str, float] = {}
+
+    def weight(layout: Any, inside: frozenset[str]) -> float:  # noqa: ANN401 - a layout of ezdxf
+        total = 0.0
+        for entity in layout:
+            total += 1 + (len(entity.paths) if entity.dxftype() == "HATCH" else 0)
+            if entity.dxftype() == "INSERT":
+                total += entity.mcount * of_block(str(entity.dxf.get("name", "")), inside)
+        return total
+
+    def of_block(name: str, inside: frozenset[str]) -> float:
+        if name in inside:
+            raise ValueError(f"its block {name[:40]!r} contains itself")
+        require_at_most(DEEPEST, len(inside), "blocks in one another")
+        if name not in weights:
+            block = document.blocks.get(name)
+            weights[name] = 1.0 if block is None else 1 + weight(block, inside | {name})
+        return weights[name]
+
+    total = weight(document.modelspace(), frozenset())
+    require_at_most(MOST_ENTITIES, total, "entities, repeated blocks counted")

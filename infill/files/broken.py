@@ -1,0 +1,137 @@
+"""How all readers report a file that is missing, broken, or holds something other than it should."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+import struct
+import tokenize
+import traceback
+import zipfile
+import zlib
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from numpy.typing import NDArray
+
+from infill.errors import FormatError, InfillError, MemoryLimitError, ParameterError
+from infill.files.excerpts import excerpt
+from infill.volume import AXES, Volume
+
+SMALLER = "cut the volume to the part that matters, or halve its resolution"
+# The errors raised by the libraries we read with when a file holds something other than it should.
+BROKEN = (
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    NameError,
+    ImportError,
+    ArithmeticError,
+    EOFError,
+    RuntimeError,
+    SyntaxError,
+    AssertionError,
+    struct.error,
+    zlib.error,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+    ElementTree.ParseError,
+)
+# Of these, the errors our own code raises for such files: values that are not finite numbers, and truncated files.
+BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
+COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
+
+
+def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -> Path:
+    """Return the path of a file that exists and has one of the suffixes, or raise FormatError."""
+    source = Path(path)
+    if source.suffix.lower() not in suffixes:
+        name = source.name or str(source)
+        raise FormatError(f"cannot tell {what} from {name!r}; use one of {', '.join(suffixes)}")
+    if source.is_dir():
+        raise FormatError(f"{source} is a folder; give a file")
+    if not source.is_file():
+        raise FormatError(f"there is no file {source}; check the name")
+    return not_empty(source)
+
+
+def not_empty(path: Path) -> Path:
+    """Return the path of a file with something in it, or raise FormatError: what was cut off by a full disk, say."""
+    if path.is_file() and path.stat().st_size == 0:
+        raise FormatError(f"{path} is empty (0 bytes); export or save it again")
+    return path
+
+
+@contextlib.contextmanager
+def told_broken(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
+    """Turn a reader's complaint about a broken file into an error of ours; errors in our own code are left as they are.
+
+    Parameters
+    ----------
+    path : Path
+    what : str, optional
+        What to say about it, such as "is broken".
+    advice : str
+    """
+    try:
+        yield
+    except InfillError:
+        raise
+    except MemoryError as error:
+        raise MemoryLimitError(f"{path} needs more memory than there is; check it, or give a smaller one") from error
+    except BROKEN as error:
+        if is_ours(error) and not isinstance(error, BY_DATA):
+            raise
+        said = what or f"is broken or not a {path.suffix} file"
+        raise FormatError(f"{path} {said} ({one_line(error)}); {advice}") from error
+
+
+@contextlib.contextmanager
+def told_unreadable(path: Path) -> Iterator[None]:
+    """Turn an error of the operating system, such as a missing permission, into one of ours."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or one_line(error)
+        raise FormatError(f"cannot read {path}: {reason}; check the file") from error
+
+
+def is_ours(error: BaseException) -> bool:
+    """Return whether an error was raised by this package, and not by a library that it calls."""
+    names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
+    return bool(names) and names[-1].split(".")[0] == __name__.split(".")[0]
+
+
+def one_line(error: Exception) -> str:
+    """Return the text of an error on one line, truncated if too long."""
+    words = " ".join(str(error).split())
+    if isinstance(error, LookupError) or not words:  # whose text is just a key
+        words = f"{type(error).__name__}: {words}".removesuffix(": ")
+    return excerpt(words, 200)
+
+
+def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401
+    """Return the checked volume with values [x, y, z]; all may be the same only where they need not be varied."""
+    if values.dtype.kind == "c":
+        raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
+    if values.dtype.kind not in "biuf":
+        raise FormatError(f"{path} holds values of type {values.dtype}; save numbers or booleans")
+    if values.ndim > AXES and values.shape[-1] in COLOURS:
+        raise FormatError(f"{path} holds {values.shape[-1]} numbers per cell, shape {values.shape}; save one as grey")
+    if values.ndim != AXES or values.size == 0:
+        raise FormatError(f"{path} holds an array of shape {values.shape}; save three axes, with cells")
+    if not values.dtype.isnative:
+        values = values.astype(values.dtype.newbyteorder("="))
+    low, high = values.min().item(), values.max().item()
+    if not (math.isfinite(low) and math.isfinite(high)):
+        raise FormatError(f"{path} holds cells that are NaN or infinite; fill or cut those cells first")
+    if varied and low == high:
+        raise FormatError(f"{path} holds {low:g} in all cells, so no surface; check that it is the right file")
+    try:
+        return Volume(values=values, **place)
+    except ParameterError as error:
+        raise FormatError(f"{path} has no usable place in space: {error}; resample it, or save it again") from error

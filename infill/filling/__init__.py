@@ -1,1 +1,0 @@
-"""Infill as paths: corners rounded, regions covered, a sliced print refilled."""

@@ -1,1 +1,0 @@
-"""Families of centre lines that never cross: one small module per idea."""

@@ -1,0 +1,188 @@
+"""The file of a sliced print: text, binary G-code with text inside, or an archive of plates with a text each."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import BinaryIO, Literal
+
+from infill.errors import FormatError, ParameterError
+from infill.files.whole_files import scratch
+
+HEAD = 4  # bytes that tell the forms apart
+LOOKED_AT = 1 << 18  # bytes that tell how lines end
+Form = Literal["text", "binary", "archive"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlicedText:
+    """One print.
+
+    Parameters
+    ----------
+    text : binary file
+        Its G-code as text; it can be read from any place.
+    settings : mapping
+        Of the slicer, if they stand outside the text.
+    metadata : tuple of (name, value)
+        Of the print, likewise.
+    slicer : str
+        Its name and version, if they stand outside the text.
+    """
+
+    text: BinaryIO
+    settings: Mapping[str, str] = field(default_factory=dict)
+    metadata: tuple[tuple[bytes, bytes], ...] = ()
+    slicer: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlicedFile:
+    """A file of a slicer that is open.
+
+    Parameters
+    ----------
+    name : str
+    file : binary file
+    form : {"text", "binary", "archive"}
+    plates : tuple of int
+        Of an archive: those that have G-code.
+    """
+
+    name: str
+    file: BinaryIO
+    form: Form
+    plates: tuple[int, ...] = ()
+
+    @property
+    def parts(self) -> tuple[int | None, ...]:
+        """The prints in it: the plates of an archive, or None for its only one."""
+        return self.plates or (None,)
+
+    def part(self, plate: int | None) -> int | None:
+        """Return which print is meant by a plate that may be left out: the first.
+
+        Raises
+        ------
+        ParameterError
+            There is no such plate.
+        """
+        if plate is None:
+            return self.parts[0]
+        if plate not in self.plates:
+            there = f"it has {', '.join(map(str, self.plates))}" if self.plates else "it has no plates; leave it out"
+            raise ParameterError(f"plate is {plate}, which is not in {self.name}; {there}")
+        return plate
+
+    @contextlib.contextmanager
+    def text(self, part: int | None, folder: Path | None = None) -> Iterator[SlicedText]:
+        """Give one of `parts`; text that is packed is unpacked to a file without a name in `folder`.
+
+        Raises
+        ------
+        FormatError
+            If it cannot be unpacked, or has no lines.
+        """
+        self.file.seek(0)
+        opening: contextlib.AbstractContextManager[SlicedText]
+        if part is not None:
+            opening = self._plate(part, folder)
+        elif self.form == "binary":
+            opening = self._binary(folder)
+        else:
+            opening = contextlib.nullcontext(SlicedText(text=self.file))
+        with opening as given:
+            _check_line_ends(given.text)
+            yield given
+
+    @contextlib.contextmanager
+    def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
+        from infill.gcode.binary import Kind, blocks, metadata, text_pieces
+
+        with _unpacked(text_pieces(self.file), folder) as text:
+            self.file.seek(0)
+            settings: dict[str, str] = {}
+            values: dict[str, str] = {}
+            slicer = ""
+            for block in blocks(self.file):
+                if block.kind == Kind.SLICER_METADATA:
+                    settings.update(metadata(block))
+                elif block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
+                    values.update(metadata(block))
+                elif block.kind == Kind.FILE_METADATA:
+                    slicer = metadata(block).get("Producer", "")
+            pairs = tuple((_bytes(name), _bytes(value)) for name, value in values.items())
+            yield SlicedText(text=text, settings=settings, metadata=pairs, slicer=slicer)
+
+    @contextlib.contextmanager
+    def _plate(self, plate: int, folder: Path | None) -> Iterator[SlicedText]:
+        from infill.gcode.bambu_archive import plate_pieces
+
+        try:
+            with _unpacked(plate_pieces(self.file, plate), folder) as text:
+                yield SlicedText(text=text)
+        except FormatError as error:
+            raise FormatError(f"plate {plate}: {error}") from error
+
+
+@contextlib.contextmanager
+def opened(source: Path) -> Iterator[SlicedFile]:
+    """Open the file of a sliced print, whatever it is called.
+
+    Raises
+    ------
+    FormatError
+        If it cannot be read. What is raised while it is open gets the name of the file.
+    """
+    try:
+        file = source.open("rb")
+    except OSError as error:
+        said = error.strerror or str(error)
+        raise FormatError(f"cannot read {source}: {said[:1].lower()}{said[1:]}") from error
+    try:
+        with file:
+            form = _form(file.read(HEAD))
+            numbers: tuple[int, ...] = ()
+            if form == "archive":
+                from infill.gcode.bambu_archive import plates
+
+                numbers = plates(file)
+            yield SlicedFile(name=source.name, file=file, form=form, plates=numbers)
+    except FormatError as error:
+        raise FormatError(f"{source}: {error}") from error
+
+
+def _check_line_ends(text: BinaryIO) -> None:
+    """Raise FormatError for a text whose lines end with CR alone; the text is left at its beginning."""
+    text.seek(0)
+    head = text.read(LOOKED_AT)
+    text.seek(0)
+    if b"\r" in head and b"\n" not in head:
+        raise FormatError(
+            "its lines end with CR alone, as on old Macs; end them with LF: tr '\\r' '\\n' < old.gcode > new.gcode"
+        )
+
+
+def _form(head: bytes) -> Form:
+    """Tell the form of a file by its first bytes; what reads a form is loaded only for it."""
+    if head.startswith(b"PK"):
+        from infill.gcode.bambu_archive import is_archive
+
+        return "archive" if is_archive(head) else "text"
+    if head.startswith(b"GCDE"):
+        return "binary"
+    return "text"
+
+
+@contextlib.contextmanager
+def _unpacked(pieces: Iterable[bytes], folder: Path | None) -> Iterator[BinaryIO]:
+    with scratch(folder) as text:
+        text.writelines(pieces)
+        text.seek(0)
+        yield text
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode("utf-8", "surrogateescape")

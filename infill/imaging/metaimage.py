@@ -1,0 +1,236 @@
+"""MetaImage: a text header and the cells, in one file (.mha), or beside it (.mhd).
+
+Source: "MetaIO/Documentation" of ITK.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.files.broken import told_broken
+from infill.imaging.assumed import warn
+from infill.imaging.detached import Part, find_detached, number_names, read_parts
+from infill.imaging.images import ImageHeader, ReadCells, read_frame, require_sizes, scale_of
+from infill.volume import AXES, Volume
+
+LONGEST_LINE = 2**16  # bytes
+MOST_LINES = 10_000
+TYPES = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "i2",
+    "ushort": "u2",
+    "int": "i4",
+    "uint": "u4",
+    "long": "i4",  # as the format has it, whatever the computer
+    "ulong": "u4",
+    "long_long": "i8",
+    "ulong_long": "u8",
+    "float": "f4",
+    "double": "f8",
+}
+# Several names for one thing; where several are given, the first that is listed counts.
+MATRIX = ("transformmatrix", "rotation", "orientation")
+ORIGIN = ("offset", "position", "origin")
+DATA = "elementdatafile"
+LINE = re.compile(r"\s*([^=:]+?)\s*[=:]\s*(.*?)\s*")
+# Axes that run from right to left, anterior to posterior and inferior to superior are those of LPS.
+TOWARDS = {"R": (0, 1), "L": (0, -1), "A": (1, 1), "P": (1, -1), "I": (2, 1), "S": (2, -1)}
+UNKNOWN = {"", "???", "?"}
+
+
+class _Fields(dict[str, str]):
+    """The fields of a header by name, in small letters."""
+
+    def __missing__(self, name: str) -> str:
+        raise ValueError(f"its header lacks {name}")
+
+    def yes(self, *names: str) -> bool:
+        """Return whether one of some fields says yes."""
+        said = next((self[name] for name in names if name in self), "false").lower()
+        if said not in ("true", "false", "1", "0", "yes", "no", "t", "f"):
+            raise ValueError(f"{names[0]} is {said[:20]!r}")
+        return said[0] in "t1y"
+
+
+def read_meta_image(path: Path, frame: int | None = None) -> Volume:
+    """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
+    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
+        fields, listed, end = _fields(path)
+        count = int(fields["ndims"])
+        sizes = _whole(fields, "dimsize", count)
+        require_sizes(path, sizes)
+        channels = int(fields.get("elementnumberofchannels", "1"))
+        if channels < 1:
+            raise ValueError(f"{channels} channels")
+        several = channels > 1
+        header = ImageHeader(
+            path=path,
+            sizes=(channels, *sizes) if several else sizes,
+            spatial=tuple(axis + several for axis in range(AXES)),
+            affine=_affine(path, fields, count),
+            space="LPS",
+            what=f"holds {channels} numbers per cell" if several else "",
+        )
+        return read_frame(header, frame, _cells(path, fields, header, listed, end))
+
+
+def _fields(path: Path) -> tuple[_Fields, tuple[str, ...], int]:
+    """Return the header of a file, which the name of the data file ends, the files listed, and where the data begin."""
+    fields = _Fields()
+    with path.open("rb") as file:
+        for _ in range(MOST_LINES):
+            line = file.readline(LONGEST_LINE)
+            text = line.decode("utf-8", "replace").strip()
+            if not text:
+                if not line:
+                    break
+                continue
+            found = LINE.fullmatch(text)
+            if found is None:
+                raise FormatError(f"{path} has a line in its header that is no field, {text[:40]!r}; save it again")
+            fields[found[1].lower()] = found[2]
+            if found[1].lower() == DATA:
+                listed: tuple[str, ...] = ()
+                if found[2].split()[:1] == ["LIST"]:
+                    listed = tuple(filter(None, (each.decode("utf-8", "replace").strip() for each in file)))
+                if fields.get("objecttype", "image").lower() != "image":
+                    raise FormatError(f"{path} holds {fields['objecttype'][:40]!r}; save an image")
+                return fields, listed, file.tell()
+    raise FormatError(f"{path} has no header of MetaImage that names its data (ElementDataFile); save it again")
+
+
+# --- place -----------------------------------------------------------------------------------------------
+
+
+def _affine(path: Path, fields: _Fields, count: int) -> NDArray[np.float64]:
+    """Return where the cells lie, in LPS: row i of the matrix in the file is the direction of axis i."""
+    matrix = _first(path, fields, MATRIX, count * count)
+    origin = _first(path, fields, ORIGIN, count)
+    sizes, gaps = (_floats(fields, name, count) for name in ("elementspacing", "elementsize"))
+    if sizes is None and gaps is None:
+        warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
+    elif sizes is not None and gaps is not None and not np.allclose(sizes, gaps, rtol=1e-3, atol=0):
+        warn(
+            "%s states cells of %s mm, %s mm apart (ElementSize, ElementSpacing); they are taken as that large as they "
+            "are apart",
+            path,
+            " x ".join(f"{each:.6g}" for each in gaps[:AXES]),
+            " x ".join(f"{each:.6g}" for each in sizes[:AXES]),
+        )
+    spacing = sizes if sizes is not None else gaps if gaps is not None else np.ones(count)
+    directions = np.eye(count) if matrix is None else matrix.reshape(count, count).T
+    _check_anatomy(path, fields, directions[:AXES, :AXES])
+    unit = next((fields[name] for name in ("distanceunits", "elementspacingunits", "units") if fields.get(name)), "mm")
+    scale = 1.0 if unit in UNKNOWN else scale_of(path, unit)
+    first = np.zeros(count) if origin is None else origin
+    return scale * np.column_stack([directions[:AXES, :AXES] * spacing[:AXES], first[:AXES]])
+
+
+def _first(path: Path, fields: _Fields, names: tuple[str, ...], count: int) -> NDArray[np.float64] | None:
+    """Return the numbers of a field that has several names; those given must agree."""
+    found = [each for name in names if (each := _floats(fields, name, count)) is not None]
+    if any(not np.allclose(each, found[0]) for each in found):
+        given = " and ".join(name for name in names if name in fields)
+        raise FormatError(f"{path} states two places ({given} differ); delete the wrong one from its header")
+    return found[0] if found else None
+
+
+def _check_anatomy(path: Path, fields: _Fields, directions: NDArray[np.float64]) -> None:
+    """Warn if the anatomical orientation says something else than the directions, which count."""
+    said = fields.get("anatomicalorientation", "").upper()
+    if said in UNKNOWN or "?" in said:
+        return
+    letters = [TOWARDS.get(letter) for letter in said]
+    if len(said) >= AXES and all(letters[:AXES]):
+        turned = np.zeros((AXES, AXES))
+        for axis, letter in enumerate(letters[:AXES]):
+            assert letter is not None
+            turned[letter[0], axis] = letter[1]
+        if ((directions * turned).sum(axis=0) > 0.5).all():  # within 60 degrees
+            return
+    warn(
+        "%s says AnatomicalOrientation = %s, which does not fit its TransformMatrix; the matrix is taken",
+        path,
+        said[:20],
+    )
+
+
+def _floats(fields: _Fields, name: str, count: int) -> NDArray[np.float64] | None:
+    if name not in fields:
+        return None
+    numbers = np.array([float(word) for word in fields[name].split()])
+    if len(numbers) != count:
+        raise ValueError(f"{len(numbers)} numbers in {name} where there should be {count}")
+    return numbers
+
+
+def _whole(fields: _Fields, name: str, count: int) -> tuple[int, ...]:
+    numbers = tuple(int(word) for word in fields[name].split())
+    if len(numbers) != count:
+        raise ValueError(f"{len(numbers)} numbers in {name} where there should be {count}")
+    return numbers
+
+
+# --- cells -----------------------------------------------------------------------------------------------
+
+
+def _cells(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, ...], end: int) -> ReadCells:
+    """Return what reads the cells of a file, after checking that it can."""
+    name = fields["elementtype"].lower().removeprefix("met_").removesuffix("_array")
+    if name not in TYPES:
+        raise FormatError(f"{path} holds cells of type {name[:40]!r}; save them as integers or floats")
+    for key, usual in (("elementtointensityfunctionslope", 1.0), ("elementtointensityfunctionoffset", 0.0)):
+        if float(fields.get(key, usual)) != usual:
+            raise FormatError(f"{path} scales its values by {key}; save the scaled values")
+    if fields.yes("binarydata") or "binarydata" not in fields:
+        encoding = "zlib" if fields.yes("compresseddata") else "raw"
+    else:
+        encoding = "text"
+    most_first = fields.yes("binarydatabyteordermsb", "elementbyteordermsb")
+    kind = np.dtype(TYPES[name]).newbyteorder(">" if most_first else "<")
+    skip = int(fields.get("headersize", "0"))
+    if skip < -1 or (skip == -1 and encoding != "raw"):
+        raise FormatError(
+            f"{path} has a HeaderSize of {skip} before {encoding} data; give 0 or more, or -1 for raw data"
+        )
+    files = _files(path, fields, header, listed)
+    local = files == [path]
+    if local and 0 < skip < end:
+        raise FormatError(
+            f"{path} has a HeaderSize of {skip}, within its own header of {end} bytes; delete that line, or give -1"
+        )
+    packed = int(fields.get("compresseddatasize", "0")) if encoding == "zlib" else 0
+    parts = [
+        Part(
+            path=each,
+            begin=max(skip, end if local else 0),  # counted from the beginning of the file
+            from_end=skip == -1,
+            packed_bytes=packed if packed > 0 and len(files) == 1 else None,
+        )
+        for each in files
+    ]
+    return lambda low, high: read_parts(path, parts, kind, header.cells, low, high, encoding=encoding)
+
+
+def _files(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, ...]) -> list[Path]:
+    """Return the files that hold the cells, in order."""
+    given = fields[DATA]
+    words = given.split()
+    if given.lower() == "local":
+        return [path]
+    if words[:1] == ["LIST"]:
+        if not listed:
+            raise FormatError(f"{path} lists no files that hold its cells; save it again")
+        return [find_detached(path, name) for name in listed]
+    if len(words) > 1 and "%" in words[0]:
+        low, high, step = (int(word) for word in (*words[1:4], "1")[:3]) if len(words) > 2 else (int(words[1]), 0, 1)
+        if len(words) == 2:
+            high = low + header.sizes[-1] - 1
+        return [find_detached(path, name) for name in number_names(path, words[0], low, high, step)]
+    return [find_detached(path, given)]

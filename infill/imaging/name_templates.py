@@ -1,0 +1,33 @@
+"""File names with a place for a label in them: ``bones/{label}.stl``, or ``{number}`` for its number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from infill.files.file_names import safe_names
+from infill.imaging.label_tables import Segment
+
+NAME, NUMBER = "{label}", "{number}"
+
+
+def is_template(path: Path) -> bool:
+    """Return whether a path has a place for a label.
+
+    >>> is_template(Path("bones/{label}.stl")), is_template(Path("bones.stl"))
+    (True, False)
+    """
+    return NAME in str(path) or NUMBER in str(path)
+
+
+def filled(path: Path, names: Sequence[str], segments: Sequence[Segment]) -> list[Path]:
+    """Return the path of each label: its name, made safe for every file system, and its number put in.
+
+    >>> [each.name for each in filled(Path("{number}_{label}.stl"), ["L1/L2"], [Segment(value=4)])]
+    ['4_L1_L2.stl']
+    """
+    safe = safe_names(names, [f"label_{segment.value}" for segment in segments])
+    return [
+        Path(str(path).replace(NUMBER, str(segment.value)).replace(NAME, name))
+        for name, segment in zip(safe, segments, strict=True)
+    ]

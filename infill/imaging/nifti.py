@@ -1,0 +1,329 @@
+"""NIfTI-1 and NIfTI-2 in one file: .nii, plain or packed by gzip.
+
+A header of fixed length, then the cells, x fastest. Where they lie is said up to three times: by a matrix (sform), by a
+quaternion (qform), and by cell sizes alone; a code beside each of the first two says whether it counts. Space is RAS;
+here it becomes LPS. Sources: nifti1.h and nifti2.h of the NIfTI data format working group.
+"""
+
+from __future__ import annotations
+
+import gzip
+import logging
+import math
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.files.broken import one_line, told_broken
+from infill.imaging.assumed import warn
+from infill.imaging.images import ImageHeader, read_frame, require_sizes
+from infill.imaging.packed import cut_off, read_bytes
+from infill.volume import AXES, Volume
+
+LOG = logging.getLogger("infill")
+MAGIC_OF_GZIP = b"\x1f\x8b"
+TYPES = {
+    2: "u1",
+    4: "i2",
+    8: "i4",
+    16: "f4",
+    64: "f8",
+    256: "i1",
+    512: "u2",
+    768: "u4",
+    1024: "i8",
+    1280: "u8",
+}
+COMPLEX = {32, 1792, 2048}
+COLOURS = {128: 3, 2304: 4}
+MILLIMETRES = {1: 1000.0, 2: 1.0, 3: 1e-3}
+LENGTH_BITS = 7  # of the units; the others are those of time
+CODES = range(6)  # of the methods to place a volume: 0 where one is not used
+# Two statements of one place that are rounded to 32 bits: share of a cell.
+AGREEING = 1e-2
+OFF_UNIT = 1e-4  # by how much the squares of a quaternion's parts may exceed 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Form:
+    """Where the fields lie in a header of one version."""
+
+    size: int
+    first: int
+    dim: str
+    fields: dict[str, tuple[str, int]]
+
+
+ONE = _Form(
+    size=348,
+    first=352,
+    dim="8h",
+    fields={
+        "magic": ("4s", 344),
+        "dim": ("8h", 40),
+        "datatype": ("h", 70),
+        "bitpix": ("h", 72),
+        "pixdim": ("8f", 76),
+        "vox_offset": ("f", 108),
+        "slope": ("2f", 112),
+        "units": ("B", 123),
+        "qform_code": ("h", 252),
+        "sform_code": ("h", 254),
+        "quaternion": ("6f", 256),
+        "sform": ("12f", 280),
+    },
+)
+TWO = _Form(
+    size=540,
+    first=544,
+    dim="8q",
+    fields={
+        "magic": ("8s", 4),
+        "dim": ("8q", 16),
+        "datatype": ("h", 12),
+        "bitpix": ("h", 14),
+        "pixdim": ("8d", 104),
+        "vox_offset": ("q", 168),
+        "slope": ("2d", 176),
+        "units": ("i", 500),
+        "qform_code": ("i", 344),
+        "sform_code": ("i", 348),
+        "quaternion": ("6d", 352),
+        "sform": ("12d", 400),
+    },
+)
+FORMS = {ONE.size: ONE, TWO.size: TWO}
+
+
+class _Header:
+    """The fields of a header, by name."""
+
+    def __init__(self, form: _Form, order: str, held: bytes) -> None:
+        self.form, self.order, self.held = form, order, held
+
+    def all(self, name: str) -> tuple[Any, ...]:
+        """Return the numbers of a field."""
+        kind, at = self.form.fields[name]
+        return struct.unpack_from(self.order + kind, self.held, at)
+
+    def one(self, name: str) -> Any:  # noqa: ANN401 - a number or bytes
+        """Return the only number of a field."""
+        return self.all(name)[0]
+
+
+def read_nifti(path: Path, frame: int | None = None) -> Volume:
+    """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
+    with told_broken(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
+        packed = file.read(2) == MAGIC_OF_GZIP
+        file.seek(0)
+        found = _header(path, _head(path, file, packed=packed))
+        sizes = _sizes(path, found)
+        image = ImageHeader(
+            path=path, sizes=sizes, spatial=tuple(range(AXES)), affine=_affine(path, found, sizes), space="LPS"
+        )
+        kind = _kind(path, found)
+        begin = _begin(path, found)
+
+        def read(low: int, high: int) -> NDArray[Any]:
+            file.seek(0)
+            size = kind.itemsize
+            held = read_bytes(
+                str(path),
+                file,
+                (high - low) * size,
+                packing="gzip" if packed else "",
+                skip=begin + low * size,
+                total=begin + image.cells * size,
+            )
+            return _scaled(path, held.view(kind), found)
+
+        return read_frame(image, frame, read)
+
+
+def _head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:
+    """Return the first bytes, as many as the longest header has, or fewer."""
+    if not packed:
+        return file.read(TWO.size)
+    try:
+        with gzip.GzipFile(fileobj=file) as unpacked:
+            return _some(cast(BinaryIO, unpacked), TWO.size)
+    except (OSError, zlib.error) as error:
+        raise FormatError(
+            f"{path} is damaged: it does not unpack ({one_line(error)}); copy or save it again"
+        ) from error
+
+
+def _some(file: BinaryIO, count: int) -> bytes:
+    """Return the bytes up to a truncated end, too."""
+    held = b""
+    try:
+        while len(held) < count and (byte := file.read(1)):
+            held += byte
+    except EOFError:
+        pass
+    return held
+
+
+def _header(path: Path, held: bytes) -> _Header:
+    """Return the header that some bytes are, whichever its version and the order of its bytes."""
+    for order in "<>":
+        form = FORMS.get(struct.unpack(f"{order}i", held[:4])[0]) if len(held) >= 4 else None
+        if form is None:
+            continue
+        if len(held) < form.size:
+            raise cut_off(str(path), len(held), form.size, "bytes of its header")
+        found = _Header(form, order, held)
+        magic = found.one("magic")[:4]
+        if magic in (b"ni1\0", b"ni2\0"):
+            raise FormatError(f"{path} is the header of a pair of files; save both as one .nii")
+        if magic not in (b"n+1\0", b"n+2\0"):
+            raise FormatError(f"{path} has no mark of NIfTI in its header (it may be Analyze 7.5); save it as .nii")
+        return found
+    raise FormatError(f"{path} does not begin with a header of NIfTI; check that it is a .nii file")
+
+
+def _sizes(path: Path, found: _Header) -> tuple[int, ...]:
+    axes, *sizes = found.all("dim")
+    if not 1 <= axes <= len(sizes):
+        raise FormatError(f"{path} has {axes} axes, and NIfTI 1 to 7; save it again")
+    # Axes beyond space may be given as 0 where there is nothing along them.
+    known = tuple(max(1, size) if axis >= AXES else size for axis, size in enumerate(sizes[:axes]))
+    require_sizes(path, known)
+    return known
+
+
+def _kind(path: Path, found: _Header) -> np.dtype[Any]:
+    code = found.one("datatype")
+    if code in COMPLEX:
+        raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
+    if code in COLOURS:
+        raise FormatError(f"{path} holds {COLOURS[code]} numbers per cell, a colour; save one as grey")
+    if code not in TYPES:
+        raise FormatError(f"{path} holds cells of type {code}; save them as integers or floats of up to 64 bits")
+    kind = np.dtype(TYPES[code]).newbyteorder("<" if found.order == "<" else ">")
+    if found.one("bitpix") not in (0, 8 * kind.itemsize):
+        raise FormatError(
+            f"{path} states cells of {found.one('bitpix')} bits and a type of {8 * kind.itemsize}; save it again"
+        )
+    return kind
+
+
+def _begin(path: Path, found: _Header) -> int:
+    """Return where the cells begin, bytes."""
+    begin = found.one("vox_offset")
+    if begin == 0:  # some programs leave it out
+        return found.form.first
+    if not found.form.first <= begin < 2**62 or begin != int(begin):
+        raise FormatError(f"{path} says that its cells begin at byte {begin:.6g}, within its header; save it again")
+    return int(begin)
+
+
+def _scaled(path: Path, cells: NDArray[Any], found: _Header) -> NDArray[Any]:
+    """Return the values that cells stand for: slope * cell + intercept, unless the slope is 0 or no number."""
+    slope, intercept = found.all("slope")
+    if not math.isfinite(slope) or slope == 0 or (slope == 1 and intercept == 0):
+        return cells
+    if not math.isfinite(intercept):
+        raise FormatError(f"{path} adds {intercept} to its values (scl_inter); save it again")
+    # 24 bits hold all cells of 16 bits.
+    exact = cells.dtype.itemsize <= 2 or cells.dtype.str[1:] == "f4"
+    values: NDArray[np.floating[Any]] = cells.astype(np.float32 if exact else np.float64)
+    np.multiply(values, slope, out=values)
+    np.add(values, intercept, out=values)
+    return values
+
+
+# --- place -----------------------------------------------------------------------------------------------
+
+
+def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return where the cells lie, mm in LPS: by the sform if its code is not 0, else the qform, else by sizes alone.
+
+    Where neither counts, the axes lead left, anterior and superior from a volume around the origin, as in Analyze.
+    """
+    unit = found.one("units") & LENGTH_BITS
+    if unit == 0:
+        warn("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
+    elif unit not in MILLIMETRES:
+        warn("%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit)
+    scale = MILLIMETRES.get(unit, 1.0)
+    steps = np.abs(np.array(found.all("pixdim")[1 : AXES + 1], dtype=np.float64))
+    codes = {name: found.one(f"{name}_code") for name in ("sform", "qform")}
+    for name, code in codes.items():
+        if code not in CODES:
+            warn("%s has an unknown %s code, %d", path, name, code)
+    by_matrix = np.array(found.all("sform"), dtype=np.float64).reshape(AXES, AXES + 1)
+    by_quaternion = _of_quaternion(path, found, steps) if codes["qform"] else None
+    if codes["sform"]:
+        _warn_of_sizes(path, by_matrix, steps)
+        if by_quaternion is not None and (off := _apart(by_matrix, by_quaternion, sizes)) > AGREEING:
+            warn(
+                "%s states two places, up to %.3g cells apart: by its sform (code %d), which is taken, and by its "
+                "qform (code %d)",
+                path,
+                off,
+                codes["sform"],
+                codes["qform"],
+            )
+        affine = by_matrix
+    elif by_quaternion is not None:
+        affine = by_quaternion
+    else:
+        warn(
+            "%s does not say which way its axes lead (both codes are 0); left, anterior and superior are taken, "
+            "so that it may be mirrored",
+            path,
+        )
+        affine = np.column_stack([np.diag((-1, 1, 1) * steps), np.zeros(AXES)])
+        affine[:, AXES] = -affine[:, :AXES] @ ((np.array(sizes[:AXES]) - 1) / 2)
+    return np.array([[-scale], [-scale], [scale]]) * affine
+
+
+def _of_quaternion(path: Path, found: _Header, steps: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the affine of the qform; formulas of nifti1.h, "QUATERNION REPRESENTATION OF ROTATION MATRIX"."""
+    b, c, d, *offset = (float(number) for number in found.all("quaternion"))
+    rest = 1 - (b * b + c * c + d * d)
+    if not rest > -OFF_UNIT:
+        raise FormatError(f"{path} has a quaternion that is no rotation ({b:.4g}, {c:.4g}, {d:.4g}); save it again")
+    if rest < 1e-7:  # a half turn, rounded
+        length = math.sqrt(b * b + c * c + d * d)
+        a, b, c, d = 0.0, b / length, c / length, d / length
+    else:
+        a = math.sqrt(rest)
+    rotation = np.array(
+        [
+            [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
+            [2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)],
+            [2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c],
+        ]
+    )
+    if found.all("pixdim")[0] < 0:
+        rotation[:, 2] *= -1
+    return np.column_stack([rotation * steps, offset])
+
+
+def _warn_of_sizes(path: Path, affine: NDArray[np.float64], steps: NDArray[np.float64]) -> None:
+    """Warn if the sizes of cells stated in the header are others than those of the matrix that counts."""
+    lengths = np.linalg.norm(affine[:, :AXES], axis=0)
+    if not np.allclose(lengths, steps, rtol=AGREEING, atol=0):
+        warn(
+            "%s states cells of %s (pixdim) and %s (sform), of which the latter are taken",
+            path,
+            " x ".join(f"{each:.6g}" for each in steps),
+            " x ".join(f"{each:.6g}" for each in lengths),
+        )
+
+
+def _apart(one: NDArray[np.float64], other: NDArray[np.float64], sizes: tuple[int, ...]) -> float:
+    """Return how far two affines lie apart in the corners of a volume, in smallest cells."""
+    last = np.array(sizes[:AXES], dtype=np.float64) - 1
+    corners = np.array(np.meshgrid(*((0.0, end) for end in last), indexing="ij")).reshape(AXES, -1)
+    off = (one - other) @ np.vstack([corners, np.ones(corners.shape[1])])
+    cell = float(np.linalg.norm(one[:, :AXES], axis=0).min())
+    return float(np.linalg.norm(off, axis=0).max()) / cell if cell > 0 else math.inf

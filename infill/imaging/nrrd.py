@@ -1,0 +1,426 @@
+"""NRRD: a text header and the cells, in one file (.nrrd), or beside it (.nhdr).
+
+Source: "Definition of NRRD File Format", Teem.
+"""
+
+from __future__ import annotations
+
+import gzip
+import logging
+import math
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, BinaryIO, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.files.broken import told_broken
+from infill.imaging.assumed import warn
+from infill.imaging.detached import Part, find_detached, number_names, read_parts
+from infill.imaging.images import (
+    SIZES,
+    TO_LPS,
+    ImageHeader,
+    ReadCells,
+    read_frame,
+    read_frames,
+    require_sizes,
+    scales_of,
+)
+from infill.version import __version__
+from infill.volume import AXES, Volume
+
+LOG = logging.getLogger("infill")
+LONGEST_LINE = 2**16  # bytes
+MOST_LINES = 100_000
+MAGIC = re.compile(rb"NRRD000[1-6]")
+TYPES = {
+    "i1": ("signed char", "int8", "int8_t"),
+    "u1": ("uchar", "unsigned char", "uint8", "uint8_t"),
+    "i2": ("short", "short int", "signed short", "signed short int", "int16", "int16_t"),
+    "u2": ("ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"),
+    "i4": ("int", "signed int", "int32", "int32_t"),
+    "u4": ("uint", "unsigned int", "uint32", "uint32_t"),
+    "i8": ("longlong", "long long", "long long int", "signed long long", "signed long long int", "int64", "int64_t"),
+    "u8": ("ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"),
+    "f4": ("float",),
+    "f8": ("double",),
+}
+KINDS = {name: kind for kind, names in TYPES.items() for name in names}
+ENCODINGS = {
+    "raw": "raw",
+    "txt": "text",
+    "text": "text",
+    "ascii": "text",
+    "hex": "hex",
+    "gz": "gzip",
+    "gzip": "gzip",
+    "bz2": "bzip2",
+    "bzip2": "bzip2",
+}
+SPACES = {
+    "right-anterior-superior": "RAS",
+    "ras": "RAS",
+    "left-anterior-superior": "LAS",
+    "las": "LAS",
+    "left-posterior-superior": "LPS",
+    "lps": "LPS",
+    "scanner-xyz": "",
+    "3d-right-handed": "",
+}
+LEFT_HANDED = "3d-left-handed"
+TIME = "-time"  # a fourth axis of a space
+# Kinds of axes along which space extends; along all others lie several numbers of one cell, or times.
+OF_SPACE = {"domain", "space", "none", "???"}
+UNKNOWN = {"none", "???"}
+SEGMENTS = (".seg.nrrd", ".seg.nhdr")
+SYNONYMS = {
+    "datafile": "data file",
+    "lineskip": "line skip",
+    "byteskip": "byte skip",
+    "axismins": "axis mins",
+    "axismaxs": "axis maxs",
+    "centerings": "centers",
+    "blocksize": "block size",
+}
+VECTOR = re.compile(r"none|\(([^()]*)\)", re.IGNORECASE)
+QUOTED = re.compile(r'"((?:\\.|[^"\\])*)"|(\S+)')
+AGREEING = 1e-3  # relative: lengths stated twice are rounded
+
+WRITTEN_TYPES = {
+    "b1": "uint8",
+    "i1": "int8",
+    "u1": "uint8",
+    "i2": "int16",
+    "u2": "uint16",
+    "i4": "int32",
+    "u4": "uint32",
+    "i8": "int64",
+    "u8": "uint64",
+    "f4": "float",
+    "f8": "double",
+}
+WRITTEN_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-superior"}
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Fields:
+    """The fields of a header by name, the files that it lists, and where it ends."""
+
+    known: dict[str, str] = field(default_factory=dict)
+    files: tuple[str, ...] = ()
+    end: int = 0
+
+    def __getitem__(self, name: str) -> str:
+        if name not in self.known:
+            raise ValueError(f"its header lacks {name!r}")
+        return self.known[name]
+
+    def get(self, name: str, default: str = "") -> str:
+        return self.known.get(name, default)
+
+
+def read_nrrd(path: Path, frame: int | None = None) -> Volume:
+    """Read the volume of a file, [x, y, z] where it lies in space, or one of several, counted from 0."""
+    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
+        header, read = _opened(path)
+        return read_frame(header, frame, read)
+
+
+def read_layers(path: Path) -> tuple[Volume, ...]:
+    """Read all volumes of a file, in order: the layers of a segmentation, which may be empty."""
+    with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
+        header, read = _opened(path)
+        return read_frames(header, read)
+
+
+def _opened(path: Path) -> tuple[ImageHeader, ReadCells]:
+    fields = _fields(path)
+    dimension = int(fields["dimension"])
+    sizes = tuple(int(word) for word in fields["sizes"].split())
+    if len(sizes) != dimension:
+        raise ValueError(f"{len(sizes)} sizes for a dimension of {dimension}")
+    require_sizes(path, sizes)
+    header = _placed(path, fields, sizes)
+    return header, _cells(path, fields, header)
+
+
+def _fields(path: Path) -> _Fields:
+    """Return the header of a file, which an empty line ends, or the end of the file."""
+    known: dict[str, str] = {}
+    with path.open("rb") as file:
+        first = file.readline(LONGEST_LINE).rstrip()
+        if not MAGIC.fullmatch(first):
+            raise FormatError(f"{path} does not begin with NRRD000 and a version; check that it is an NRRD file")
+        for line in _lines(path, file):
+            if line.startswith("#") or re.match(r"[^:]*:=", line):
+                continue
+            name, colon, text = line.partition(":")
+            if not colon:
+                raise FormatError(f"{path} has a line in its header that is no field, {line[:40]!r}; save it again")
+            name = SYNONYMS.get(name.strip().lower(), name.strip().lower())
+            known[name] = text.strip()
+            if name == "data file" and known[name].split()[:1] == ["LIST"]:
+                return _Fields(known=known, files=tuple(filter(None, _lines(path, file))), end=file.tell())
+        return _Fields(known=known, end=file.tell())
+
+
+def _lines(path: Path, file: BinaryIO) -> Iterator[str]:
+    """Yield the lines up to the first empty one, or to the end."""
+    for _ in range(MOST_LINES):
+        line = file.readline(LONGEST_LINE)
+        if len(line) == LONGEST_LINE:
+            raise FormatError(f"{path} has a line of over {LONGEST_LINE} bytes in its header; save it again")
+        text = line.decode("utf-8", "replace").strip()
+        if not text:
+            return
+        yield text
+    raise FormatError(f"{path} has a header of over {MOST_LINES} lines; save it again")
+
+
+# --- place -----------------------------------------------------------------------------------------------
+
+
+def _placed(path: Path, fields: _Fields, sizes: tuple[int, ...]) -> ImageHeader:
+    """Return the axes of space, and where the cells lie along them."""
+    kinds = [kind.lower() for kind in fields.get("kinds").split()]
+    if kinds and len(kinds) != len(sizes):
+        raise ValueError(f"{len(kinds)} kinds for {len(sizes)} axes")
+    if "complex" in kinds:
+        raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
+    name = fields.get("space").lower()
+    space = SPACES.get(name.removesuffix(TIME), "")
+    if name.removesuffix(TIME) == LEFT_HANDED:
+        raise FormatError(f"{path} lies in a left-handed space, where it would be mirrored; save it in LPS or RAS")
+    if name and name.removesuffix(TIME) not in SPACES:
+        raise FormatError(f"{path} lies in a space {name[:40]!r}, which is unknown; save it in LPS or RAS")
+    directions = _vectors(fields.get("space directions"))
+    if directions:
+        if len(directions) != len(sizes):
+            raise ValueError(f"{len(directions)} space directions for {len(sizes)} axes")
+        spatial, matrix = _directed(path, fields, directions)
+    else:
+        if name or fields.get("space dimension"):
+            warn("%s lies in a space and lacks its directions there; the axes of space are taken", path)
+        spatial, matrix = _spaced(path, fields, sizes, kinds)
+    if len(spatial) < AXES:
+        found = tuple(sizes[axis] for axis in spatial)
+        require_sizes(path, found or (1,))
+    flip = np.array(TO_LPS.get(space, (1.0, 1.0, 1.0)))
+    beside = [axis for axis in range(len(sizes)) if axis not in spatial]
+    numbers = math.prod(sizes[axis] for axis in beside)
+    in_cells = any(axis < max(spatial) or (kinds and kinds[axis] not in {"time", *OF_SPACE}) for axis in beside)
+    what = f"holds {numbers} numbers per cell" if in_cells else ""
+    if numbers > 1 and path.name.lower().endswith(SEGMENTS):
+        what = f"holds {numbers} layers of segments; write all with {{label}} in the name of the output"
+    return ImageHeader(
+        path=path,
+        sizes=sizes,
+        spatial=spatial,
+        affine=flip[:, None] * matrix,
+        space="LPS" if space else "",
+        what=what,
+    )
+
+
+def _directed(
+    path: Path, fields: _Fields, directions: list[NDArray[np.float64] | None]
+) -> tuple[tuple[int, ...], NDArray[np.float64]]:
+    """Return axes and affine from `space directions`; in a space with time, the axis along time is left out."""
+    axes = [axis for axis, each in enumerate(directions) if each is not None]
+    matrix = np.array([directions[axis] for axis in axes]).T  # column i: one cell along axis i
+    count = matrix.shape[0] if matrix.ndim == 2 else 0
+    if count not in (2, AXES, AXES + 1):
+        raise ValueError(f"space directions of {count} numbers")
+    origin = _vectors(fields.get("space origin"))
+    if not origin or origin[0] is None:
+        LOG.info("%s does not say where its first cell lies (space origin); it is taken to lie at 0, 0, 0", path)
+        first = np.zeros(count)
+    else:
+        first = origin[0]
+    if len(first) != count:
+        raise ValueError(f"a space origin of {len(first)} numbers in a space of {count}")
+    units = _quoted(fields.get("space units"))
+    if units and len(units) != count:
+        raise ValueError(f"{len(units)} space units in a space of {count}")
+    if count > AXES:
+        spatial = [column for column in range(len(axes)) if matrix[:AXES, column].any() or not matrix[AXES, column]]
+        if (matrix[AXES, spatial] != 0).any():
+            raise FormatError(f"{path} has an axis along space and time at once; save one volume of it")
+        axes, matrix, first, units = [axes[c] for c in spatial], matrix[:AXES, spatial], first[:AXES], units[:AXES]
+    elif count < AXES:
+        return tuple(axes), np.zeros((AXES, AXES + 1))  # a slice, which is refused
+    if len(axes) != AXES:
+        return tuple(axes[:2]), np.zeros((AXES, AXES + 1))
+    scale = _scales(path, units)
+    _require_agreeing(path, fields, axes, np.linalg.norm(matrix, axis=0))
+    return tuple(axes), scale[:, None] * np.column_stack([matrix, first])
+
+
+def _require_agreeing(path: Path, fields: _Fields, axes: list[int], lengths: NDArray[np.float64]) -> None:
+    """Raise FormatError if `spacings` state other sizes than `space directions`."""
+    stated = [float(word) for word in fields.get("spacings").split()]
+    for axis, length in zip(axes, lengths, strict=True):
+        size = abs(stated[axis]) if axis < len(stated) else math.nan
+        if math.isfinite(size) and not math.isclose(size, length, rel_tol=AGREEING):
+            raise FormatError(
+                f"{path} states two sizes of a cell along axis {axis}, {size:.6g} (spacings) and {length:.6g} (space "
+                "directions); delete the wrong one from its header"
+            )
+
+
+def _spaced(
+    path: Path, fields: _Fields, sizes: tuple[int, ...], kinds: list[str]
+) -> tuple[tuple[int, ...], NDArray[np.float64]]:
+    """Return axes and affine from `spacings`, `axis mins` and `axis maxs`; 1 and 0 where they do not say."""
+    spacings, mins, maxs = (_numbers(fields, name, len(sizes)) for name in ("spacings", "axis mins", "axis maxs"))
+    units = _quoted(fields.get("units"))
+    if units and len(units) != len(sizes):
+        raise ValueError(f"{len(units)} units for {len(sizes)} axes")
+    centers = fields.get("centers").lower().split()
+    axes = [axis for axis in range(len(sizes)) if not kinds or kinds[axis] in OF_SPACE]
+    if len(axes) > AXES:  # those whose size is stated, and of these, or of all, the first three
+        known = [axis for axis in axes if math.isfinite(spacings[axis]) or math.isfinite(mins[axis])]
+        axes = (known if len(known) >= AXES else axes)[:AXES]
+    affine = np.zeros((AXES, AXES + 1))
+    scales = scales_of(path, [units[axis] if units else "" for axis in axes], SIZES, [f"axis {axis}" for axis in axes])
+    missing = []
+    for place, axis in enumerate(axes):
+        at_nodes = axis < len(centers) and centers[axis] == "node"
+        steps = sizes[axis] - at_nodes
+        step = spacings[axis]
+        if not math.isfinite(step) and math.isfinite(maxs[axis] - mins[axis]) and steps:
+            step = (maxs[axis] - mins[axis]) / steps
+        if not math.isfinite(step):
+            missing.append(axis)
+            step = 1.0
+        first = mins[axis] if math.isfinite(mins[axis]) else maxs[axis] - step * steps
+        first = first + (0 if at_nodes else step / 2) if math.isfinite(first) else 0.0
+        scale = scales[place]
+        affine[place, place], affine[place, AXES] = scale * step, scale * first
+    if missing and len(axes) == AXES:
+        warn(
+            "%s does not say the size of its cells along %s; 1 mm is taken, unless --spacing gives it",
+            path,
+            "any axis" if len(missing) == AXES else "axis " + " and ".join(map(str, missing)),
+        )
+    return tuple(axes), affine
+
+
+def _scales(path: Path, units: list[str]) -> NDArray[np.float64]:
+    return np.array(scales_of(path, units, "its sizes", [""] * len(units)) or [1.0] * AXES)
+
+
+def _numbers(fields: _Fields, name: str, count: int) -> list[float]:
+    """Return a number for each axis, NaN where none is stated."""
+    words = fields.get(name).split()
+    if words and len(words) != count:
+        raise ValueError(f"{len(words)} {name} for {count} axes")
+    return [float(word) if word.lower() not in UNKNOWN else math.nan for word in words] or [math.nan] * count
+
+
+def _vectors(text: str) -> list[NDArray[np.float64] | None]:
+    """Return the vectors of a field, None for `none`."""
+    if VECTOR.sub("", text).strip():
+        raise ValueError(f"no vectors in {text[:40]!r}")
+    found = []
+    for each in VECTOR.finditer(text):
+        numbers = None if each[1] is None else np.array([float(word) for word in each[1].split(",")])
+        found.append(None if numbers is None or np.isnan(numbers).all() else numbers)
+    return found
+
+
+def _quoted(text: str) -> list[str]:
+    """Return the words of a list, each in quotation marks or not; those that say nothing are empty."""
+    words = [found[1] or found[2] or "" for found in QUOTED.finditer(text)]
+    return ["" if word.strip().lower() in UNKNOWN else word.replace('\\"', '"').strip() for word in words]
+
+
+# --- cells -----------------------------------------------------------------------------------------------
+
+
+def _cells(path: Path, fields: _Fields, header: ImageHeader) -> ReadCells:
+    """Return what reads the cells of a file, after checking that it can."""
+    name = fields["type"].lower()
+    if name not in KINDS:
+        raise FormatError(f"{path} holds cells of type {name[:40]!r}; save them as integers or floats")
+    encoding = ENCODINGS.get(fields["encoding"].lower(), "")
+    if not encoding:
+        raise FormatError(
+            f"{path} is encoded as {fields['encoding'][:40]!r}; save it with encoding raw, gzip, bzip2, text or hex"
+        )
+    kind = np.dtype(KINDS[name])
+    endian = fields.get("endian").lower()
+    if kind.itemsize > 1 and encoding not in ("text",):
+        if endian not in ("little", "big"):
+            raise FormatError(f"{path} does not say the order of its bytes (endian: little or big); save it again")
+        kind = kind.newbyteorder("<" if endian == "little" else ">")
+    lines, skipped = (int(fields.get(key, "0")) for key in ("line skip", "byte skip"))
+    if lines < 0 or skipped < -1 or (skipped == -1 and encoding != "raw"):
+        raise FormatError(
+            f"{path} skips {lines} lines and {skipped} bytes of {encoding} data; give 0 or more, or -1 for raw data"
+        )
+    parts = _parts(path, fields)
+    # Compressed data are skipped once unpacked, plain ones before.
+    part_of = [Part(path=each, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for each, begin in parts]
+    return lambda low, high: read_parts(path, part_of, kind, header.cells, low, high, encoding=encoding)
+
+
+def _parts(path: Path, fields: _Fields) -> list[tuple[Path, int]]:
+    """Return the files that hold the cells, in order, and where in them the data begin."""
+    words = fields.get("data file").split()
+    if not words:
+        return [(path, fields.end)]
+    if words[0] == "LIST":
+        return [(find_detached(path, name), 0) for name in fields.files]
+    if "%" in words[0] and len(words) >= 4:
+        low, high, step = (int(word) for word in words[1:4])
+        return [(find_detached(path, each), 0) for each in number_names(path, words[0], low, high, step)]
+    return [(find_detached(path, fields["data file"]), 0)]
+
+
+# --- writing ---------------------------------------------------------------------------------------------
+
+
+def write_nrrd(volume: Volume, file: BinaryIO) -> None:
+    """Write NRRD: a text header and the values, compressed by gzip; `space origin` is the centre of the first cell.
+
+    Booleans become 0 and 1, and 16-bit floating-point numbers become 32-bit. A space without a name stays
+    without one, so that no program reorients its axes.
+    """
+    kind = _stored(volume.values.dtype)
+    axes = np.asarray(volume.direction) * volume.cell_size  # column i: one cell along axis i
+    centre = np.array(volume.origin) + axes.sum(axis=1) / 2
+    named = WRITTEN_SPACES.get(volume.space)
+    header = (
+        "NRRD0005",
+        f"# phasefill {__version__}, millimetres",
+        f"type: {WRITTEN_TYPES[kind.str[1:]]}",
+        f"dimension: {AXES}",
+        f"space: {named}" if named else f"space dimension: {AXES}",
+        f"sizes: {' '.join(str(cells) for cells in volume.values.shape)}",
+        f"space directions: {' '.join(_vector(axis) for axis in axes.T)}",
+        f"kinds:{AXES * ' domain'}",
+        "endian: little",
+        "encoding: gzip",
+        f"space origin: {_vector(centre)}",
+    )
+    file.write(("\n".join(header) + "\n\n").encode("ascii"))
+    with gzip.GzipFile(filename="", mode="wb", compresslevel=6, fileobj=cast(IO[bytes], file), mtime=0) as packed:
+        for k in range(volume.values.shape[2]):  # layer by layer, so that no second copy is held
+            packed.write(volume.values[:, :, k].astype(kind).tobytes(order="F"))
+
+
+def _stored(kind: np.dtype[np.generic]) -> np.dtype[np.generic]:
+    """Return the type in which NRRD holds numbers of type `kind`, low byte first."""
+    if kind.kind == "f":
+        return np.dtype("<f4" if kind.itemsize <= 4 else "<f8")
+    return np.dtype(np.uint8) if kind.kind == "b" else kind.newbyteorder("<")
+
+
+def _vector(numbers: Iterable[float]) -> str:
+    return "(" + ",".join(f"{float(number):.17g}" for number in numbers) + ")"

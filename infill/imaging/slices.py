@@ -1,0 +1,242 @@
+"""Stacks of images: a multi-page TIFF, or a folder of .tif or .png slices; pages are z, rows y, columns x."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.files.broken import SMALLER, checked_volume, one_line, told_broken
+from infill.imaging.assumed import LOG, warn
+from infill.imaging.images import SIZES, scales_of
+from infill.machine import require_memory
+from infill.volume import AXES, Volume
+
+SLICES = {".tif", ".tiff", ".png"}
+UNCOMPRESSED = 1
+GREY_MODES = {"1", "L", "I", "I;16", "I;16L", "I;16B", "F"}
+# What a size is stated in where nobody measured: pixels, or whatever is one cell long.
+CELLS = {"", "pixel", "pixels", "px", "voxel", "voxels", "unitless", "reference frame", "none", "null", "?"}
+RESOLUTIONS = {2: "inch", 3: "cm"}
+USUAL_DOTS = {72, 96}  # per inch: what programs write that know no size
+DOTS_APART = 0.01  # of an inch's dots
+
+
+@contextlib.contextmanager
+def _no_complaints(path: Path) -> Iterator[None]:
+    """Raise FormatError for problems that tifffile only logs, such as pages missing from a truncated file."""
+    complaints: list[str] = []
+
+    def keep(record: logging.LogRecord) -> bool:
+        if record.levelno >= logging.ERROR:
+            complaints.append(record.getMessage())
+        return False
+
+    logger = logging.getLogger("tifffile")
+    logger.addFilter(keep)
+    try:
+        yield
+    finally:
+        logger.removeFilter(keep)
+    if complaints:
+        said = " ".join(complaints[0].split())
+        raise FormatError(f"{path} is broken or cut off ({said}); save it again")
+
+
+def read_tiff(path: Path) -> Volume:
+    """Read a stack of pages as a volume, with the cell size that it states."""
+    pages, spacing = _tiff_pages(path)
+    return checked_volume(path, pages.T, spacing=spacing)
+
+
+def _tiff_pages(path: Path, *, first: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
+    """Return grey pages [(z,) y, x] and the cell size along x, y, z, which is not looked for but in the first file."""
+    import tifffile
+
+    with _no_complaints(path), told_broken(path), tifffile.TiffFile(path) as tiff:
+        found = tiff.series
+        if not found:
+            raise FormatError(f"{path} holds no pages; save it again")
+        if len(found) > 1:
+            shapes = ", ".join(str(each.shape) for each in found[:4])
+            raise FormatError(f"{path} holds pages of different kinds, {shapes}; save one stack of equal pages")
+        axes, shape = found[0].axes, found[0].shape
+        if "S" in axes or "C" in axes:
+            raise FormatError(
+                f"{path} holds colours or channels (axes {axes}, shape {shape}); save one of them as grey"
+            )
+        if len(shape) > AXES:
+            raise FormatError(f"{path} has {len(shape)} axes ({axes}, shape {shape}); save one stack of it")
+        require_memory(found[0].nbytes, None, SMALLER)
+        _require_whole_pages(path, found[0])
+        return found[0].asarray(), _tiff_spacing(path, tiff) if first else ()
+
+
+def _require_whole_pages(path: Path, series: Any) -> None:  # noqa: ANN401 - tifffile.TiffPageSeries
+    """Raise FormatError for pages, or pieces of pages, that are not there: tifffile would fill them with zeros."""
+    for number, page in enumerate(series.pages):
+        if page is None:
+            raise FormatError(f"{path} lacks page {number} of its series; save it again")
+        counts, whole = page.databytecounts, page.keyframe
+        if not whole.nbytes:
+            raise FormatError(f"{path} has a page {number} without cells; save it again")
+        if not counts or min(counts) <= 0 or min(page.dataoffsets) <= 0:
+            raise FormatError(f"{path} lacks a piece of its page {number}; save it again")
+        if whole.compression == UNCOMPRESSED and not whole.is_tiled:
+            row = whole.nbytes / whole.imagelength
+            padded = row * whole.rowsperstrip * len(counts)  # the last strip may be as long as all others
+            if not whole.nbytes <= sum(counts) <= max(padded, whole.nbytes):
+                raise FormatError(
+                    f"{path} announces {whole.nbytes} bytes for page {number} and holds {sum(counts)}; save it again"
+                )
+
+
+def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.TiffFile
+    """Return the cell size along x, y, z, mm, as stated by OME, by ImageJ or for a printer; 1 if nothing states it."""
+    if tiff.ome_metadata:
+        return _ome_spacing(path, tiff.ome_metadata)
+    page = tiff.pages[0]
+    per_cell = [_length(page, name) for name in ("XResolution", "YResolution")]
+    unit_code = getattr(page.tags.get("ResolutionUnit"), "value", 0)
+    stated = RESOLUTIONS.get(int(unit_code), "") if isinstance(unit_code, int) else ""
+    known = tiff.imagej_metadata
+    if known is None:
+        if not stated:
+            return (1.0,) * AXES
+        return _printed_spacing(path, per_cell, stated)
+    unit = str(known.get("unit", "")).strip()
+    if unit.lower() in CELLS and stated and not _is_usual(per_cell, stated):
+        unit = stated  # as ImageJ itself does
+    units = [unit, *(str(known.get(f"{axis}unit", unit)) for axis in "yz")]
+    depth = known.get("spacing")
+    sizes = [*per_cell, None if depth is None else _positive(depth)]
+    if unit.lower() in CELLS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
+        return (1.0,) * AXES  # nothing was measured
+    scales = scales_of(path, units, SIZES, "xyz")
+    missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
+    if missing and (len(tiff.pages) > 1 or int(known.get("images", 1)) > 1 or missing != ["z"]):
+        warn(
+            "%s does not say the size of its cells along %s; 1 %s is taken, as ImageJ does: unless --spacing gives it",
+            path,
+            " and ".join(missing),
+            unit or "mm",
+        )
+    return tuple(scale * (1.0 if size is None else size) for scale, size in zip(scales, sizes, strict=True))
+
+
+def _ome_spacing(path: Path, text: str) -> tuple[float, ...]:
+    """Return the cell size of OME; where one axis lacks it, that of another."""
+    # Only attributes are read, and the standard parser fetches nothing from outside.
+    pixels = ElementTree.fromstring(text).find(".//{*}Pixels")  # noqa: S314
+    if pixels is None:
+        return (1.0,) * AXES
+    given = [_positive(pixels.get(f"PhysicalSize{axis}")) for axis in "XYZ"]
+    units = [
+        "" if size is None else pixels.get(f"PhysicalSize{axis}Unit", "µm")
+        for axis, size in zip("XYZ", given, strict=True)
+    ]
+    scales = scales_of(path, units, SIZES, "xyz")
+    sizes = [None if size is None else size * scale for size, scale in zip(given, scales, strict=True)]
+    return _filled(path, sizes, (pixels.get("SizeZ") or "1") != "1")
+
+
+def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tuple[float, ...]:
+    """Return the cell size of a file that gives dots per inch or cm, as for a printer, and no distance of its pages."""
+    if _is_usual(per_cell, unit):
+        LOG.info(
+            "%s states dots per inch as programs do that know no size; cells of 1 mm are taken, unless --spacing gives "
+            "them",
+            path,
+        )
+        return (1.0,) * AXES
+    scale = scales_of(path, [unit], SIZES, "x")[0]
+    return _filled(path, [*(None if size is None else size * scale for size in per_cell), None], True)
+
+
+def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[float, ...]:
+    """Return sizes in mm with another one in place of each that is missing, and warn of it."""
+    known = [size for size in sizes if size is not None]
+    if not known:
+        return (1.0,) * AXES
+    missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
+    if missing and (has_depth or missing != ["z"]):
+        warn(
+            "%s does not say the size of its cells along %s; %.6g mm is taken, as along another axis, unless "
+            "--spacing gives it",
+            path,
+            " and ".join(missing),
+            known[0],
+        )
+    return tuple(known[0] if size is None else size for size in sizes)
+
+
+def _length(page: Any, name: str) -> float | None:  # noqa: ANN401 - tifffile.TiffPage
+    """Return the length of a cell by a resolution, cells per length, which is a fraction; None if there is none."""
+    value = getattr(page.tags.get(name), "value", None)
+    if not isinstance(value, tuple) or len(value) != 2 or not value[0]:
+        return None
+    return float(value[1]) / float(value[0])
+
+
+def _is_usual(per_cell: list[float | None], unit: str) -> bool:
+    inches = 1.0 if unit == "inch" else 2.54
+    return all(
+        not size or any(abs(inches / size - dots) < DOTS_APART * dots for dots in USUAL_DOTS) for size in per_cell
+    )
+
+
+def _positive(value: Any) -> float | None:  # noqa: ANN401 - a number or a text
+    """Return the absolute value of a number, or None if it is none, or 0."""
+    try:
+        number = abs(float(value))
+    except (TypeError, ValueError):
+        return None
+    return number if 0 < number < math.inf else None
+
+
+def read_slices(folder: Path, names: list[Path]) -> Volume:
+    """Return a volume with one file per slice, in the order of the names."""
+    pages: NDArray[Any] | None = None
+    spacing = (1.0,) * AXES
+    for number, name in enumerate(names):
+        page, sizes = _read_png(name) if name.suffix.lower() == ".png" else _tiff_pages(name, first=number == 0)
+        if page.ndim != 2:
+            raise FormatError(f"{name} has the shape {page.shape}; a folder of slices holds one grey page per file")
+        if pages is None:
+            require_memory(page.nbytes * len(names), None, SMALLER)
+            pages, spacing = np.empty((len(names), *page.shape), dtype=page.dtype), sizes
+        if page.shape != pages.shape[1:] or page.dtype != pages.dtype:
+            raise FormatError(
+                f"{name} is {page.shape} {page.dtype} and {names[0].name} is {pages.shape[1:]} {pages.dtype}; "
+                f"keep only slices of one scan in {folder}"
+            )
+        pages[number] = page
+    assert pages is not None
+    return checked_volume(folder, pages.T, spacing=spacing)
+
+
+def _read_png(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
+    from PIL import Image
+
+    try:
+        with told_broken(path), Image.open(path) as picture:
+            if picture.mode not in GREY_MODES:
+                raise FormatError(f"{path} is a picture of mode {picture.mode}; save the slices as grey")
+            return np.asarray(picture), (1.0,) * AXES
+    except Image.DecompressionBombError as error:
+        raise FormatError(f"{path} is too large a picture ({one_line(error)}); save the stack as .tif") from error
+
+
+def natural(path: Path) -> list[tuple[int, str]]:
+    """Return a sort key by which slice 9 comes before slice 10."""
+    parts = re.split(r"([0-9]+)", path.name.lower())
+    return [(int(part), "") if number % 2 else (0, part) for number, part in enumerate(parts)]

@@ -1,0 +1,208 @@
+"""`read_volume` and `write_field`: a volume from a file and back.
+
+    .npy .npz           [x, y, z], or [z, y, x] where the file says so
+    .tif .tiff          pages are z, rows y, columns x; likewise a folder of .tif or .png slices
+    .nrrd .nii .mha …   with their place in space
+    .mgz .mgh           of FreeSurfer
+    .vtk .vti           images of VTK, legacy and XML
+    .dcm                frames of DICOM, where they say they lie, by pydicom (extra `medical`)
+    a DICOM folder      the only series in it, or the one that is named
+
+Values keep their type, and are copied at most once.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import BinaryIO
+
+from infill.errors import FormatError, ParameterError
+from infill.files.broken import not_empty, told_unreadable
+from infill.files.whole_files import whole_file
+from infill.grid import spacing_of
+from infill.imaging.arrays import read_npy, read_npz, write_npz
+from infill.imaging.assumed import keep_warnings
+from infill.imaging.dicom import read_dicom
+from infill.imaging.freesurfer import read_mgh
+from infill.imaging.metaimage import read_meta_image
+from infill.imaging.nifti import read_nifti
+from infill.imaging.nrrd import read_nrrd, write_nrrd
+from infill.imaging.slices import SLICES, natural, read_slices, read_tiff
+from infill.imaging.vtk_images import read_vtk
+from infill.imaging.vtk_xml import read_vti
+from infill.volume import AXES, Volume
+
+DICOM = ".dcm"
+
+
+def read_volume(
+    path: str | os.PathLike[str],
+    *,
+    array: str | None = None,
+    series: str | None = None,
+    frame: int | None = None,
+    spacing: float | tuple[float, ...] | None = None,
+) -> Volume:
+    """Return the volume that a file or a folder holds.
+
+    Parameters
+    ----------
+    path : str or Path
+        .npy, .npz, .tif, .tiff, .nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd, .mgz, .mgh, .vtk, .vti; with SimpleITK also
+        .dcm; a folder of .tif or .png slices, taken in the order of the numbers in their names; a
+        folder of DICOM slices.
+    array : str, optional
+        Name of the array to read, if an .npz holds several with three axes.
+    series : str, optional
+        UID of the series to read, if a DICOM folder holds several.
+    frame : int, optional
+        Which volume to read, counted from 0, of a file that holds several: a series in time, or several numbers per
+        cell. Medical images, DICOM folders, and images of FreeSurfer and VTK have frames.
+    spacing : float or (hx, hy, hz), optional
+        Cell size, mm, in the place of what the file says; some DICOM files do not say it.
+
+    Returns
+    -------
+    Volume
+        Values [x, y, z] of the type in the file. Its spacing and place are in mm, as stated in the file, or else
+        cells of 1 at the origin. Medical images lie in LPS; their origin is converted from the centre of the
+        first cell, which files give, to its lower corner. An .npy is memory-mapped, not loaded.
+
+    Raises
+    ------
+    FormatError
+        If there is no such file, it is of an unknown kind, is broken, or holds no grey volume.
+    MemoryLimitError
+        If the values need more memory than is available.
+    ParameterError
+        If `array`, `series` or `frame` is given for a file that has none.
+    """
+    source = Path(path)
+    suffix = next((each for each in READERS if source.name.lower().endswith(each)), "")
+    if array is not None and suffix != ".npz":
+        raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
+    if series is not None and not source.is_dir():
+        raise ParameterError(f"series is {series!r}, and {source} is no folder; give the one that holds the series")
+    if frame is not None and not source.is_dir() and suffix and suffix not in FRAMED:
+        raise _no_frames(frame, source)
+    size = None if spacing is None else spacing_of(spacing, AXES)
+    with keep_warnings() as kept:
+        volume = _read(source, suffix, array=array, series=series, frame=frame, size=size)
+    if kept:
+        volume = replace(volume, warnings=(*volume.warnings, *kept))
+    return volume if size is None else replace(volume, spacing=size)
+
+
+def _no_frames(frame: int, source: Path) -> ParameterError:
+    return ParameterError(f"frame is {frame!r}, and only {', '.join(FRAMED)} hold frames, not {source}; leave it out")
+
+
+def _read(
+    source: Path,
+    suffix: str,
+    *,
+    array: str | None,
+    series: str | None,
+    frame: int | None,
+    size: tuple[float, ...] | None,
+) -> Volume:
+    with told_unreadable(source):
+        if source.is_dir():
+            return _read_folder(source, series, frame, size)
+        if not source.is_file():
+            raise FormatError(f"there is no file {source}; check the name")
+        not_empty(source)
+        if not suffix:
+            known = ", ".join(READERS)
+            raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {known} or a folder of slices")
+        if suffix == DICOM:
+            return read_dicom(source, frame, spacing=size)
+        if frame is not None:
+            return FRAMED[suffix](source, frame)
+        return read_npz(source, array) if suffix == ".npz" else READERS[suffix](source)
+
+
+def holds_dicom(path: Path, series: str | None = None) -> bool:
+    """Return whether `read_volume` reads a path as DICOM: a file by its suffix, a folder by those of its files."""
+    if not path.is_dir():
+        return path.is_file() and path.stat().st_size > 0 and path.suffix.lower() == DICOM
+    names = _names(path)
+    slices = any(each.suffix.lower() in SLICES for each in names)
+    return bool(names) and (not slices or series is not None or any(each.suffix.lower() == DICOM for each in names))
+
+
+def _names(folder: Path) -> list[Path]:
+    return sorted((each for each in folder.iterdir() if each.is_file() and each.name[0] != "."), key=natural)
+
+
+def _read_folder(folder: Path, series: str | None, frame: int | None, size: tuple[float, ...] | None) -> Volume:
+    names = _names(folder)
+    if not names:
+        raise FormatError(f"{folder} holds no files; give the folder with the slices in it")
+    if holds_dicom(folder, series):
+        return read_dicom(folder, frame, series=series, spacing=size)
+    if frame is not None:
+        raise _no_frames(frame, folder)
+    slices = [each for each in names if each.suffix.lower() in SLICES]
+    if len({each.suffix.lower()[:4] for each in slices}) > 1:
+        raise FormatError(f"{folder} holds slices as .png and as .tif; keep only those of one scan")
+    return read_slices(folder, slices)
+
+
+def write_field(volume: Volume, path: str | os.PathLike[str]) -> Path:
+    """Write a volume; an existing file is replaced once the new one is complete.
+
+    Parameters
+    ----------
+    volume : Volume
+        Values [x, y, z], and where they lie in mm.
+    path : str or Path
+        .npz (arrays `values`, `spacing`, `origin`, `direction` and `space`) or .nrrd.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FormatError
+        For an unknown suffix.
+    OutputError
+        If the file cannot be written.
+    """
+    target = Path(path)
+    write = field_writer(target)
+    with whole_file(target) as file:
+        write(volume, file)
+    return target
+
+
+def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
+    """Return the function that writes the format of `path`, or raise FormatError."""
+    suffix = path.suffix.lower()
+    if suffix not in FIELD_WRITERS:
+        given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
+        raise FormatError(f"cannot tell a format of volumes from {given}; use one of {', '.join(FIELD_WRITERS)}")
+    return FIELD_WRITERS[suffix]
+
+
+FRAMED: dict[str, Callable[..., Volume]] = {
+    **dict.fromkeys((".nrrd", ".nhdr"), read_nrrd),
+    **dict.fromkeys((".nii", ".nii.gz"), read_nifti),
+    **dict.fromkeys((".mha", ".mhd"), read_meta_image),
+    DICOM: read_dicom,
+    **dict.fromkeys((".mgz", ".mgh", ".mgh.gz"), read_mgh),
+    ".vtk": read_vtk,
+    ".vti": read_vti,
+}
+READERS: dict[str, Callable[..., Volume]] = {
+    ".npy": read_npy,
+    ".npz": read_npz,
+    ".tif": read_tiff,
+    ".tiff": read_tiff,
+    **FRAMED,  # a frame may be left out
+}
+FIELD_WRITERS: dict[str, Callable[[Volume, BinaryIO], None]] = {".npz": write_npz, ".nrrd": write_nrrd}

@@ -1,0 +1,29 @@
+"""The surface of what lies inside the walls of a part."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from infill.interior.interior import Space
+from infill.isosurfaces.sparse_marching import extract_bricks
+from infill.meshes.solids import shortened
+from infill.phasefield.allen_cahn import Smoothing
+from infill.phasefield.refining import on_profile
+from infill.phasefield.sparse import smooth_bricks
+from infill.surface import Surface
+
+INTERFACE = 2.0  # cells: in thinner ones, curvature moves the surface slower than it should
+SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
+
+
+def inner_side(space: Space, *, overlap: float, tolerance: float, threads: int | None) -> Surface:
+    """Return the surface of what lies inside the walls, and reaches into them by the overlap, mm."""
+    field = smooth_bricks(
+        on_profile(space.depth + np.float32(overlap / space.size), INTERFACE, threads=threads),
+        Smoothing(steps=0),
+        spacing=(space.size,) * 3,
+        threads=threads,
+    )
+    origin = tuple((space.origin - space.size / 2).tolist())
+    surface = extract_bricks(field, spacing=(space.size,) * 3, origin=origin, threads=threads)
+    return shortened(surface, tolerance) if tolerance > 0 else surface

@@ -1,0 +1,27 @@
+"""What lies inside the walls of a part, as seen from above."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from infill.interior.interior import BAND, Space
+
+LOW = 0.1  # cells: where no cell of a column lies deeper, rounding may say whether one lies inside
+SIMPLER = 0.05  # cells
+MITRE = 5.0  # times as far as its sides, at most, a sharp corner is moved
+
+
+def shadow_of(space: Space) -> shapely.Geometry:
+    """Return the polygons, mm, in which some cell of a column lies inside the walls, smooth between the cells.
+
+    Where voids reach through the walls, these count.
+    """
+    from skimage.measure import find_contours
+
+    deepest = np.pad(space.deepest - np.float32(space.through), 1, constant_values=-BAND)
+    rings = find_contours(deepest, LOW)  # type: ignore[no-untyped-call]
+    area = shapely.build_area(shapely.MultiLineString([ring - 1 for ring in rings]))
+    # Depths rise by a cell in every cell from an upright wall.
+    area = shapely.simplify(shapely.buffer(area, LOW, join_style="mitre", mitre_limit=MITRE), SIMPLER)
+    return shapely.transform(area, lambda cells: space.origin[:2] + space.size * cells)

@@ -1,0 +1,305 @@
+"""Components of solid and of void in a field of bricks: how many, how large, and what smoothing did to them.
+
+Everything is found from rows of sixteen bits and from the bricks that are kept, so that the cost grows with the
+surface. Solid cells are joined by faces, void cells by faces and edges, as marching cubes joins them on raw data.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.isosurfaces.sparse_marching import rows_above
+from infill.kernels import components as kernels
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK, VOID_BRICK
+from infill.kernels.sparse_marching import ROWS, volumes
+from infill.kernels.threads import in_threads, thread_count
+from infill.meshes.shells import vertex_components
+from infill.phasefield.sparse import SparseField
+from infill.surface import Surface
+
+
+@dataclass(frozen=True, kw_only=True)
+class Components:
+    """The components of solid, or of void, of one field.
+
+    Parameters
+    ----------
+    cells : (b,) int64
+        Cells of each component.
+    thick : (b,) bool
+        Whether a component contains 2 x 2 x 2 cells somewhere, so is more than one cell thick; empty if not requested.
+    bits, bricks, starts, alone, names
+        How a cell finds its component: bits of every row, numbers of runs, bricks of one value, and names for both.
+    """
+
+    cells: NDArray[np.int64]
+    thick: NDArray[np.bool_]
+    bits: NDArray[np.uint16]
+    bricks: NDArray[np.int64]
+    starts: NDArray[np.int16]
+    alone: NDArray[np.int32]
+    names: NDArray[np.int32]
+
+    @property
+    def count(self) -> int:
+        """Number of components."""
+        return len(self.cells)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shells:
+    """The connected parts of a surface.
+
+    Parameters
+    ----------
+    names : (V,) int32
+        Shell of each vertex; -1 for one that no face uses.
+    volume : (s,) float64
+        Enclosed volume, mm³; negative for the walls of a cavity.
+    slope : (s,) float64
+        Its change when the level rises by one, mm³.
+    euler : (s,) int64
+        Euler number.
+    """
+
+    names: NDArray[np.int32]
+    volume: NDArray[np.float64]
+    slope: NDArray[np.float64]
+    euler: NDArray[np.int64]
+
+    @property
+    def components(self) -> int:
+        """Components of solid."""
+        return int((self.volume > 0).sum())
+
+    @property
+    def cavities(self) -> int:
+        """Components of void that solid encloses."""
+        return int((self.volume <= 0).sum())
+
+    @property
+    def tunnels(self) -> int:
+        """Handles: holes that pass through."""
+        return int((2 - self.euler).sum() // 2)
+
+
+def solid_bits(field: SparseField, *, level: float = 0.0, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return which cells of the kept bricks are above the level, (n, rows) uint16."""
+    return rows_above(field, field.values, level, threads=threads)
+
+
+def data_bits(field: SparseField, *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return which cells of the kept bricks are solid in the data, (n, rows) uint16."""
+    return rows_above(field, field.data, 0.0, threads=threads)
+
+
+def cores(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return the cells at the lower corner of 2 x 2 x 2 solid ones: what is more than one cell thick."""
+    return _meet_or_spread(field, bits, True, 1, threads)
+
+
+def opened(field: SparseField, core: NDArray[np.uint16], *, threads: int | None = None) -> NDArray[np.uint16]:
+    """Return the cells of those 2 x 2 x 2 blocks."""
+    return _meet_or_spread(field, core, False, -1, threads)
+
+
+def sturdy(
+    field: SparseField,
+    bits: NDArray[np.uint16],
+    *,
+    void: bool = False,
+    cells: int = 2,
+    threads: int | None = None,
+) -> NDArray[np.uint16]:
+    """Return the cells of all blocks of `cells` along each side that are solid, or void: what is that thick."""
+    kind = VOID_BRICK if void else SOLID_BRICK
+    found = ~bits if void else bits
+    for _ in range(cells - 1):
+        found = _meet_or_spread(field, found, True, 1, threads, kind)
+    for _ in range(cells - 1):
+        found = _meet_or_spread(field, found, False, -1, threads, kind)
+    return found
+
+
+def grown(
+    field: SparseField, bits: NDArray[np.uint16], cells: int, *, threads: int | None = None
+) -> NDArray[np.uint16]:
+    """Return the cells within a given number of cells of those that are set, along each axis."""
+    for _ in range(cells):
+        bits = _meet_or_spread(field, _meet_or_spread(field, bits, False, -1, threads), False, 1, threads)
+    return bits
+
+
+def set_at(
+    field: SparseField, bits: NDArray[np.uint16], cells: NDArray[np.integer], *, void: bool = False
+) -> NDArray[np.bool_]:
+    """Return which cells (N, 3) of the grid are set: of solid, of which there is none beyond it, or of void."""
+    inside: NDArray[np.bool_] = np.all((cells >= 0) & (cells < field.shape), axis=1)
+    brick, cell = np.divmod(np.where(inside[:, None], cells, 0) + 1, BRICK)
+    slot = field.slots[tuple(brick.T)]
+    row = bits[slot, cell[:, 0] * BRICK[1] + cell[:, 1]] if len(bits) else np.zeros(len(cells), dtype=np.uint16)
+    there = np.where(
+        slot >= 0, (row >> cell[:, 2].astype(np.uint16)) & 1, slot == (VOID_BRICK if void else SOLID_BRICK)
+    )
+    found: NDArray[np.bool_] = (there != 0) & inside | (void & ~inside)
+    return found
+
+
+def _meet_or_spread(
+    field: SparseField, bits: NDArray[np.uint16], meet: bool, way: int, threads: int | None, kind: int = SOLID_BRICK
+) -> NDArray[np.uint16]:
+    out = np.empty_like(bits)
+    in_threads(
+        kernels.meet_or_spread,
+        field.slots,
+        field.where,
+        bits,
+        kind,
+        meet,
+        way,
+        out,
+        threads=thread_count(threads),
+    )
+    return out
+
+
+def components(
+    field: SparseField, bits: NDArray[np.uint16], *, void: bool = False, whole: bool = True, thickness: bool = False
+) -> Components:
+    """Return the components of solid of a field whose solid cells are `bits`, or those of void, the outside first.
+
+    Without `whole`, only the cells in `bits` count, not the bricks that are solid throughout. With `thickness`, the
+    result says which components are more than one cell thick.
+    """
+    alone = np.full(field.slots.shape, -1, dtype=np.int32)
+    if void:
+        bits = ~bits
+        single = (field.slots < 0) & (field.slots != SOLID_BRICK)
+    else:
+        single = (field.slots == SOLID_BRICK) & whole
+    bricks = np.empty(len(bits), dtype=np.int64)
+    starts = np.empty((len(bits), ROWS), dtype=np.int16)
+    runs = kernels.number_runs(bits, bricks, starts)
+    alone[single] = runs + np.arange(single.sum())
+    parent = np.arange(runs + int(single.sum()))
+    if void:
+        kernels.join_beyond(field.where, bits, bricks, starts, field.shape, parent)
+        rim = np.zeros(alone.shape, dtype=bool)
+        for axis in range(3):
+            rim[tuple([0, -1] if a == axis else slice(None) for a in range(3))] = True
+        parent[alone[single & rim]] = 0
+    kernels.join_alone(alone, parent)
+    kernels.join_runs(field.slots, field.where, bits, bricks, starts, alone, parent, void)
+    names = np.empty(len(parent), dtype=np.int32)
+    count = kernels.name_sets(parent, names)
+    cells = np.zeros(count, dtype=np.int64)
+    kernels.count_cells(field.where, bits, bricks, starts, field.shape, names, cells)
+    np.add.at(cells, names[alone[single]], sides_within(np.argwhere(single), field.shape).prod(axis=1))
+    if not void:  # run 0 is whatever lies beyond the grid, which is not solid
+        cells, names = cells[1:], names - 1
+    every = Components(
+        cells=cells, thick=np.empty(0, dtype=bool), bits=bits, bricks=bricks, starts=starts, alone=alone, names=names
+    )
+    return with_thickness(field, every, void=void) if thickness else every
+
+
+def with_thickness(field: SparseField, every: Components, *, void: bool = False) -> Components:
+    """Return the components together with which of them are more than one cell thick."""
+    thick = np.zeros(every.count, dtype=bool)
+    kind = VOID_BRICK if void else SOLID_BRICK
+    core = _meet_or_spread(field, every.bits, True, 1, threads=1, kind=kind)
+    kernels.mark_runs(every.bits, every.bricks, every.starts, every.names, core, thick)
+    places = np.argwhere(every.alone >= 0)
+    if not void:  # a solid brick that the grid cuts off may be a sheet there; void continues beyond the grid
+        places = places[(sides_within(places, field.shape) > 1).all(axis=1)]
+    thick[every.names[every.alone[tuple(places.T)]]] = True
+    return replace(every, thick=thick)
+
+
+def sides_within(places: NDArray[np.integer], shape: tuple[int, int, int]) -> NDArray[np.int64]:
+    """Return how many cells of whole bricks lie on the grid along each axis, (n, 3)."""
+    low = np.maximum(places * BRICK, 1)
+    high = np.minimum((places + 1) * BRICK, np.array(shape) + 1)
+    sides: NDArray[np.int64] = np.maximum(high - low, 0)
+    return sides
+
+
+def shared_cells(one: Components, other: Components) -> NDArray[np.int64]:
+    """Return rows (n, 3), one component of each and the cells they share, on the same bricks; pairs may recur."""
+    found = kernels.overlaps(
+        one.bits, one.bricks, one.starts, one.names, other.bits, other.bricks, other.starts, other.names
+    )
+    single = one.alone >= 0
+    own, theirs = one.names[one.alone[single]], other.names[other.alone[single]]
+    alone = np.stack([own, theirs, np.full(len(own), CELLS)], axis=1).astype(np.int64)
+    return np.concatenate([found, alone])
+
+
+def shells(
+    surface: Surface,
+    rate: NDArray[np.float32],
+    *,
+    total: tuple[float, float] | None = None,
+    threads: int | None = None,
+) -> Shells:
+    """Return the connected parts of a closed surface; `total` is the volume and the slope of all, if they are known."""
+    names, count = shell_names(surface)
+    if total is not None and count == 1 and names.min() == 0:
+        return Shells(
+            names=names,
+            volume=np.array(total[:1]),
+            slope=np.array(total[1:]),
+            euler=np.array([len(names) - len(surface.faces) // 2]),
+        )
+    shell = names[surface.faces[:, 0]]
+    own, change = face_sums(surface, rate, threads=threads)
+    volume, slope = (np.bincount(shell, weights=each, minlength=count).astype(np.float64) for each in (own, change))
+    used = names if names.min(initial=0) >= 0 else names[names >= 0]
+    corners, sides = np.bincount(used, minlength=count), np.bincount(shell, minlength=count)
+    return Shells(names=names, volume=volume, slope=slope, euler=corners - sides // 2)
+
+
+def shell_names(surface: Surface) -> tuple[NDArray[np.int32], int]:
+    """Return for every vertex (V,) the number of the connected part it belongs to, and how many parts there are."""
+    return vertex_components(surface.faces, len(surface.vertices), compiled=True)
+
+
+def face_sums(
+    surface: Surface, rate: NDArray[np.float32], *, threads: int | None = None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return for every face the volume between it and a central point, mm³, and its slope over the level."""
+    own, change = np.empty(len(surface.faces)), np.empty(len(surface.faces))
+    middle = surface.vertices[len(surface.vertices) // 2]
+    in_threads(volumes, surface.vertices, rate, surface.faces, middle, own, change, threads=thread_count(threads))
+    return own, change
+
+
+def without(values: NDArray[Any], field: SparseField, every: Components, small: NDArray[np.bool_]) -> NDArray[Any]:
+    """Return data (nx, ny, nz) with the components marked in `small` (b,) made void; floating-point data as float32."""
+    out = values.astype(np.float32) if values.dtype.kind == "f" else values.copy()
+    void = False if values.dtype == bool else -1
+    kernels.erase(out, field.where, every.bits, every.bricks, every.starts, every.names, small, void)
+    single = np.argwhere(every.alone >= 0)
+    for place in single[small[every.names[every.alone[tuple(single.T)]]]]:  # bricks that are solid throughout
+        low = np.maximum(place * BRICK - 1, 0)
+        out[tuple(slice(a, b) for a, b in zip(low, (place + 1) * BRICK - 1, strict=True))] = void
+    return out
+
+
+def cells_of(field: SparseField, every: Components, number: int) -> NDArray[np.int64]:
+    """Return the cells (n, 3) of a component that lie in kept bricks, counted from the first cell of the grid."""
+    bricks, rows = np.nonzero(every.bits)
+    solid = every.bits[bricks, rows, None] >> np.arange(BRICK[2], dtype=np.uint16) & 1
+    which, k = np.nonzero(solid)
+    brick, row = bricks[which], rows[which]
+    place = field.where[brick].astype(np.int64) * BRICK + np.stack([row // BRICK[1], row % BRICK[1], k], axis=1)
+    label = np.empty(len(place), dtype=np.int32)
+    kernels.label_cells(
+        place.astype(np.int32), field.slots, every.bits, every.bricks, every.starts, every.alone, every.names, 0, label
+    )
+    cells: NDArray[np.int64] = place[label == number] - 1
+    return cells

@@ -1,0 +1,389 @@
+"""The closed surface of a field in bricks: marching cubes where the surface runs, and nowhere else.
+
+It is the same surface as `infill.surface.extract` finds on the whole field: the same vertices, to rounding, and the
+same Euler number. Signs are examined sixteen cells at a time, as bits of one number; only cubes that the surface
+crosses are examined individually. A cube whose signs alone decide its triangles takes them from a table that is
+derived here; the few others are left to scikit-image, so that saddles are decided in only one way (Lewiner 2003).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.contours.zero_contours import CLEARANCE, TIE
+from infill.errors import GeometryError
+from infill.kernels import sparse_marching as kernels
+from infill.kernels.sparse import BRICK, CELLS, SOLID_BRICK
+from infill.kernels.threads import in_threads, thread_count
+from infill.phasefield.sparse import SparseField
+from infill.surface import Surface
+
+# Corner i, j, k of a cube has number i + 2 j + 4 k. An edge leads from its lower corner along its axis.
+EDGES = [(axis, corner) for axis in range(3) for corner in range(8) if not corner >> axis & 1]
+CORNERS = 8
+IN_A_ROW = 500  # cubes
+LARGE = 2000  # bricks: fewer than this make a surface in a few milliseconds
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cubes:
+    """What the signs say about a cube, by the number whose bits are its solid corners.
+
+    Parameters
+    ----------
+    triangles : (256, 5, 3) int8
+        The edges that the corners of each triangle lie on, as `EDGES` numbers them.
+    counts : (256,) int8
+        Number of triangles; `UNDECIDED` where the signs do not determine it.
+    crossings : (256, 13) int8
+        The edges whose ends have different signs, and last their number.
+    edges : (12, 2) int8
+        Axis and lower corner of each edge.
+    """
+
+    triangles: NDArray[np.int8]
+    counts: NDArray[np.int8]
+    crossings: NDArray[np.int8]
+    edges: NDArray[np.int8]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Signs:
+    """Which cells are above a level, and where that does not say how the surface runs.
+
+    Parameters
+    ----------
+    bits : (n, 64) uint16
+        The cells of the kept bricks, a number per row.
+    doubt : (m, 3) int32
+        Bricks with cubes whose triangles depend on values, not on signs alone.
+    """
+
+    bits: NDArray[np.uint16]
+    doubt: NDArray[np.int32]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Level:
+    """A surface and how it responds to its level.
+
+    Parameters
+    ----------
+    surface : Surface, mm
+    rate : (V, 3) float32
+        How far each vertex moves when the level rises by one, mm.
+    signs : Signs
+        Of the cells it lies between.
+    """
+
+    surface: Surface
+    rate: NDArray[np.float32]
+    signs: Signs
+
+
+def extract_bricks(
+    field: SparseField,
+    *,
+    spacing: tuple[float, ...],
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    level: float = 0.0,
+    threads: int | None = None,
+) -> Surface:
+    """Return the surface of {phi > level}, closed and facing outwards, mm: see `infill.isosurface`.
+
+    Raises
+    ------
+    GeometryError
+        If nothing is above the level.
+    """
+    return extract_level(field, spacing=spacing, origin=origin, level=level, threads=threads).surface
+
+
+def extract_level(
+    field: SparseField,
+    *,
+    spacing: tuple[float, ...],
+    origin: tuple[float, ...] = (0.0, 0.0, 0.0),
+    level: float = 0.0,
+    threads: int | None = None,
+) -> Level:
+    """Return what `extract_bricks` returns, and how its vertices move with the level."""
+    threads = thread_count(threads)
+    cubes = cube_table()
+    values = field.values.reshape(-1, CELLS)
+    numbers, bits = _numbers(level), rows_above(field, field.values, level, threads=threads)
+    places = _crossed(field, bits, threads)
+    index = np.full(field.slots.shape, -1, dtype=np.int32)
+    index[tuple(places.T)] = np.arange(len(places))
+    masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
+    starts = np.empty(masks.shape, dtype=np.int16)
+    counts = np.zeros((len(places) + 1, 3), dtype=np.int64)  # vertices, triangles, undecided cubes
+    in_threads(
+        kernels.count, field.slots, places, bits, field.shape, cubes.counts, masks, starts, counts[1:], threads=threads
+    )
+    offsets = np.cumsum(counts, axis=0)
+    if offsets[-1, 0] == 0:
+        raise GeometryError(f"nothing is left above the level {level:g}: no surface; smooth less, or use finer voxels")
+    vertices = np.empty((offsets[-1, 0], 3))
+    rate = np.zeros((offsets[-1, 0], 3), dtype=np.float32)
+    faces = np.empty((offsets[-1, 1], 3), dtype=np.int32)
+    corners = np.empty((offsets[-1, 2], CORNERS), dtype=np.float32)
+    edges = np.empty((offsets[-1, 2], len(EDGES)), dtype=np.int32)
+    lowest = np.empty((offsets[-1, 2], 3), dtype=np.int32)
+    in_threads(
+        kernels.write,
+        field.slots,
+        places,
+        index,
+        values,
+        bits,
+        field.shape,
+        numbers,
+        cubes.counts,
+        cubes.triangles,
+        cubes.crossings,
+        masks,
+        starts,
+        offsets,
+        cubes.edges,
+        vertices,
+        rate,
+        faces,
+        corners,
+        edges,
+        lowest,
+        threads=threads,
+    )
+    if len(corners):
+        extra, more = _undecided(corners, edges, lowest, len(vertices))
+        vertices, faces = np.concatenate([vertices, extra]), np.concatenate([faces, more])
+        rate = np.concatenate([rate, np.zeros((len(extra), 3), dtype=np.float32)])
+    in_threads(kernels.place, vertices, rate, np.array(spacing), np.array(origin), threads=threads)
+    signs = Signs(bits=bits, doubt=places[counts[1:, 2] > 0])
+    return Level(surface=Surface(vertices=vertices, faces=faces), rate=rate, signs=signs)
+
+
+def measured(
+    field: SparseField, *, spacing: tuple[float, ...], level: float, threads: int | None = None
+) -> tuple[float, float] | None:
+    """Return the volume of the surface at a level, mm³, and its slope over the level, without making the surface.
+
+    None if there is a cube that signs do not decide: then only the surface itself can tell. Also None for a small
+    surface, which is made in no time.
+    """
+    if len(field.where) < LARGE:
+        return None
+    count = thread_count(threads)
+    values, numbers, cubes = field.values.reshape(-1, CELLS), _numbers(level), cube_table()
+    bits = rows_above(field, field.values, level, threads=count)
+    parts = in_threads(
+        kernels.measure,
+        field.slots,
+        _crossed(field, bits, count),
+        bits,
+        values,
+        field.shape,
+        numbers,
+        cubes.counts,
+        cubes.triangles,
+        cubes.crossings,
+        cubes.edges,
+        np.array(field.shape) / 2,
+        threads=count,
+    )
+    volume, slope, undecided = (sum(part[n] for part in parts) for n in range(3))
+    sixth = math.prod(spacing) / 6
+    return None if undecided else (volume * sixth, slope * sixth)
+
+
+def _numbers(level: float) -> tuple[np.float32, np.float32, np.float32]:
+    return np.float32(level), np.float32(CLEARANCE), np.float32(TIE)
+
+
+def rows_above(
+    field: SparseField, values: NDArray[Any], level: float, *, threads: int | None = None
+) -> NDArray[np.uint16]:
+    """Return which cells of the kept bricks have `values` (n, 8, 8, 16) above the level, a number per row: (n, 64)."""
+    bits = np.empty((len(field.where), kernels.ROWS), dtype=np.uint16)
+    flat, limit = values.reshape(-1, CELLS), values.dtype.type(level)
+    in_threads(kernels.bits_above, flat, field.where, limit, field.shape, bits, threads=thread_count(threads))
+    return bits
+
+
+def _crossed(field: SparseField, bits: NDArray[np.uint16], threads: int | None) -> NDArray[np.int32]:
+    """Return the bricks in which, or between which and the next ones, the surface around the cells in `bits` runs."""
+    places = _near_surface(field.slots, field.shape)
+    found = np.empty(len(places), dtype=bool)
+    in_threads(kernels.differing, field.slots, places, bits, field.shape, found, threads=thread_count(threads))
+    return places[found]
+
+
+def _near_surface(slots: NDArray[np.int32], shape: tuple[int, int, int]) -> NDArray[np.int32]:
+    """Return the bricks in which, or between which and the next ones, the surface may run: (n, 3)."""
+    kind = (slots == SOLID_BRICK).astype(np.int8)
+    kind[slots >= 0] = 2
+    for axis, (count, size) in enumerate(zip(shape, BRICK, strict=True)):
+        # Solid bricks that reach beyond the grid contain void.
+        ends = [0] if (count + 1) % size == 0 else [0, (count + 1) // size]
+        edge = tuple(ends if a == axis else slice(None) for a in range(3))
+        kind[edge] = np.where(kind[edge] == 1, 2, kind[edge])
+    low, high = kind, kind
+    for axis in range(3):
+        after = np.zeros([1 if a == axis else m for a, m in enumerate(kind.shape)], dtype=np.int8)
+        inner = tuple(slice(1, None) if a == axis else slice(None) for a in range(3))
+        low = np.minimum(low, np.concatenate([low[inner], after], axis=axis))
+        high = np.maximum(high, np.concatenate([high[inner], after], axis=axis))
+    return np.argwhere((low != high) | (high == 2)).astype(np.int32)
+
+
+@cache
+def cube_table() -> Cubes:
+    """Return the triangles of every cube whose signs decide them, derived by tracing around its faces."""
+    triangles, counts = np.zeros((256, 5, 3), dtype=np.int8), np.zeros(256, dtype=np.int8)
+    crossings = np.zeros((256, len(EDGES) + 1), dtype=np.int8)
+    number = {edge: n for n, edge in enumerate(EDGES)}
+    for signs in range(256):
+        crossed = [n for n, (axis, at) in enumerate(EDGES) if (signs >> at ^ signs >> (at | 1 << axis)) & 1]
+        crossings[signs, : len(crossed)], crossings[signs, -1] = crossed, len(crossed)
+        follows: dict[int, int] = {}
+        decided = signs not in _OPPOSITE
+        for axis in range(3):
+            for up in range(2):
+                a, b = (axis + 1) % 3, (axis + 2) % 3
+                ring = [up << axis, up << axis | 1 << a, up << axis | 1 << a | 1 << b, up << axis | 1 << b]
+                if up:  # always in the same rotational sense, seen from outside
+                    ring.reverse()
+                leaving, entering = [], []
+                for here, there in zip(ring, ring[1:] + ring[:1], strict=True):
+                    along = (here ^ there).bit_length() - 1
+                    if signs >> here & 1 and not signs >> there & 1:
+                        leaving.append(number[along, min(here, there)])
+                    elif signs >> there & 1 and not signs >> here & 1:
+                        entering.append(number[along, min(here, there)])
+                if len(leaving) > 1:
+                    decided = False
+                elif leaving:
+                    follows[leaving[0]] = entering[0]
+        if not decided:
+            counts[signs] = kernels.UNDECIDED
+            continue
+        found: list[tuple[int, int, int]] = []
+        while follows:
+            first = next(iter(follows))
+            loop = [first]
+            while (after := follows.pop(loop[-1])) != first:
+                loop.append(after)
+            found += [(loop[0], loop[n], loop[n + 1]) for n in range(1, len(loop) - 1)]
+        counts[signs] = len(found)
+        triangles[signs, : len(found)] = found or 0
+    edges = np.array(EDGES, dtype=np.int8)
+    return Cubes(triangles=triangles, counts=counts, crossings=crossings, edges=edges)
+
+
+@cache
+def raw_counts() -> NDArray[np.int8]:
+    """Return, for the signs of every cube of +-1 data, its triangles minus two for each vertex inside it."""
+    counts = cube_table().counts.copy()
+    unsure = np.flatnonzero(counts == kernels.UNDECIDED)
+    corners = np.where(unsure[:, None] >> np.arange(CORNERS) & 1, np.float32(TIE), np.float32(-1)).astype(np.float32)
+    edges = np.tile(np.arange(len(EDGES), dtype=np.int32), (len(unsure), 1))
+    for n in range(len(unsure)):
+        inner, faces = _undecided(corners[n : n + 1], edges[n : n + 1], np.zeros((1, 3), dtype=np.int32), 0)
+        counts[unsure[n]] = len(faces) - 2 * len(inner)
+    return counts
+
+
+def euler_number_of_bits(field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None) -> int:
+    """Return the Euler number of the surface of the bricks if the cells in `bits` were +1 and all others -1."""
+    return _euler_number(_counts(field, bits, _crossed(field, bits, threads), raw_counts(), threads))
+
+
+def doubt_and_euler_number(
+    field: SparseField, bits: NDArray[np.uint16], *, threads: int | None = None
+) -> tuple[NDArray[np.int32], int | None]:
+    """Return the bricks (n, 3) with cubes whose triangles the signs in `bits` do not decide, and the Euler number.
+
+    That is known if there are no such bricks.
+    """
+    places = _crossed(field, bits, threads)
+    counts = _counts(field, bits, places, cube_table().counts, threads)
+    doubt = places[counts[:, 2] > 0]
+    return doubt, None if len(doubt) else _euler_number(counts)
+
+
+def _counts(
+    field: SparseField,
+    bits: NDArray[np.uint16],
+    places: NDArray[np.int32],
+    table: NDArray[np.int8],
+    threads: int | None,
+) -> NDArray[np.int64]:
+    """Return how many vertices, triangles and undecided cubes each brick has, (n, 3)."""
+    masks = np.empty((len(places), kernels.ROWS, 3), dtype=np.uint16)
+    starts = np.empty(masks.shape, dtype=np.int16)
+    counts = np.zeros((len(places), 3), dtype=np.int64)
+    arguments = (field.slots, places, bits, field.shape, table, masks, starts, counts)
+    in_threads(kernels.count, *arguments, threads=thread_count(threads))
+    return counts
+
+
+def _euler_number(counts: NDArray[np.int64]) -> int:
+    vertices, faces, _ = counts.sum(axis=0)
+    return int(vertices - faces // 2)
+
+
+# Two opposite corners of the whole cube, solid in void or void in solid: either joined by a tube or not.
+_OPPOSITE = {1 << c | 1 << 7 - c for c in range(4)} | {255 ^ (1 << c | 1 << 7 - c) for c in range(4)}
+
+
+def _undecided(
+    corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return vertices inside cubes, and the triangles of cubes that signs do not decide, by scikit-image.
+
+    Some at a time: it has places in single precision, in which a vertex far along a row is on no edge any more.
+    """
+    points, faces = [np.empty((0, 3))], [np.empty((0, 3), dtype=np.int32)]
+    for low in range(0, len(corners), IN_A_ROW):
+        some = slice(low, low + IN_A_ROW)
+        inner, found = _undecided_row(corners[some], edges[some], lowest[some], count)
+        points.append(inner)
+        faces.append(found)
+        count += len(inner)
+    return np.concatenate(points), np.concatenate(faces)
+
+
+def _undecided_row(
+    corners: NDArray[np.float32], edges: NDArray[np.int32], lowest: NDArray[np.int32], count: int
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Return the same for a few cubes.
+
+    They are lined up in a row, apart from each other, their axes permuted as in `infill.surface.extract`.
+    """
+    from skimage.measure import marching_cubes
+
+    many = len(corners)
+    row = corners.reshape(many, 2, 2, 2)  # cube, k, j, i
+    field = np.ascontiguousarray(row.transpose(1, 3, 0, 2).reshape(2, 2, 2 * many))  # k, i, cube and j
+    mask = np.zeros(field.shape, dtype=bool)
+    mask[:, :, 1::2] = True
+    points, faces, _, _ = marching_cubes(field, 0.0, gradient_direction="ascent", mask=mask)  # type: ignore[no-untyped-call]
+    points = points[:, [1, 2, 0]].astype(np.float64)  # i, cube and j, k
+    cube = (points[:, 1] // 2).astype(np.int64)
+    points[:, 1] -= 2 * cube
+    between = (points > 0) & (points < 1)
+    inside = between.sum(axis=1) > 1
+    axis = between.argmax(axis=1)
+    lower = (np.where(between, 0, points).round().astype(np.int64) << np.arange(3)).sum(axis=1)
+    lookup = np.full((3, CORNERS), -1)
+    for n, (along, corner) in enumerate(EDGES):
+        lookup[along, corner] = n
+    number = np.where(inside, 0, edges[cube, lookup[axis, np.where(inside, 0, lower)]])
+    number[inside] = count + np.arange(inside.sum())
+    return (points + lowest[cube])[inside], number[faces].astype(np.int32)

@@ -1,0 +1,1 @@
+"""`fill`: a part and its infill as one solid."""

@@ -1,0 +1,309 @@
+"""`fill`: a part and its infill as one solid.
+
+    depth below the wall, distance into the void  ->  the lesser  ->  smoothing  ->  surfaces, taken out of the part
+
+The skin of the part is not computed: the triangles of the result are the part's own, and those of the voids, which lie
+inside of it and apart from one another.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from infill.interior.hollow import Hollow
+from infill.interior.inside import SHARE, inner_side
+from infill.interior.interior import Space
+from infill.interior.opening import between, cut_open
+from infill.lattices.choosing import voids_of
+from infill.lattices.drain_holes import Drained, check_width, drain
+from infill.lattices.hollowing import hollowed
+from infill.lattices.projected import Projected, projected
+from infill.lattices.quality_checks import measured, problems
+from infill.lattices.request import TOLERANCE, Request, checked
+from infill.lattices.sizing import on_grid_of
+from infill.lattices.stages import FillStages
+from infill.lattices.voids import Voids
+from infill.meshes.measuring import with_measures
+from infill.meshes.merging import surface_of
+from infill.meshes.split_components import joined
+from infill.result import Clock, Progress, Result
+from infill.surface import Surface
+from infill.version import __version__
+
+if TYPE_CHECKING:
+    import trimesh
+
+    from infill.report_keys import FillReport
+
+FORM = 1
+
+
+def fill(
+    part: Surface | trimesh.Trimesh,
+    pattern: object = "gyroid",
+    *,
+    density: float | tuple[float, float] | None = None,
+    by: object = None,
+    grade: str | None = None,
+    cell: float | None = None,
+    line_width: float | None = None,
+    wall: float | None = None,
+    as_: str = "solid",
+    align: str = "part",
+    angle: float = 0.0,
+    phase: tuple[float, ...] = (0.0, 0.0, 0.0),
+    drain: float | None = None,
+    vent: bool = False,
+    drain_at: Sequence[Sequence[float]] = (),
+    open_: str | None = None,
+    smooth_radius: float | None = None,
+    overlap: float | None = None,
+    tolerance: float = TOLERANCE,
+    max_triangles: int | None = None,
+    resolution: int | None = None,
+    voxel: float | None = None,
+    threads: int | None = None,
+    max_memory: int | None = None,
+    progress: Progress | None = None,
+    **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
+) -> Result[FillStages, FillReport]:
+    """Return a part that is hollow but for infill: one closed mesh, with the skin of the part as it is.
+
+    Parameters
+    ----------
+    part : Surface or trimesh.Trimesh, mm
+        Closed; holes in it are closed first, and that is told.
+    pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Octree, Network, Bars or callable
+        A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
+        the same at every height; a drawing, which is repeated; "module.py:name"; a pattern itself; or a function of x,
+        y and z, of one shape, in radians (2 pi is a cell): walls are where it is 0.
+    density : float, optional
+        Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
+        and a line width of 0.45 mm (0.9 in a project) if nothing is given, or for bars, 0.2 and a cell of 8 mm (in
+        a project, a diameter of 2.7 mm).
+        Two densities are those where `by` is lowest and where it is highest.
+    by : str, Path, array or callable, optional
+        What the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of x, y, z
+        and a value; a .npy of three axes, or a picture seen from above, over the box around the part;
+        "module.py:name"; or such an array, or a function of points (N, 3), mm, that returns (N,).
+    grade : {"width", "cell"}, optional
+        What makes it denser where it is: wider walls in cells that stay as they are, the default; or smaller cells of
+        walls that stay as they are, for walls along a surface. Cells are whole everywhere, flatter or longer where they
+        must be; what they cannot follow in a flat part, widths do, and it is told.
+    cell : float, optional
+        Period of the pattern, mm.
+    line_width : float, optional
+        Width of walls inside, or diameter of bars, mm.
+    wall : float, optional
+        Thickness of the shell, mm: 1.2 by default. In a project, what the slicer's perimeters take: 0.9 by default.
+    as_ : {"solid", "infill", "project"}
+        Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
+        two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
+    align : {"part", "bed", "body"}
+        Where the pattern begins: in the middle of the part, at x = y = 0 on the bottom of the part, or anew in the
+        middle of each of its components.
+    angle : float
+        Turns the pattern counter-clockwise about z, degrees.
+    phase : (x, y) or (x, y, z)
+        Shifts the pattern, mm. In a project that has none, a pattern of which slicers would print little is shifted.
+    drain : float, optional
+        Diameter of a hole straight down from the lowest place of every void, mm; by default there is none. It keeps a
+        wall from all skin besides the face that it leaves through: for that it moves inwards, or the void is joined to
+        one that is drained. Voids that are open need none.
+    vent : bool
+        Whether every void also gets such a hole straight up from its highest place, so that air comes in.
+    drain_at : sequence of (x, y, z), mm
+        Places on the skin where holes are to be, straight in; the voids that these reach need no other drain.
+    open_ : {"top", "bottom", "both"}, optional
+        Where the shell is left out: the voids go through the flat side at the very top or bottom of the part, or both.
+    smooth_radius : float, optional
+        Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for none.
+    overlap : float, optional
+        mm; 0.15 by default, and at most half the wall.
+    tolerance : float
+        How far simplifying may move the surfaces of voids, mm; 0 keeps every triangle.
+    max_triangles : int, optional
+        The voids are simplified until there are no more of them, the part's own included.
+    resolution : int, optional
+        Cells of the grid along the longest side of the part; instead of `voxel`.
+    voxel : float, optional
+        Cell of the grid on which voids are computed, mm.
+    threads, max_memory, progress
+        As in `infill.smooth_mesh`.
+    **parameters
+        Further parameters of the pattern.
+
+    Returns
+    -------
+    Result
+        With the surface "solid" or "infill"; in a project, "part" and "infill".
+
+    Raises
+    ------
+    ParameterError, patterns.PatternError
+        If a number is out of range, or there is no such pattern.
+    GeometryError
+        If the part encloses nothing, has no room inside its walls, has no flat side to be open at, cannot be filled to
+        this density, or is too narrow for the drains, or there cannot be one at a place that was asked for.
+    MemoryLimitError
+        If memory will not suffice; raised before anything is computed.
+
+    Notes
+    -----
+    The field of a void is min(distance into the void, depth below the skin - wall), smoothed by the equation of Wang et
+    al. 2020, whose motion by curvature makes the fillets; the density is that of the finished mesh.
+
+    >>> import trimesh
+    >>> box = trimesh.creation.box((20, 20, 20))
+    >>> result = fill(box, "gyroid", density=0.3, wall=1, voxel=0.5)
+    >>> result.surface.closed, abs(result.report["density"] - 0.3) < 0.005
+    (True, True)
+    """
+    request = checked(
+        pattern=pattern,
+        own=parameters,
+        density=density,
+        by=by,
+        grade=grade,
+        cell=cell,
+        line_width=line_width,
+        wall=wall,
+        overlap=overlap,
+        angle=angle,
+        phase=phase,
+        align=align,
+        form=as_,
+        drain=drain,
+        vent=vent,
+        drain_at=drain_at,
+        open_=open_,
+        smooth_radius=smooth_radius,
+        tolerance=tolerance,
+        resolution=resolution,
+        voxel=voxel,
+        max_triangles=max_triangles,
+    )
+    return filled(surface_of(part), request, threads=threads, max_memory=max_memory, progress=progress)
+
+
+def filled(
+    given: Surface,
+    request: Request,
+    *,
+    threads: int | None = None,
+    max_memory: int | None = None,
+    progress: Progress | None = None,
+) -> Result[FillStages, FillReport]:
+    """Return a part that is filled as a request says: see `fill`."""
+    check_width(request, given.bounds)
+    clock, request = Clock(progress), on_grid_of(request, given.bounds)
+    project = None
+    if request.form == "project":
+        project = projected(given, request, clock=clock, threads=threads, max_memory=max_memory)
+        voids, hollow = project.voids, project.hollow
+    else:
+        voids = voids_of(request, given.bounds, threads)
+        hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+    with clock.stage("check", 0.9):
+        result, report, hollow = _result(given, hollow, voids, request, threads, project)
+    report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
+    stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
+    surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
+    return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
+
+
+def _result(
+    given: Surface,
+    hollow: Hollow,
+    pattern: Voids,
+    request: Request,
+    threads: int | None,
+    project: Projected | None,
+) -> tuple[Surface, dict[str, Any], Hollow]:
+    """Return the surface that was asked for, the report, and the voids, what was left out of it included."""
+    space = hollow.space
+    if project is not None:
+        solid = outer = project.infill
+    else:
+        outer = space.part if request.form == "solid" else _inside(space, request, threads)
+        if space.opening is None:
+            solid = joined([outer, *(replace(each, faces=each.faces[:, ::-1]) for each in hollow.surfaces)])
+        else:
+            solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
+            hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
+    drained = Drained(solid=solid)
+    if request.drain is not None:
+        drained = drain(solid, hollow, request, threads=threads)
+        hollow = replace(hollow, islands=hollow.islands + drained.pieces)
+    solid = with_measures(drained.solid, threads=threads)
+    facts = measured(solid, outer, hollow, pattern, request, drained, threads=threads)
+    narrow = None if project is None else project.narrow
+    bounds = solid.bounds
+    report = {
+        "form": FORM,
+        "version": __version__,
+        "product": "fill",
+        "triangles": len(solid.faces),
+        "closed": solid.closed,
+        "area": solid.area,
+        "extents": (bounds[1] - bounds[0]).tolist(),
+        "bounds": bounds.tolist(),
+        "volume": solid.volume,
+        "density": hollow.density,
+        "problems": list(problems(request, hollow, facts, drained, narrow)),
+        "request": request.facts(),
+        "grid": {
+            "shape": list(space.shape),
+            "spacing": [space.size] * 3,
+            "origin": (space.origin - space.size / 2).tolist(),
+            "space": "",
+        },
+        "mesh": {
+            "vertices": len(solid.vertices),
+            "manifold": facts.verdict,
+            "skin": space.skin,
+            "tolerance": hollow.tolerance if math.isfinite(hollow.tolerance) else None,
+        },
+        "infill": {
+            "cell": hollow.cell,
+            "line_width": facts.width,
+            "radius": request.radius(space.thickness),
+            "cells": facts.cells,
+            "widths": facts.widths,
+            "phase": list(request.phase if project is None else project.phase),
+            "narrow": None if narrow is None else narrow.all,
+            "left_out": hollow.loose,
+        },
+        "graded": facts.graded,
+        "part": {
+            "triangles": len(given.faces),
+            "volume": space.repairs.volume,
+            "inside": space.volume,
+            "components": space.repairs.components,
+            "turned": space.repairs.turned,
+            "holes": space.repairs.holes,
+            "notes": list(given.notes),
+        },
+        "voids": {
+            "count": hollow.count,
+            "open": hollow.open,
+            "volume": hollow.volume,
+            "triangles": hollow.triangles,
+            "specks": hollow.specks,
+            "islands": hollow.islands,
+            "closed": [{"volume": volume, "at": place} for volume, place in facts.closed],
+        },
+        "drains": drained.facts(),
+        "walls": {"requested": request.wall, "least": facts.least, "at": facts.at},
+    }
+    return solid, report, hollow
+
+
+def _inside(space: Space, request: Request, threads: int | None) -> Surface:
+    """Return the surface of what lies inside the walls, and reaches into them."""
+    near = min(SHARE * request.tolerance, request.overlap / 2)
+    found = inner_side(space, overlap=request.overlap, tolerance=near, threads=threads)
+    return found if space.opening is None else between(found, space.opening, space.size)

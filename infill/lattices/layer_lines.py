@@ -1,0 +1,97 @@
+"""Lines of a pattern that are others at every height, layer by layer of a grid."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from infill.interior.interior import BAND, Space
+from infill.lattices.fillets import sharpest
+from infill.lattices.line_sample import SAMPLE, LineSample, corners, segments_of, sized, square
+from patterns.protocol import LEVEL_SET, LevelSet, Pattern, gives, lines_of
+
+LOOKED_AT = 8  # heights at which corners are looked at
+STEEPEST = 1.75  # of a wall, which is 60 degrees: what moves by more from layer to layer is another one
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Changing:
+    """The lines of a pattern in every layer of a space.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Its cell does not matter.
+    anchor : (3,) float64
+        The point of the part that is (0, 0, 0) of the pattern, mm.
+    """
+
+    pattern: Pattern
+    anchor: Floats
+
+    @cached_property
+    def sample(self) -> LineSample:
+        """What the lines are like at one height, far from any skin."""
+        return LineSample(pattern=self.pattern)
+
+    @property
+    def two_sided(self) -> bool:
+        """Whether a level set says on which side of the lines a point lies."""
+        return LEVEL_SET in gives(self.pattern)
+
+    @property
+    def steepest(self) -> float:
+        """See `LineLayers`."""
+        return STEEPEST
+
+    def sharpest(self, space: Space, cell: float) -> float:
+        """See `Voids`: of a few cells at some heights inside the walls."""
+        pattern, heights = sized(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
+        region = square(SAMPLE / 2 * cell)
+        some = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
+        return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in some]))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`: those of one height."""
+        return self.sample.widths(density)
+
+    def about(self, middle: Floats) -> Changing:
+        """See `Anchored`."""
+        return replace(self, anchor=middle + self.anchor)
+
+    def lines(self, space: Space, cell: float) -> list[Floats]:
+        """See `LineLayers`."""
+        pattern, start = sized(self.pattern, cell), space.origin[:2] - self.anchor[:2]
+        depth, found = space.depth, []
+        for layer, z in enumerate(self._heights(space)):
+            used = np.argwhere(depth[:, :, layer] > -BAND)
+            if not len(used):
+                found.append(np.empty((0, 2, 2)))
+                continue
+            low, high = (start + space.size * end for end in (used.min(axis=0), used.max(axis=0)))
+            lines = lines_of(pattern, shapely.box(*(low - cell), *(high + cell)), float(z))
+            found.append(segments_of(shapely.get_parts(lines), start, space.size))
+        return found
+
+    def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
+        """See `LineLayers`."""
+        pattern = sized(self.pattern, cell)
+        if not isinstance(pattern, LevelSet):
+            return
+        nx, ny, _ = space.shape
+        x, y = (space.origin[i] - self.anchor[i] + space.size * np.arange(n) for i, n in enumerate((nx, ny)))
+        across, along = np.meshgrid(x, y, indexing="ij")
+        for z in self._heights(space):
+            yield pattern.level_set(across, along, np.full_like(across, z)) > 0
+
+    def _heights(self, space: Space) -> Floats:
+        """Return how high the middles of layers lie in the pattern, mm."""
+        found: Floats = space.origin[2] - self.anchor[2] + space.size * np.arange(space.shape[2])
+        return found

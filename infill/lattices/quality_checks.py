@@ -1,0 +1,276 @@
+"""What a filled part is not that was asked for: measured on the meshes that are handed over."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.interior.hollow import Hollow
+from infill.interior.interior import LEAST_OVERLAP
+from infill.interior.narrow import NARROW, Narrow
+from infill.interior.opening import Opening
+from infill.isosurfaces.components import shell_names
+from infill.lattices.drain_holes import Drained, told_of_drains, trapped
+from infill.lattices.hollowing import even, share_of_cells, wanted
+from infill.lattices.local_density import densities_by_share
+from infill.lattices.request import GAP, LINE_WIDTH, Request
+from infill.lattices.voids import Voids
+from infill.meshes.distance import Tree
+from infill.meshes.shells import first_of_shells, in_batches
+from infill.meshes.solids import FINE, in_one_place, status
+from infill.meshes.winding import winding
+from infill.surface import Surface
+
+OFF = 0.005  # of the density: what is further off is told
+OFF_LOCAL = 0.03  # of the density in a step: chance alone is off by a hundredth, in three of a thousand
+OFF_WIDTH = 0.06  # of the line width: what is further off is told
+LEAST_WIDTH = 0.8  # of the line width, where cells follow the density: narrower walls are told
+STEPS = 3  # of a density that changes
+LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
+THINNEST = 0.4  # mm: a nozzle
+THIN = 0.8  # mm: two lines of a nozzle of 0.4
+AT_ONCE = 50_000  # triangles or points that are looked at together
+LEAST_WALL = 0.9  # of the wall asked for
+
+
+def least_wall(
+    part: Surface, voids: list[Surface], threads: int | None, opening: Opening | None = None
+) -> tuple[float, list[float]]:
+    """Return how near the voids come to the skin, mm, and where: at corners and in the middle of triangles.
+
+    What lies beyond an open side does not count.
+    """
+    if opening is not None:
+        part = opening.shell
+    tree, least, at = Tree.of(part), np.inf, np.full(3, np.nan)
+    for points in chain.from_iterable(map(_points_of, voids)):
+        if opening is not None:
+            points = points[opening.inside(points[:, 2])]
+        away, _ = tree.nearest(points, threads=threads)
+        if away.min(initial=np.inf) < least:
+            least, at = away.min(), points[np.argmin(away)]
+    return float(least), at.tolist()
+
+
+def _points_of(surface: Surface) -> Iterator[NDArray[np.float64]]:
+    """Yield the corners of a surface, (N, 3), and the middles of its triangles, some at a time."""
+    corners, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
+    for begin in range(0, len(corners), AT_ONCE):
+        yield corners[begin : begin + AT_ONCE]
+    for begin in range(0, len(faces), AT_ONCE):
+        yield corners[faces[begin : begin + AT_ONCE]].mean(axis=1)
+
+
+def outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
+    """Return how many voids lie outside of the part: none crosses its skin, from which all are some way off.
+
+    Where a part is open, that is asked of the points that are nearest to a height in its middle, mm.
+    """
+    first = [_first(surface, middle) for surface in voids]
+    return int((winding(np.concatenate(first).astype(np.float64), part, threads=threads) <= 0).sum())
+
+
+def _first(surface: Surface, middle: float | None) -> NDArray[np.float64]:
+    """Return a point of every component, (N, 3): its first vertex, or of its edges, what is nearest to a height."""
+    vertices = np.asarray(surface.vertices, dtype=np.float64)
+    if middle is None:
+        return vertices[first_of_shells(surface)]
+    names, count = shell_names(surface)
+    edges = np.concatenate([surface.faces[:, [i, (i + 1) % 3]] for i in range(3)])
+    one, other = vertices[edges[:, 0]], vertices[edges[:, 1]]
+    rise = other[:, 2] - one[:, 2]
+    share = np.clip(np.divide(middle - one[:, 2], rise, out=np.zeros_like(rise), where=rise != 0), 0, 1)
+    points = one + share[:, None] * (other - one)
+    own = names[edges[:, 0]]
+    order = np.lexsort((np.abs(points[:, 2] - middle), own))
+    nearest: NDArray[np.float64] = points[order[np.searchsorted(own[order], np.arange(count))]]
+    return nearest
+
+
+@dataclass(frozen=True, kw_only=True)
+class Measured:
+    """What is measured on a solid that is handed over.
+
+    Parameters
+    ----------
+    least : float or None
+        Of the wall, mm; None if a slicer makes the walls.
+    at : list of float or None
+        Where that is, mm.
+    astray : int
+        Voids outside of the part.
+    closed : list of (float, list of float)
+        Voids that nothing drains from: see `trapped`.
+    crowded : int
+        Vertices that are where another one is in single precision, besides those of the skin.
+    verdict : str
+        Of manifold3d.
+    width : float
+        Of walls or bars in the mesh, mm; as drawn where hardly any are away from the walls of the part, or not even.
+    drawn : float
+        Density of the pattern before it was smoothed.
+    wanted : float or None
+        Density asked for, on average.
+    graded : list of dict
+        Of a density that changes: what was asked for and what is there, in steps.
+    cells, widths : list of float or None
+        Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
+        the widest walls, mm.
+    """
+
+    least: float | None
+    at: list[float] | None
+    astray: int
+    closed: list[tuple[float, list[float]]]
+    crowded: int
+    verdict: str
+    width: float
+    drawn: float
+    wanted: float | None
+    graded: list[dict[str, float]]
+    cells: list[float] | None = None
+    widths: list[float] | None = None
+
+
+def measured(
+    solid: Surface,
+    outer: Surface,
+    hollow: Hollow,
+    voids: Voids,
+    request: Request,
+    drained: Drained,
+    *,
+    threads: int | None,
+) -> Measured:
+    """Return what is measured on a solid with an outer surface, voids and drains."""
+    least: float | None = None
+    at: list[float] | None = None
+    astray, crowded = 0, int(in_one_place(solid).sum())
+    if request.form != "project":
+        part, opening = hollow.space.part, hollow.space.opening
+        middle = None if opening is None else float(part.bounds[:, 2].mean())
+        least, at = least_wall(part, hollow.surfaces, threads, opening)
+        for hole in drained.plan.holes:
+            if hole.clearance < least:
+                least, at = hole.clearance, hole.near.tolist()
+        astray = outside(part, hollow.surfaces, threads, middle)
+        crowded -= int(in_one_place(outer).sum())
+    return Measured(
+        least=least,
+        at=at,
+        astray=astray,
+        closed=trapped(solid) if request.form == "solid" else [],
+        crowded=max(0, crowded),
+        verdict=_verdict(solid),
+        width=(hollow.median[0] if even(voids) else None) or hollow.width,
+        drawn=share_of_cells(hollow.space, voids, hollow.cell, hollow.width),
+        wanted=wanted(request, hollow.space, voids),
+        graded=[] if voids.grading is None else steps(hollow, voids),
+        **_ranges(hollow, voids),
+    )
+
+
+def _ranges(hollow: Hollow, voids: Voids) -> dict[str, list[float]]:
+    """Return how small and large cells are, and how narrow and wide walls, where the density changes."""
+    if voids.grading is None:
+        return {}
+    local = voids.grading.over(hollow.space, voids.widths)
+    return {
+        "cells": [hollow.cell * each for each in local.cells],
+        "widths": [hollow.width * each for each in local.widths],
+    }
+
+
+def _verdict(solid: Surface) -> str:
+    """Return what manifold3d says of a solid: that it is one, if all of its components are, some of which at a time."""
+    return next((said for said in map(status, in_batches(solid, AT_ONCE)) if said != FINE), FINE)
+
+
+def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
+    """Return the density where about as much was asked for, by rising density."""
+    if voids.grading is None:
+        return []
+    local = voids.grading.over(hollow.space, voids.widths)
+    asked, there = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
+    return [{"wanted": one, "density": other} for one, other in zip(asked.tolist(), there.tolist(), strict=True)]
+
+
+def near(width: float, asked: float) -> bool:
+    """Return whether walls or bars are as wide as asked for, or nearly."""
+    return abs(width / asked - 1) <= OFF_WIDTH
+
+
+def problems(
+    request: Request, hollow: Hollow, facts: Measured, drained: Drained, lost: Narrow | None = None
+) -> Iterator[str]:
+    """Say what is not as it was asked for, and what was done to the part."""
+    overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
+    if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
+        yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
+    for each in facts.graded:
+        if not abs(each["density"] - each["wanted"]) <= OFF_LOCAL:
+            yield (
+                f"where {each['wanted']:.1%} was asked for, the density is {each['density']:.1%}; cells that are small "
+                "beside the field's changes follow it better"
+            )
+    if request.grading is not None and request.grading.varies == "cell" and facts.widths is not None:
+        narrow, wide = facts.widths
+        if narrow < LEAST_WIDTH * hollow.width:
+            yield (
+                f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
+                "little room for cells of such sizes beside one another; give densities that are nearer to one another"
+            )
+    left = hollow.density_before if request.form == "project" else hollow.density
+    if left < LEAST_LEFT * facts.drawn:
+        yield (
+            f"of the infill, {facts.drawn:.1%} as drawn, {left:.1%} is left: walls or bars are too thin for the grid, "
+            "or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
+        )
+    if request.line_width is not None and request.grading is None and not near(facts.width, request.line_width):
+        yield f"walls or bars inside are {facts.width:.3g} mm wide, and {request.line_width:g} mm was asked for"
+    if request.form == "project" and facts.width < THINNEST:
+        yield (
+            f"walls or bars inside are {facts.width:.2g} mm wide, less than a line of a usual nozzle: slicers leave "
+            "most of them out; give a line width of 0.9 mm, or print so small a part solid"
+        )
+    elif request.form == "project" and facts.width < THIN:
+        yield (
+            f"walls or bars inside are {facts.width:.2g} mm wide, less than two lines of a usual nozzle: slicers fill "
+            "such bodies in many short moves, and extrude up to a tenth more or less; give a line width of 0.9 mm"
+        )
+    elif request.gaps_in(facts.width):
+        yield (
+            f"walls inside are {facts.width:.2g} mm wide, more than two lines of a usual nozzle and less than three: "
+            f"slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or {GAP[1]:g} or more"
+        )
+    if lost is not None and lost.all > NARROW:
+        done = ", so that was left out" if hollow.loose else ""
+        yield (
+            f"{lost.all:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
+            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it{done}; shift the pattern "
+            "by --phase, print with fewer perimeters and give their --wall, or with so many that they fill such places"
+        )
+    if moved > request.tolerance:
+        most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
+        yield f"for so few triangles, the voids were moved by {most}; give larger cells, or more triangles"
+    if facts.least is not None and facts.least < LEAST_WALL * request.wall:
+        where = ", ".join(f"{each:.4g}" for each in facts.at or ())
+        yield f"the wall is {facts.least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
+    if opening is not None:
+        for end in opening.closed_ends(hollow.surfaces):
+            yield f"no void is open at the {end}: walls of the pattern lie along it; shift the pattern by --phase"
+    if facts.astray:
+        yield f"{facts.astray} void(s) lie outside of the part"
+    if not hollow.space.part.closed:
+        yield "the part has edges with more than two faces, and so has the result"
+    if overlap > LEAST_OVERLAP:
+        yield f"the part overlaps itself in {overlap:.2%} of its volume, and voids there may stay solid"
+    yield from told_of_drains(request, drained, facts.closed)
+    if facts.crowded:
+        yield f"{facts.crowded} vertices are in one place in single precision: an STL of it is not closed"
+    if facts.verdict != FINE:
+        yield f"manifold3d does not take it: {facts.verdict}"

@@ -1,0 +1,356 @@
+"""What `fill` is asked for: numbers checked, what is left out chosen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from infill.checks import length, positive, whole, within
+from infill.errors import GeometryError, UsageError
+from infill.interior.opening import Open
+from infill.lattices.density_fields import field_of
+from infill.lattices.grading import Grading, Varies
+from infill.lattices.resolve_pattern import Kind, kind_of
+from patterns.lightning import Lightning
+from patterns.unit_cells import Bars, Network, Surfaces
+
+Form = Literal["solid", "infill", "project"]
+Align = Literal["part", "bed", "body"]
+Size = Literal["cell", "width"]
+
+DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
+SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
+GAP = 1.0, 1.5  # mm: between these, slicers fill walls with two lines of 0.45 mm that are too far apart, 7 % short
+SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
+LOWEST, HIGHEST = 0.01, 0.9  # densities
+MOST_TRIANGLES, LEAST_TRIANGLES = 1_000_000, 250_000  # of part and voids by default, and of voids at least
+FURTHEST = 1e4  # mm
+FEWEST_TRIANGLES = 1000  # of voids
+LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
+OVERLAP = 0.15  # mm by which an infill body reaches into the wall
+ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
+
+
+@dataclass(frozen=True, kw_only=True)
+class Request:
+    """A request for `fill`, checked.
+
+    Parameters
+    ----------
+    pattern : str
+        Its name.
+    kind : Surfaces, Planes, Polyhedra, Octree, Network, Bars, Pattern or class of patterns
+        What the name stands for.
+    parameters : mapping
+        The pattern's own, by name.
+    density : float or None
+        Solid share inside the walls; None if cell and line width say it, or the roofs of a part. With a grading, its
+        middle.
+    grading : Grading or None
+        How the density changes from place to place.
+    cell, line_width : float or None
+        mm; None for what follows from the density.
+    wall, overlap, tolerance : float
+        mm
+    drain : float or None
+        Diameter of a hole for each void, mm.
+    vent : bool
+        Whether every void also has a hole up from its highest place.
+    drain_at : tuple of (x, y, z)
+        Places of holes on the skin, mm.
+    open_ : {"top", "bottom", "both"} or None
+        Sides of the part without a wall.
+    smooth_radius : float or None
+        mm; None for the default, which small parts have smaller.
+    angle : float
+        Degrees.
+    phase : (x, y, z)
+        mm
+    align : {"part", "bed", "body"}
+    form : {"solid", "infill"}
+    resolution : int or None
+        Cells of the grid along the longest side of the part.
+    voxel : float or None
+        mm
+    max_triangles : int or None
+    """
+
+    pattern: str
+    kind: Kind
+    parameters: Mapping[str, Any]
+    density: float | None
+    cell: float | None
+    line_width: float | None
+    wall: float
+    overlap: float
+    angle: float
+    phase: tuple[float, float, float]
+    align: Align
+    form: Form
+    drain: float | None
+    smooth_radius: float | None
+    tolerance: float
+    resolution: int | None
+    voxel: float | None
+    max_triangles: int | None
+    grading: Grading | None = None
+    open_: Open | None = None
+    vent: bool = False
+    drain_at: tuple[tuple[float, float, float], ...] = ()
+
+    @property
+    def beyond(self) -> float:
+        """How far an open side is moved out for the voids, besides some cells of the grid, mm."""
+        return ROUNDED * (RADIUS if self.smooth_radius is None else self.smooth_radius)
+
+    @property
+    def held(self) -> int:
+        """Bytes for each cell of the grid that are needed besides: where bodies are, and how deep in them it lies."""
+        return 5 if self.align == "body" else 0
+
+    @property
+    def lined(self) -> bool:
+        """Whether walls and bars are to be as wide as a slicer's lines make them, which no density may change."""
+        return self.form == "project" and not isinstance(self.kind, Lightning)
+
+    def gaps_in(self, width: float) -> bool:
+        """Return whether slicers leave gaps in walls of a width, mm, that is the same everywhere."""
+        even = self.grading is None or self.grading.varies == "cell"
+        return self.form == "project" and even and not barred(self.kind) and GAP[0] < width < GAP[1]
+
+    @property
+    def default_width(self) -> float:
+        """Of walls inside, mm: where the density changes, of those of its middle, so that the thinnest are as wide."""
+        sliced = SLICED_BAR if barred(self.kind) else SLICED_WIDTH
+        return (sliced if self.form == "project" else LINE_WIDTH) / self.thinnest
+
+    @property
+    def share(self) -> float:
+        """Width of walls, over the cell, of lines that do not cross."""
+        if self.cell is not None and self.line_width is not None:
+            return min(1.0, self.line_width / self.cell)
+        assert self.density is not None
+        return self.density
+
+    @property
+    def thinnest(self) -> float:
+        """How many times as wide as the line width walls are at least."""
+        if self.grading is None:
+            return 1.0
+        # The density of walls grows as their width, that of bars as its square.
+        return math.sqrt(self.grading.thinnest) if barred(self.kind) else self.grading.thinnest
+
+    def radius(self, thickness: float) -> float:
+        """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
+        return min(RADIUS, thickness / LEAST_ROUND) if self.smooth_radius is None else self.smooth_radius
+
+    @property
+    def smallest(self) -> float:
+        """How many times as large as called cells are at least."""
+        return 1.0 if self.grading is None else self.grading.smallest
+
+    @property
+    def lowest(self) -> float | None:
+        """The lowest density that is asked for."""
+        return self.density if self.grading is None else min(self.grading.first, self.grading.last)
+
+    @property
+    def varied(self) -> tuple[Size, ...]:
+        """What may be changed for the density, in this order."""
+        if self.density is None:
+            return ()
+        if self.grading is not None:
+            thick = self.cell is not None or (self.line_width is None and barred(self.kind))
+            return ("width",) if thick else ("cell",)
+        if self.cell is not None or self.line_width is not None:
+            return ("cell",) if self.cell is None else ("width",)
+        return ("width",) if thickened(self.kind) and not self.lined else ("cell", "width")
+
+    def room(self, taken: int) -> int:
+        """Return how many triangles voids may have, if the part has taken so many.
+
+        Raises
+        ------
+        GeometryError
+            If there are none left.
+        """
+        if self.max_triangles is None:
+            return max(MOST_TRIANGLES - taken, LEAST_TRIANGLES)
+        if self.max_triangles < taken + FEWEST_TRIANGLES:
+            raise GeometryError(
+                f"max_triangles is {self.max_triangles:,}, and the skin of the part alone has {taken:,}; give at least "
+                f"{taken + FEWEST_TRIANGLES:,}"
+            )
+        return self.max_triangles - taken
+
+    def facts(self) -> dict[str, Any]:
+        """Return the request as the report has it."""
+        return {
+            "pattern": self.pattern,
+            "parameters": dict(self.parameters),
+            "density": None if self.grading is not None else self.density,
+            "densities": None if self.grading is None else [self.grading.first, self.grading.last],
+            "by": None if self.grading is None else self.grading.name,
+            "grade": None if self.grading is None else self.grading.varies,
+            "cell": self.cell,
+            "line_width": self.line_width,
+            "wall": self.wall,
+            "angle": self.angle,
+            "phase": list(self.phase),
+            "align": self.align,
+            "form": self.form,
+            "overlap": self.overlap,
+            "drain": self.drain,
+            "vent": self.vent,
+            "drain_at": [list(each) for each in self.drain_at],
+            "open": self.open_,
+            "smooth_radius": self.smooth_radius,
+            "tolerance": self.tolerance,
+            "resolution": self.resolution,
+            "voxel": self.voxel if self.resolution is None else None,
+            "max_triangles": self.max_triangles,
+        }
+
+
+def barred(kind: Kind) -> bool:
+    """Return whether a pattern is made of bars, which are as thick as the density asks for."""
+    return isinstance(kind, (Network, Bars))
+
+
+def thickened(kind: Kind) -> bool:
+    """Return whether a pattern gets a density by the width of its walls: bars do, and branches below roofs."""
+    return barred(kind) or isinstance(kind, Lightning)
+
+
+def checked(
+    *,
+    pattern: object,
+    own: Mapping[str, Any],
+    density: float | tuple[float, ...] | None,
+    by: object,
+    cell: float | None,
+    line_width: float | None,
+    wall: float | None,
+    overlap: float | None,
+    angle: float,
+    phase: tuple[float, ...],
+    align: str,
+    form: str,
+    drain: float | None,
+    smooth_radius: float | None,
+    tolerance: float,
+    resolution: int | None,
+    voxel: float | None,
+    max_triangles: int | None,
+    open_: str | None = None,
+    grade: str | None = None,
+    vent: bool = False,
+    drain_at: Sequence[Sequence[float]] = (),
+) -> Request:
+    """Return a request whose numbers are in range, with what follows from others left open."""
+    if density is not None and cell is not None and line_width is not None:
+        raise UsageError("density, cell and line_width are all given; give two of them, and the third follows")
+    if resolution is not None and voxel is not None:
+        raise UsageError("voxel and resolution are both given; give one of them")
+    if align not in get_args(Align):
+        raise UsageError(f"align is {align!r}; choose from {', '.join(get_args(Align))}")
+    if form not in get_args(Form):
+        raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
+    if drain is not None and form != "solid":
+        raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
+    places = tuple(_place(each) for each in drain_at)
+    for name, value in (("vent", vent), ("drain_at", bool(places))):
+        if value and drain is None:
+            raise UsageError(f"{name} is given, and drain is missing; give drain too, the diameter of the holes in mm")
+    if open_ is not None and open_ not in get_args(Open):
+        raise UsageError(f"open is {open_!r}; choose from {', '.join(get_args(Open))}")
+    if open_ is not None and form == "project":
+        raise UsageError(
+            f"open is {open_!r}, and as is 'project', whose shell is the slicer's; leave open out, and let the slicer "
+            "make no top or bottom layers"
+        )
+    if len(phase) not in (2, 3):
+        raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
+    shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
+    kind, name = kind_of(pattern)
+    grading = None
+    if isinstance(density, (tuple, list)):
+        if isinstance(kind, Lightning):
+            raise UsageError(f"density is to change from place to place, and branches of {name} follow roofs; give one")
+        grading = graded(density, by, grade or "width")
+        density = grading.middle
+        if grading.varies == "cell":
+            _cells_that_follow(kind, name, align)
+    elif by is not None or grade is not None:
+        given = "by" if by is not None else "grade"
+        raise UsageError(f"{given} is given with one density; give two, such as 15%:40%, or leave it out")
+    elif density is not None:
+        density = within("density", density, LOWEST, HIGHEST)
+    elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
+        density = DENSITY if cell is None or barred(kind) else None
+        if density is None:
+            line_width = SLICED_WIDTH if form == "project" else LINE_WIDTH
+    if density is not None and line_width is not None and isinstance(kind, Lightning):
+        raise UsageError(
+            f"density and line_width are both given, and {name} has as many branches as the roofs need; leave one of "
+            "them out, or give cell and line_width"
+        )
+    wall = (SLICED_WALL if form == "project" else WALL) if wall is None else length("wall", wall)
+    return Request(
+        pattern=name,
+        kind=kind,
+        parameters=own,
+        density=density,
+        cell=None if cell is None else length("cell", cell),
+        line_width=None if line_width is None else length("line_width", line_width),
+        wall=wall,
+        overlap=min(OVERLAP, wall / 2) if overlap is None else within("overlap", overlap, 0.0, 0.9 * wall, "mm"),
+        angle=within("angle", angle, -360.0, 360.0, "degrees"),
+        phase=(shift[0], shift[1], shift[2] if len(shift) == 3 else 0.0),
+        align=align,  # type: ignore[arg-type]
+        form=form,  # type: ignore[arg-type]
+        drain=None if drain is None else length("drain", drain),
+        smooth_radius=None if smooth_radius is None else within("smooth_radius", smooth_radius, 0.0, 100.0, "mm"),
+        tolerance=within("tolerance", tolerance, 0.0, 100.0, "mm"),
+        resolution=None if resolution is None else whole("resolution", resolution, 1),
+        voxel=None if voxel is None else positive("voxel", voxel, "mm"),
+        max_triangles=None if max_triangles is None else whole("max_triangles", max_triangles, 4),
+        grading=grading,
+        open_=open_,  # type: ignore[arg-type]
+        vent=vent,
+        drain_at=places,
+    )
+
+
+def _place(given: Sequence[float]) -> tuple[float, float, float]:
+    """Return a place where a drain is to be, checked."""
+    if isinstance(given, (str, bytes)) or not isinstance(given, (Sequence, np.ndarray)) or len(given) != 3:
+        raise UsageError(f"drain_at has a place {given!r}; give three numbers x, y, z in mm for each")
+    x, y, z = (within("drain_at", each, -FURTHEST, FURTHEST, "mm") for each in given)
+    return x, y, z
+
+
+def _cells_that_follow(kind: Kind, name: str, align: str) -> None:
+    """Raise an error if the cells of a pattern cannot follow a field."""
+    if not isinstance(kind, Surfaces):
+        raise UsageError(
+            f"grade is 'cell', and cells of {name} cannot follow a field; choose walls along a surface, such as "
+            "gyroid, or grade 'width'"
+        )
+    if align == "body":
+        raise UsageError("grade is 'cell', and cells that follow a field cannot begin anew in every body; align 'part'")
+
+
+def graded(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
+    """Return two densities, where a field is lowest and where it is highest, checked."""
+    if grade not in get_args(Varies):
+        raise UsageError(f"grade is {grade!r}; choose from {', '.join(get_args(Varies))}")
+    if len(densities) != 2:
+        raise UsageError(f"density has {len(densities)} numbers; give one, or two such as 15%:40%")
+    first, last = (within("density", each, LOWEST, HIGHEST) for each in densities)
+    field, name = field_of("z" if by is None else by)
+    return Grading(first=first, last=last, by=field, name=name, varies=grade)  # type: ignore[arg-type]

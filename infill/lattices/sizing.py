@@ -1,0 +1,134 @@
+"""How large cells of a pattern, its lines and the cells of the grid are, where that was left open."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import GeometryError
+from infill.lattices.drawn_voids import Drawn
+from infill.lattices.layered import Layered
+from infill.lattices.request import GAP, Request, barred
+from infill.lattices.voids import Voids
+
+BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars are as thick as the density asks for; twigs are so far apart
+# Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
+# of bars; across a wall of the part and a bar; in all.
+FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
+ACROSS, ACROSS_BAR = 2.5, 4.0
+LEAST_FINE, LEAST_FINE_LINES, LEAST_FINE_BARS = 0.58, 2.5, 9.0
+LEAST_ACROSS, LEAST_ACROSS_BAR = 1.5, 3.0
+SLACK = 1.01
+FIFTH = 0.2
+FEWEST, MOST, MOST_IN_SLABS = 1e6, 25e6, 1e8
+COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger than this
+
+
+def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
+    """Return cell and width, mm: as asked, or as the density would have them far from any skin.
+
+    In a part too large for a grid as fine as that needs, both are larger, unless one was asked for.
+    """
+    cell, width = _sizes(request, voids)
+    if request.cell is None and request.line_width is None:
+        finest = _finest(extents, slabs=goes_by_slabs(request, voids))
+        times = SLACK * finest / coarsest_for(replace(request, wall=math.inf), voids, cell, width)
+        return larger(request, (cell, width), times)
+    return cell, width
+
+
+def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[float, float]:
+    """Return cell and width, mm, so many times as large, if that is more than 1.
+
+    In a project, walls are never of a width that slicers fill with two lines and leave a gap between.
+    """
+    times, width = max(1.0, times), sizes[1]
+    if request.gaps_in(times * width):
+        times = GAP[1] / width
+    return sizes[0] * times, width * times
+
+
+def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
+    if request.density is None:
+        return request.cell or BRANCHES_CELL, request.line_width or request.default_width
+    share = voids.widths(request.density)
+    if request.line_width is None and request.cell is not None:
+        return request.cell, share * request.cell
+    if request.line_width is None and "cell" not in request.varied and not request.lined:
+        cell = BAR_CELL if barred(request.kind) else BRANCHES_CELL
+        return cell, share * cell
+    width = request.default_width if request.line_width is None else request.line_width
+    return width / share, width
+
+
+def on_grid_of(request: Request, bounds: NDArray[np.floating]) -> Request:
+    """Return the request with the side of the cells that its resolution means for a part within bounds (2, 3), mm."""
+    if request.resolution is None:
+        return request
+    return replace(request, voxel=float(np.ptp(bounds, axis=0).max()) / request.resolution)
+
+
+def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cell: float, width: float) -> float:
+    """Return the side of the cells of the grid, mm."""
+    if request.voxel is not None:
+        return request.voxel
+    width *= request.thinnest
+    size = request.wall / ACROSS
+    if isinstance(voids, Drawn):
+        size = min(size, voids.sample.apart * cell / FINE_LINES, COARSEST_LINES)
+    elif barred(request.kind):
+        size = min(size, cell / FINE_BARS, width / ACROSS_BAR)
+    elif isinstance(voids, Layered) and voids.around:
+        size = min(size, width / ACROSS_BAR)
+    else:
+        size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
+    size = min(max(size, _finest(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box(extents) / FEWEST))
+    if size > request.wall / LEAST_ACROSS:
+        raise GeometryError(
+            f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
+            f"needs has more than {MOST:,.0f} cells; give a wall of {LEAST_ACROSS * size:.2g} mm, or the right unit"
+        )
+    if size > (most := coarsest_for(request, voids, cell, width / request.thinnest)):
+        raise GeometryError(
+            f"cell is {cell:.3g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such cells need has "
+            f"more than {MOST:,.0f} cells; give a cell of {math.ceil(cell * size / most)} mm, or a lower density"
+        )
+    return size
+
+
+def _box(extents: NDArray[np.floating]) -> float:
+    """Return the volume of the box around a part, mm³; a flat one is as thick as a thousandth of its length."""
+    return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
+
+
+def _finest(extents: NDArray[np.floating], *, slabs: bool) -> float:
+    """Return the side of the cells of the finest grid around a part, mm: in slabs, what is tall costs only time."""
+    size = math.cbrt(_box(extents) / MOST)
+    if not slabs:
+        return size
+    low = np.array([*extents[:2], min(extents[2], max(extents[:2]))])
+    return max(math.cbrt(_box(low) / MOST), math.cbrt(_box(extents) / MOST_IN_SLABS))
+
+
+def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:
+    """Return the largest side of the cells of a grid that still has the pattern in it, mm."""
+    if request.voxel is not None:
+        return request.voxel
+    width *= request.thinnest
+    size = request.wall / LEAST_ACROSS
+    if isinstance(voids, Drawn):
+        return min(size, voids.sample.apart * cell / LEAST_FINE_LINES)
+    if barred(request.kind):
+        return min(size, cell / LEAST_FINE_BARS, width / LEAST_ACROSS_BAR)
+    if isinstance(voids, Layered) and voids.around:
+        return min(size, width / LEAST_ACROSS_BAR)
+    return min(size, voids.widths(FIFTH) * cell * request.smallest / LEAST_FINE)
+
+
+def goes_by_slabs(request: Request, voids: Voids) -> bool:
+    """Return whether voids may be made slab by slab: upright ones of one width, closed, in a part taken as one."""
+    upright = isinstance(voids, Drawn) and voids.grading is None and voids.bodies is None
+    return upright and request.form == "solid" and request.open_ is None

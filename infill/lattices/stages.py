@@ -1,0 +1,45 @@
+"""What a filled part was made from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+    from infill.interior.opening import Opening
+    from infill.pictures.sections import Cut
+    from infill.surface import Surface
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FillStages:
+    """The stages of `infill.fill`.
+
+    Parameters
+    ----------
+    part : Surface, mm
+        The part whose skin the result has.
+    voids : Surface, mm
+        What was taken out of it, facing outwards.
+    shown : Surface, mm
+        What was made.
+    opening : Opening or None
+        Where the part has no shell.
+    cuts : tuple of Cut
+        Where a picture is cut open; where its inside is seen best by default.
+    """
+
+    part: Surface
+    voids: Surface
+    shown: Surface
+    opening: Opening | None = None
+    cuts: tuple[Cut, ...] = ()
+
+    def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
+        """Return cuts that show the inside: in a project, of the infill, as the part is whole."""
+        from infill.pictures.cuts import cuts
+
+        return cuts(self.shown, report, part=self.part, given=self.cuts)

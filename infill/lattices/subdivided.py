@@ -1,0 +1,200 @@
+"""The voids of a pattern that depends on the part: cubes that are split where its skin is near."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.interior.interior import BAND, Space
+from infill.interior.root_finding import root
+from infill.kernels.threads import in_threads, thread_count
+from infill.lattices.bodies import Bodies
+from infill.lattices.grading import Grading
+from infill.lattices.voids import FIELD, local_widths
+from patterns.octree import Octree, doubled
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
+
+SHELL = 1.5  # cells of the grid: so far outside of the inner side of a wall it is looked for
+FLAT = 0.5**0.5  # cosine of 45 degrees: a roof that is steeper needs nothing below it
+SHARES = (0.6, 0.3, 0.1)  # of a part, that the smallest cubes and larger ones take: a guess
+DIAGONAL = 3**0.5  # of a cube, over its side
+NEAR, TRIES = 1e-4, 40  # of the density of that: when it is near enough
+ONCE = 1 << 20  # cells of the grid that are looked at at a time
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Tree:
+    """Cubes in the space of a part.
+
+    Parameters
+    ----------
+    space : Space
+        For which it was made.
+    doubled : (n, m, k) uint8
+        How often the cube is doubled in which each of the smallest ones lies.
+    first : (3,) int64
+        The number of the first of these, along each axis of the pattern.
+    colours : tuple of int
+        Those of cubes that lie in the part: see `infill.kernels.cells.from_cubes`.
+    """
+
+    space: Space
+    doubled: NDArray[np.uint8]
+    first: NDArray[np.int64]
+    colours: tuple[int, ...]
+
+    @property
+    def reach(self) -> float:
+        """How far from cubes distances to them are known, in the smallest ones."""
+        return 0.5 * float(1 << int(self.doubled.min()))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Subdivided:
+    """The voids in cubes that are split where the skin of a part is near.
+
+    Parameters
+    ----------
+    pattern : Octree
+    turn : (3, 3) float64
+        From the part to the pattern.
+    anchor : (3,) float64
+        The point of the part in the middle of a cube of twice the smallest side, mm.
+    threads : int, optional
+    grading : Grading, optional
+    bodies : Bodies, optional
+        How it begins anew in each component of the part: the anchor is then that from its middle.
+    known : dict
+        The cubes, for a space and a cell.
+    skins : dict
+        What the pattern follows, for a space.
+    """
+
+    pattern: Octree
+    turn: NDArray[np.float64]
+    anchor: NDArray[np.float64]
+    threads: int | None = None
+    grading: Grading | None = None
+    bodies: Bodies | None = None
+    known: dict[tuple[int, float], Tree] = field(default_factory=dict)
+    skins: dict[int, tuple[Space, cKDTree]] = field(default_factory=dict)
+
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+        """See `Voids`."""
+        return 90.0
+
+    def about(self, middle: NDArray[np.float64]) -> Subdivided:
+        """See `Anchored`."""
+        return replace(self, anchor=middle + self.anchor, bodies=None, known={}, skins={})
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:
+        """As many as there are colours."""
+        if self.bodies is not None:
+            return self.bodies.count(self, space, cell=cell, width=width)
+        return len(self.tree(space, cell).colours)
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """See `Voids`."""
+        from infill.kernels.cells import from_cubes
+
+        if self.bodies is not None:
+            return self.bodies.into(self, out, space, which, cell=cell, width=width)
+        tree, period = self.tree(space, cell), cell / space.size
+        filled = in_threads(
+            from_cubes,
+            space.depth,
+            -BAND,
+            tree.doubled,
+            self.turn / period,
+            self._start(space, cell) - tree.first,
+            period,
+            min(tree.reach, BAND / period),
+            tree.colours[which],
+            width / 2 / space.size,
+            *local_widths(self, space),
+            out,
+            threads=thread_count(self.threads),
+        )
+        return float(sum(filled))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`: a guess, as nothing is known of the part."""
+        shares = np.array(SHARES[: self.pattern.levels + 1])
+        shares, sides = shares / shares.sum(), 2.0 ** np.arange(len(shares))
+
+        def off(times: float) -> float:
+            voids = np.maximum(1 - times * density / 3 / sides, 0) ** 3
+            return float(np.log((1 - shares @ voids) / density))
+
+        return density / 3 * root(off, NEAR, TRIES)
+
+    def tree(self, space: Space, cell: float) -> Tree:
+        """Return the cubes in a space, the smallest of which have sides of a cell, mm."""
+        key = id(space), cell
+        if key not in self.known:
+            self.known.clear()
+            self.known[key] = self._found(space, cell)
+        return self.known[key]
+
+    def _start(self, space: Space, cell: float) -> NDArray[np.float64]:
+        """Return where the first cell of the grid lies in the pattern, in the smallest cubes."""
+        start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.middle
+        return start
+
+    def _found(self, space: Space, cell: float) -> Tree:
+        from infill.kernels.cells import colours_of_cubes
+
+        start, step, most = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
+        ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
+        first = (np.floor((ends.min(axis=0) - 1) / most) * most).astype(np.int64)
+        counts = (np.floor((ends.max(axis=0) + 1) / most) * most).astype(np.int64) + most - first
+        depth, tree, whole = space.below_walls, self._skin(space), []
+        for level in range(1, self.pattern.levels + 1):
+            side = 1 << level
+            middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + first
+            cells = (middles - start) @ np.linalg.inv(step).T
+            reach = side / 2 * cell / space.size
+            reaches = np.where(_inside(depth, cells), reach, DIAGONAL * reach)
+            away, _ = tree.query(cells, distance_upper_bound=DIAGONAL * reach, workers=thread_count(self.threads))
+            whole.append((away >= reaches).reshape(counts // side))
+        cubes = doubled(whole)
+        seen = in_threads(colours_of_cubes, space.depth, cubes, step, start - first, threads=thread_count(self.threads))
+        colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
+        return Tree(space=space, doubled=cubes, first=first, colours=colours)
+
+    def _skin(self, space: Space) -> cKDTree:
+        """Return the cells of a grid where the pattern follows the inner side of a wall, as places to look up.
+
+        They are those just outside of it, or of a roof just inside: where depths rise downwards by `FLAT` or more.
+        """
+        from scipy.spatial import cKDTree
+
+        if id(space) not in self.skins:
+            self.skins.clear()
+            depth = space.below_walls
+            every = max(1, ONCE // depth[0].size)
+            found = []
+            for low in range(0, len(depth), every):
+                some = depth[low : low + every]
+                if self.pattern.roofs:
+                    near = np.zeros(some.shape, dtype=bool)
+                    below, above = some[:, :, :-1], some[:, :, 1:]
+                    near[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
+                else:
+                    near = (some <= 0) & (some > -SHELL)
+                found.append(np.argwhere(near) + np.array([low, 0, 0]))
+            self.skins[id(space)] = space, cKDTree(np.concatenate(found))
+        return self.skins[id(space)][1]
+
+
+def _inside(depth: NDArray[np.float32], cells: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which of some points (N, 3), in cells of the grid, lie inside the walls."""
+    at, most = np.round(cells).astype(np.int64), np.array(depth.shape) - 1
+    inside: NDArray[np.bool_] = depth[tuple(np.clip(at, 0, most).T)] > 0
+    inside &= np.all((at >= 0) & (at <= most), axis=1)
+    return inside

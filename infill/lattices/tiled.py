@@ -1,0 +1,86 @@
+"""A drawing that is repeated, as a pattern of upright walls."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from infill.drawing import Picture
+from infill.drawings.drawing_files import read_drawing
+from infill.paths.tiles.tiling import tile_of, traced
+from patterns.linework import clip, turn
+from patterns.protocol import Pattern
+from patterns.shared import angle_parameter, cell_parameter
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Tiled(Pattern):
+    """The lines of a tile, repeated in both directions; one tile has its middle at (0, 0).
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    drawn : tuple of (N, 2) float64
+        Lines about the middle of the tile, whose width is 1.
+    height : float
+        Of the tile.
+    cell : float
+        Width of the tile, mm.
+    angle : float
+        Degrees.
+    """
+
+    name: str  # type: ignore[misc]
+    summary: str = "a drawing, repeated"  # type: ignore[misc]
+    drawn: tuple[NDArray[np.float64], ...]
+    height: float
+    cell: float = cell_parameter()
+    angle: float = angle_parameter()
+
+    def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
+        """Return the lines of all tiles that reach into a region."""
+        corners = turn(shapely.get_coordinates(shapely.envelope(region)), -self.angle) / self.cell
+        points = np.concatenate(self.drawn)
+        size = np.array([1.0, self.height])
+        first = np.floor((corners.min(axis=0) - points.max(axis=0)) / size)
+        last = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
+        column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
+        shifts = np.stack([column.ravel(), row.ravel()], axis=-1) * size
+        placed = [
+            shapely.linestrings(turn((line[None] + shifts[:, None]) * self.cell, self.angle)) for line in self.drawn
+        ]
+        return clip(np.concatenate(placed), region)
+
+    def line_spacing(self, region: shapely.Polygon | shapely.MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
+        """Return the width of the tile, mm."""
+        return self.cell
+
+
+def tiled(path: str | os.PathLike[str]) -> Tiled:
+    """Return a drawing as a pattern.
+
+    Parameters
+    ----------
+    path : str or Path
+        As `read_drawing` takes it. What is repeated is what `refill` repeats: the page, or the box around the lines.
+
+    Raises
+    ------
+    FormatError
+        See `read_drawing`.
+    """
+    found = read_drawing(path)
+    drawing = traced(found, Path(path)) if isinstance(found, Picture) else replace(found, page=tile_of(found))
+    assert drawing.page is not None
+    x0, y0, x1, y1 = drawing.page
+    middle, width = np.array([(x0 + x1) / 2, (y0 + y1) / 2]), x1 - x0
+    lines = tuple((np.asarray(line, dtype=np.float64) - middle) / width for line in drawing.lines)
+    lines = tuple(line for line in lines if len(line) > 1 and math.isfinite(float(line.sum())))
+    return Tiled(name=Path(path).name, drawn=lines, height=(y1 - y0) / width)

@@ -1,0 +1,241 @@
+"""The voids that a pattern leaves in a part, each as a field of distances, in cells of the grid.
+
+Voids that lie next to one another are in fields of their own: a wall between them needs no cell of the grid in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.interior.interior import BAND, Space
+from infill.kernels.threads import in_threads, thread_count
+from infill.lattices.bodies import Bodies
+from infill.lattices.fillets import between_walls
+from infill.lattices.grading import NONE, Grading
+from patterns.polyhedra import Polyhedra
+from patterns.unit_cells import Bars, Binned, Cellular, Network, Planes, Surfaces
+
+WIDE = 1000.0  # cells, in which planes that are aslant to one another lie every way
+NODES = 48  # of the table of a period, along each axis
+FIELD = NDArray[np.float32]
+
+
+class Voids(Protocol):
+    """The voids of a pattern."""
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:
+        """Return how many fields the voids need."""
+        ...
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """Write how deep each cell lies in the void or below the wall, the lesser; return how many cells that fills."""
+        ...
+
+    def widths(self, density: float) -> float:
+        """Return the width of walls or bars, in cells of the pattern, that gives a density far from any skin."""
+        ...
+
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:
+        """How sharp the corners of voids are, degrees, where walls of the pattern meet: few are sharper."""
+        ...
+
+    @property
+    def grading(self) -> Grading | None:
+        """How the width changes from place to place; what is called the width is that of the middle."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Repeating:
+    """The voids beside walls or bars that repeat along x, y and z.
+
+    Parameters
+    ----------
+    pattern : Surfaces, Planes, Polyhedra, Network or Bars
+    turn : (3, 3) float64
+        From the part to the pattern.
+    anchor : (3,) float64
+        The point of the part at which a cell of the pattern begins, mm.
+    threads : int, optional
+    grading : Grading, optional
+    bodies : Bodies, optional
+        How it begins anew in each component of the part: the anchor is then that from its middle.
+    """
+
+    pattern: Cellular
+    turn: NDArray[np.float64]
+    anchor: NDArray[np.float64]
+    threads: int | None = None
+    grading: Grading | None = None
+    bodies: Bodies | None = None
+
+    def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
+        """See `Voids`: the same for all cells."""
+        return _sharpest(self.pattern)
+
+    def about(self, middle: NDArray[np.float64]) -> Repeating:
+        """See `Anchored`."""
+        return replace(self, anchor=middle + self.anchor, bodies=None)
+
+    def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
+        """Two beside a surface, one for each class of closed cells, one around bars."""
+        if isinstance(self.pattern, (Planes, Polyhedra)):
+            return self.pattern.classes
+        return 1 if self.pattern.bars else 2
+
+    def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
+        """See `Voids`."""
+        from infill.kernels.cells import from_bars, from_period, from_planes, from_polyhedra
+
+        if self.bodies is not None:
+            return self.bodies.into(self, out, space, which, cell=cell, width=width)
+        start = self.turn @ (space.origin - self.anchor) / space.size
+        period, half = self.pattern.cells * cell / space.size, width / 2 / space.size
+        sizes, threads = local_widths(self, space), thread_count(self.threads)
+        if isinstance(self.pattern, Bars):
+            filled = in_threads(
+                from_bars,
+                space.depth,
+                -BAND,
+                *_binned(self.pattern),
+                self.turn,
+                start,
+                period,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        elif isinstance(self.pattern, Planes):
+            normals, offsets = self.pattern.families()
+            filled = in_threads(
+                from_planes,
+                space.depth,
+                -BAND,
+                normals @ self.turn / period,
+                normals @ start / period + offsets,
+                period / np.linalg.norm(normals, axis=1),
+                which,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        elif isinstance(self.pattern, Polyhedra):
+            (normals, halves), (box, middles) = self.pattern.faces(), self.pattern.lattice()
+            filled = in_threads(
+                from_polyhedra,
+                space.depth,
+                -BAND,
+                self.turn,
+                start,
+                normals,
+                halves * period,
+                box * period,
+                middles[which] * period,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        elif (spline := _spline(self, space)) is not None:
+            from infill.kernels.stretched import from_stretched_period
+
+            filled = in_threads(
+                from_stretched_period,
+                space.depth,
+                -BAND,
+                period_table(self.pattern),
+                self.turn,
+                start,
+                period,
+                1.0 if which == 0 else -1.0,
+                half,
+                *sizes,
+                spline,
+                out,
+                threads=threads,
+            )
+        else:
+            filled = in_threads(
+                from_period,
+                space.depth,
+                -BAND,
+                period_table(self.pattern),
+                self.turn,
+                start,
+                period,
+                1.0 if which == 0 else -1.0,
+                half,
+                *sizes,
+                out,
+                threads=threads,
+            )
+        return float(sum(filled))
+
+    def widths(self, density: float) -> float:
+        """See `Voids`."""
+        return float(2 * np.quantile(_samples(self.pattern), density))
+
+
+def local_widths(voids: Voids, space: Space) -> tuple[NDArray[np.float32], float]:
+    """Return how many times as wide walls are from place to place, as kernels take it."""
+    if voids.grading is None:
+        return NONE
+    found = voids.grading.over(space, voids.widths)
+    return found.ratio, found.step
+
+
+def _spline(voids: Voids, space: Space) -> NDArray[np.float64] | None:
+    """Return where cells of the grid lie in a pattern whose cells follow a field."""
+    return None if voids.grading is None else voids.grading.over(space, voids.widths).spline
+
+
+@cache
+def period_table(pattern: Surfaces | Network) -> NDArray[np.float32]:
+    """Return the distances from a surface at the nodes of one period, in periods, as kernels read them."""
+    line = np.arange(NODES) / NODES
+    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
+
+
+@cache
+def _sharpest(pattern: Cellular) -> float:
+    return between_walls(pattern)
+
+
+@cache
+def _binned(pattern: Bars) -> Binned:
+    return pattern.around_cell()
+
+
+@cache
+def _samples(pattern: Cellular) -> NDArray[np.floating]:
+    """Return how far points spread evenly over a period lie from the walls or bars, in cells."""
+    if isinstance(pattern, Planes):
+        if not all(float(each).is_integer() for normal in pattern.normals for each in normal):
+            # They repeat in no cube.
+            return pattern.distance(np.random.default_rng(0).uniform(0, WIDE, (NODES**3, 3)))
+        line = (np.arange(NODES) + 0.5) / NODES
+        return pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
+    if isinstance(pattern, Polyhedra):
+        from infill.kernels.cells import from_polyhedra
+
+        box, middles = pattern.lattice()
+        deep, found = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
+        every, step = middles.reshape(-1, 3), box / NODES
+        from_polyhedra(deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, every, 0.0, *NONE, found, 0, 1)
+        return found.ravel()
+    if not isinstance(pattern, Bars):
+        return np.abs(period_table(pattern)).ravel()
+    from infill.kernels.cells import from_bars
+
+    nodes = NODES * pattern.cells
+    deep, found = np.full((nodes,) * 3, np.float32(np.inf)), np.empty((nodes,) * 3, dtype=np.float32)
+    from_bars(deep, 0.0, *_binned(pattern), np.eye(3), np.full(3, 0.5), float(nodes), 0.0, *NONE, found, 0, 1)
+    return found.ravel() / NODES

@@ -1,0 +1,1 @@
+"""Triangles put in order and measured: components, orientation, holes, distance, simplification, booleans."""

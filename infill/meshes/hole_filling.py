@@ -1,0 +1,174 @@
+"""A mesh that is closed as a sum: neighbouring faces agree, and every hole gets a cap."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.meshes.shells import vertex_components
+from infill.surface import Edges
+
+FLAT = 1e-9  # a component with less than this share of its longest side cubed has no volume
+
+WELD = 0.01  # of a cell: corners of open edges that are closer together than this are merged
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.integer]
+
+
+def open_edges(faces: Integers) -> Integers:
+    """Return the edges (E, 2) that faces run along more often in this direction than back, repeated that many times."""
+    edges = Edges.of(faces)
+    directed = np.where(edges.surplus[:, None] > 0, edges.ends, edges.ends[:, ::-1])
+    return np.repeat(directed, np.abs(edges.surplus), axis=0)
+
+
+def agreeing(faces: Integers) -> Integers:
+    """Return the faces, some of them reversed, so that neighbours across an edge of two faces have one orientation.
+
+    Parameters
+    ----------
+    faces : (F, 3) int
+
+    Notes
+    -----
+    Every face is represented twice, as it is and reversed; edges shared by two faces link those copies that agree.
+    A patch is then two components, and the one with more faces as they are is kept. A one-sided patch
+    (a Möbius strip) is a single component, and is left as it is.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    start, end = faces.ravel().astype(np.int64), np.roll(faces, -1, axis=1).ravel().astype(np.int64)
+    key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
+    order = np.argsort(key, kind="stable")
+    first = np.flatnonzero(np.diff(key[order], prepend=-1))
+    pairs = first[np.diff(first, append=len(key)) == 2]
+    one, other = order[pairs], order[pairs + 1]
+    against = (start[one] < end[one]) == (start[other] < end[other])
+    one, other, count = one // 3, other // 3, len(faces)
+    from_, to = np.concatenate([one, one + count]), np.concatenate([other, other + count])
+    to = np.where(np.tile(against, 2), (to + count) % (2 * count), to)
+    graph = coo_array((np.ones(len(to), dtype=np.int8), (from_, to)), shape=(2 * count,) * 2)
+    _, label = connected_components(graph, directed=False)
+    here, there = label[:count], label[count:]
+    kept = np.bincount(here, minlength=int(label.max()) + 1)
+    over = (kept[here] < kept[there]) | ((kept[here] == kept[there]) & (here > there))
+    return np.where(over[:, None], faces[:, ::-1], faces)
+
+
+def welded(vertices: Floats, faces: Integers) -> Integers:
+    """Return the faces with corners on open edges merged where they are closer than `WELD`: this closes cracks."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import KDTree
+
+    border = np.unique(open_edges(faces))
+    pairs = KDTree(vertices[border]).query_pairs(WELD, output_type="ndarray")
+    graph = coo_array((np.ones(len(pairs), dtype=np.int8), tuple(pairs.T)), shape=(len(border),) * 2)
+    _, label = connected_components(graph, directed=False)
+    number = np.arange(len(vertices))
+    number[border] = border[np.unique(label, return_index=True)[1]][label]
+    return number[faces]
+
+
+def loops(edges: Integers) -> list[list[int]]:
+    """Return directed edges as loops that visit no vertex twice; every vertex must have as many in as out.
+
+    >>> loops(np.array([[0, 1], [1, 2], [2, 0]]))
+    [[0, 1, 2]]
+    """
+    ahead: dict[int, list[int]] = defaultdict(list)
+    for start, end in edges.tolist():
+        ahead[start].append(end)
+    found = []
+    for start in list(ahead):
+        path, position = [start], {start: 0}
+        while ahead[path[-1]]:
+            to = ahead[path[-1]].pop()
+            if to in position:
+                loop = path[position[to] :]
+                found.append(loop)
+                del path[position[to] + 1 :]
+                for vertex in loop[1:]:
+                    del position[vertex]
+            else:
+                position[to] = len(path)
+                path.append(to)
+    return found
+
+
+def capped(vertices: Floats, faces: Integers) -> tuple[Floats, Integers, int]:
+    """Return vertices and faces with a cap on every hole, and the number of holes.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+        In cells.
+    faces : (F, 3) int
+
+    Returns
+    -------
+    vertices : (V + n, 3) float64
+    faces : (F + m, 3) int
+        The caps come last. Every edge is traversed as often in one direction as in the other.
+    holes : int
+
+    Notes
+    -----
+    First, cracks are closed and faces whose orientation disagrees with their neighbours' are reversed: see
+    `welded` and `agreeing`. A cap is a fan from the centre of the hole's rim. Where a triangle occurs
+    twice, its three edges are a "hole" whose cap cancels it.
+    """
+    if len(open_edges(faces)) == 0:
+        return vertices, faces, 0
+    faces = agreeing(welded(vertices, faces))
+    found = loops(open_edges(faces))
+    apexes: list[Floats] = []
+    caps = []
+    for loop in found:
+        if len(loop) == 3:
+            caps.append([loop[::-1]])
+            continue
+        ring = np.array(loop)
+        points = vertices[ring]
+        lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
+        middle = np.average((np.roll(points, -1, axis=0) + points) / 2, axis=0, weights=lengths)
+        # Rounding must not move the sum out of a plane of the axes.
+        apexes.append(np.clip(middle, points.min(axis=0), points.max(axis=0)))
+        apex = np.full(len(ring), len(vertices) + len(apexes) - 1)
+        caps.append(np.column_stack([np.roll(ring, -1), ring, apex]).tolist())
+    if not found:
+        return vertices, faces, 0
+    added = np.concatenate([np.array(each, dtype=np.int64) for each in caps])
+    return np.concatenate([vertices, np.reshape(apexes, (-1, 3))]), np.concatenate([faces, added]), len(found)
+
+
+def components(vertices: Floats, faces: Integers) -> tuple[Integers, Floats]:
+    """Return the component of every face, by shared vertices, and the signed volume of each component.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+    faces : (F, 3) int
+        Closed as a sum: see `capped`.
+
+    Returns
+    -------
+    component : (F,) int
+    volumes : (B,) float64
+        0 for a component that encloses nothing but rounding errors.
+    """
+    of_vertex, count = vertex_components(faces, len(vertices))
+    component = of_vertex[faces[:, 0]]
+    # Relative to one of its own corners, so that a small component far out loses no digits.
+    first = np.unique(component, return_index=True)[1]
+    a, b, c = (vertices[faces[:, i]] - vertices[faces[first, 0]][component] for i in range(3))
+    sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
+    reach = np.zeros(count)
+    np.maximum.at(reach, component, np.abs([a, b, c]).max(axis=(0, 2)))
+    volumes = np.bincount(component, weights=sixfold, minlength=count) / 6
+    volumes[np.abs(volumes) <= FLAT * reach**3] = 0.0
+    return component, volumes

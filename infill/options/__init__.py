@@ -1,0 +1,1 @@
+"""Options from keywords, assignments and files."""

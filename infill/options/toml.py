@@ -1,0 +1,94 @@
+"""TOML files of options: read, and written in rows."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from infill.errors import FormatError, ParameterError
+from infill.files.broken import one_line
+
+OPTIONS = {"form": "as"}  # what reports call otherwise
+
+
+def read_toml(path: Path, *, example: str) -> dict[str, Any]:
+    """Return what a TOML file holds, with dashes in the names of options turned into underscores.
+
+    Parameters
+    ----------
+    path : Path
+        A text, or a 3MF that has one of them attached.
+    example : str
+        A line as the file should have, for the message.
+
+    Raises
+    ------
+    FormatError
+        If the file is missing or not TOML.
+    """
+    try:
+        content = tomllib.loads(_text(path))
+    except FileNotFoundError:
+        raise FormatError(f"there is no config file {path}; check the name") from None
+    except OSError as error:
+        raise FormatError(f"cannot read {path}: {error.strerror}; check the file") from error
+    except FormatError:
+        raise
+    except RecursionError as error:
+        raise FormatError(
+            f"{path} is not TOML: lists lie too deep in one another; write lines such as {example}"
+        ) from (error)
+    except ValueError as error:  # not TOML, no text, or a number of thousands of digits
+        raise FormatError(f"{path} is not TOML: {one_line(error)}; write lines such as {example}") from error
+    return {name.replace("-", "_"): value for name, value in content.items()}
+
+
+def _text(path: Path) -> str:
+    if path.suffix.lower() != ".3mf":
+        return path.read_text(encoding="utf-8")
+    from infill.formats.threemf import attached_settings
+
+    return attached_settings(path)
+
+
+def options_text(request: Mapping[str, Any], head: str) -> str:
+    """Return the request in a report as the options of its command, from which a config file makes it again.
+
+    >>> print(options_text({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
+    # again
+    cell = 5.0
+    as = "solid"
+    <BLANKLINE>
+    [set]
+    waves = 3
+    <BLANKLINE>
+    """
+    plain = {OPTIONS.get(name, name): value for name, value in request.items() if name != "parameters"}
+    own = toml_rows(request.get("parameters") or {})
+    return "\n".join([f"# {head}", *toml_rows(plain), *(["", "[set]", *own] if own else []), ""])
+
+
+def toml_rows(values: Mapping[str, Any]) -> list[str]:
+    """Return one line of TOML for each value that is not None.
+
+    >>> toml_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
+    ['cell = 5.0', 'size = [60, 40]', 'frame = true']
+    """
+    return [f"{name} = {_toml(value)}" for name, value in values.items() if value is not None]
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, (tuple, list)):
+        return f"[{', '.join(map(_toml, value))}]"
+    if isinstance(value, str):
+        if any("\ud800" <= each <= "\udfff" for each in value):  # a name whose bytes are no text
+            raise ParameterError(f"{value!a} is not text, and a TOML file holds only text; give another name")
+        return json.dumps(value, ensure_ascii=False).replace(
+            "\x7f", "\\u007f"
+        )  # TOML escapes as JSON does, and DEL too
+    return repr(value)

@@ -1,0 +1,82 @@
+"""What options in a file may ask for without being asked back: no code, and no files from elsewhere.
+
+Options that are typed are the user's own. A config file or a project may be somebody else's, and names in it decide
+what is run and what is read; so whoever reads options from a file calls `check_trusted` before anything else.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from infill.errors import FormatError
+from infill.files.excerpts import excerpt
+from infill.options.modules import names_code
+
+FILES = ("pattern", "by", "labels")  # options whose value may be the name of a file
+ELSEWHERE = re.compile(r"[\\/]{2}|[A-Za-z]:|~")  # another machine, another drive, another home
+
+
+def check_trusted(options: Mapping[str, Any], source: Path, *, trust: bool = False, code: bool = True) -> None:
+    """Raise FormatError if options from a file ask to run code, or to read what is not beside it.
+
+    Parameters
+    ----------
+    options : mapping
+        By name, as the file has them, less those that are typed and so take their place.
+    source : Path
+        The file. What lies below its folder, or below the one in which the command runs, may be named.
+    trust : bool
+        Whether the user trusts the file: everything is allowed.
+    code : bool
+        Whether the command runs code at all; where it does not, ``module.py:name`` is no more than a wrong name.
+
+    Examples
+    --------
+    >>> check_trusted({"pattern": "gyroid", "density": "20%"}, Path("theirs.3mf"))
+    """
+    if trust:
+        return
+    for name, text in _texts(options):
+        word = name.replace("_", "-")
+        if code and names_code(text):
+            raise FormatError(
+                f"{source} asks to run code: {word} = '{excerpt(text)}'; look at that code, then give --trust, or "
+                f"type --{word} yourself"
+            )
+        if name in FILES and _leads_elsewhere(text, source):
+            raise FormatError(
+                f"{source} asks to read a file from elsewhere: {word} = '{excerpt(text)}'; give --trust, or type "
+                f"--{word} yourself"
+            )
+
+
+def _texts(value: object, name: str = "") -> Iterator[tuple[str, str]]:
+    """Yield every text among values, in lists and tables too, with the name of its option."""
+    if isinstance(value, str):
+        yield name, value
+    elif isinstance(value, Mapping):
+        for key, each in value.items():
+            yield from _texts(each, name or excerpt(str(key)))
+    elif isinstance(value, (list, tuple)):
+        for each in value:
+            yield from _texts(each, name)
+
+
+def _leads_elsewhere(text: str, source: Path) -> bool:
+    """Return whether a text is the name of a file that lies neither in the folder of a file nor in the current one."""
+    if ELSEWHERE.match(text):
+        return True
+    if "/" not in text and "\\" not in text and not Path(text).suffix:
+        return False  # the name of a pattern
+    if "\0" in text:
+        return True
+    # By the letters first: to follow links may ask another machine.
+    folders = [Path.cwd(), Path(os.path.abspath(source)).parent]  # noqa: PTH100
+    if not any(Path(os.path.abspath(text)).is_relative_to(folder) for folder in folders):  # noqa: PTH100
+        return True
+    real = Path(os.path.realpath(text))
+    return not any(real.is_relative_to(os.path.realpath(folder)) for folder in folders)

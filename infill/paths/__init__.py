@@ -1,0 +1,1 @@
+"""Open lines in a plane: clipping, joining, ordering, corners, curves, contact."""

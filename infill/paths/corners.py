@@ -1,0 +1,215 @@
+r"""Corners of paths rounded to arcs, and the arcs cut into chords.
+
+A corner of turn t between two legs becomes an arc that begins and ends at a distance s (the setback) from the corner::
+
+        ----------o .                    radius      r = s / tan(t/2)
+             s       ` .                 deviation   d = s tan(t/4)      of the arc from the corner
+                        o                length      r t                 instead of 2 s
+                         \  s
+
+A machine of acceleration a passes the arc at v = √(a r), if the chords let it: each may turn by at most c / v, where c
+is what the firmware's corners allow (about 1.8 × the square corner velocity, or the jerk). So an arc is cut into as few
+equal chords as that takes: the joints at its ends turn by half as much as those inside. Fewer chords make a slower
+machine, more of them a larger file and nothing else.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+SHARPEST = math.radians(172)  # a path that turns back on itself keeps its corner
+LEAST_DEVIATION = 0.001  # mm: less than the numbers of G-code can tell
+UNIT = 0.001  # mm: the last decimal of a position in G-code
+COARSEST = 0.02  # mm between a chord and its arc
+SHORTEST_CHORD = 0.06  # mm: speed is no reason for shorter ones
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machine:
+    """What decides how finely a curve is cut.
+
+    Parameters
+    ----------
+    acceleration : float or (N,) float64
+        mm/s², of the path's points if an array.
+    speed : float or (N,) float64
+        mm/s that is asked for.
+    corner : float
+        Turn, in radians, times speed, in mm/s, that the firmware passes without slowing down: 1.82 × the square
+        corner velocity, √(8 a × junction deviation), or the jerk.
+    """
+
+    acceleration: float | Floats = 1000.0
+    speed: float | Floats = 80.0
+    corner: float = 9.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rounded:
+    """Paths with their corners rounded.
+
+    Parameters
+    ----------
+    points : (K, 2) float64, mm
+    first : (M + 1,) int
+        Path i has the points `first[i]` to `first[i + 1]`.
+    source : (K,) int
+        The number of the old point that each new one stands for.
+    radius : (N,) float64, mm
+        Of the arc at each old point; infinite where there is no corner, 0 where it was left as it was.
+    """
+
+    points: Floats
+    first: Places
+    source: Places
+    radius: Floats
+
+
+def rounded(
+    points: Floats,
+    first: Places,
+    *,
+    deviation: float | Floats = math.inf,
+    radius: float = math.inf,
+    machine: Machine | None = None,
+    unit: float = 0.0,
+) -> Rounded:
+    """Round the corners of open paths; ends stay where they are.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+        The paths one after another.
+    first : (M + 1,) int
+        Where each begins, and N.
+    deviation : float or (N,) float64, mm
+        How far an arc may lie from the corner.
+    radius : float, mm
+        Largest radius; an arc also ends at the middle of a leg that two corners share, unless one needs less.
+    machine : Machine, optional
+        Decides the number of chords.
+    unit : float, mm
+        Round the new points to multiples of this.
+
+    Returns
+    -------
+    Rounded
+
+    >>> corner = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
+    >>> done = rounded(corner, np.array([0, 3]), radius=2.0)
+    >>> float(done.radius[1]), len(done.points)
+    (2.0, 11)
+    """
+    machine = machine or Machine()
+    count = len(points)
+    inner = np.ones(count, dtype=bool)
+    inner[first[:-1][first[:-1] < count]] = False
+    inner[first[1:] - 1] = False
+    here = np.flatnonzero(inner)
+    turn, before, after, lengths = turns(points, here)
+    half = turn / 2
+    half_tangent = np.maximum(np.tan(half), 1e-12)
+    wanted = np.minimum(radius * half_tangent, _at(deviation, here) / np.maximum(np.tan(turn / 4), 1e-12))
+    wanted[(turn > SHARPEST) | (lengths.min(axis=0) == 0)] = 0.0
+    setback = _shared(wanted, here, lengths, half_tangent, count)
+    straight = half < 1e-9
+    arc = np.divide(setback, np.tan(half), out=np.full(len(here), np.inf), where=~straight)
+    setback[(setback * np.tan(turn / 4) < LEAST_DEVIATION) | straight] = 0.0
+    chords = _chords(arc, turn, machine, here)
+    chords[setback == 0] = 0
+    radii = np.full(count, np.inf)
+    radii[here] = np.where(straight, np.inf, np.where(setback == 0, 0.0, arc))
+    return _drawn(points, first, here, setback, arc, turn, before, after, chords, radii, unit)
+
+
+def _at(value: float | Floats, here: Places) -> Floats | float:
+    return value[here] if isinstance(value, np.ndarray) else value
+
+
+def turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return the turn at each inner point, the directions of its two legs, and their lengths (2, n)."""
+    before, after = points[here] - points[here - 1], points[here + 1] - points[here]
+    lengths = np.stack([np.hypot(*before.T), np.hypot(*after.T)])
+    before, after = (
+        leg / np.maximum(length, 1e-300)[:, None] for leg, length in zip((before, after), lengths, strict=True)
+    )
+    cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    return np.arctan2(np.abs(cross), before[:, 0] * after[:, 0] + before[:, 1] * after[:, 1]), before, after, lengths
+
+
+def _shared(wanted: Floats, here: Places, lengths: Floats, half_tangent: Floats, count: int) -> Floats:
+    """Return setbacks that fit: two corners share their leg so that their arcs are equal, unless one needs less."""
+    needs, weight = np.zeros(count), np.zeros(count)
+    needs[here], weight[here] = wanted, np.where(wanted > 0, half_tangent, 0.0)
+    own = np.maximum(weight[here], 1e-12)
+    fits = [
+        np.maximum(length * (own / (own + weight[here + step])), length - needs[here + step])
+        for length, step in zip(lengths, (-1, 1), strict=True)
+    ]
+    setback: Floats = np.minimum(wanted, np.minimum(*fits))
+    return setback
+
+
+def _chords(arc: Floats, turn: Floats, machine: Machine, here: Places) -> Places:
+    """Return into how many chords each arc is cut."""
+    arc = np.where(np.isfinite(arc), np.maximum(arc, 1e-9), 1e9)
+    speed = np.minimum(np.sqrt(_at(machine.acceleration, here) * arc), _at(machine.speed, here))
+    quick = np.ceil(turn * speed / machine.corner - 1e-9)
+    quick = np.minimum(quick, np.floor(turn * arc / SHORTEST_CHORD))
+    close = np.ceil(turn / (2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0))) - 1e-9)
+    number: Places = np.maximum(np.maximum(quick, close), 1).astype(np.intp)
+    return number
+
+
+def _drawn(
+    points: Floats,
+    first: Places,
+    here: Places,
+    setback: Floats,
+    arc: Floats,
+    turn: Floats,
+    before: Floats,
+    after: Floats,
+    chords: Places,
+    radii: Floats,
+    unit: float,
+) -> Rounded:
+    """Put arcs in the place of their corners."""
+    count = len(points)
+    number = np.ones(count, dtype=np.intp)  # of new points for each old one
+    number[here] = np.where(chords > 0, chords + 1, 1)
+    source = np.repeat(np.arange(count), number)
+    start = np.concatenate([[0], np.cumsum(number)])
+    new = points[source]
+    corner = np.zeros(count, dtype=np.intp)
+    corner[here] = np.arange(len(here))
+    bent = np.zeros(count, dtype=bool)
+    bent[here] = chords > 0
+    on_arc = np.flatnonzero(bent[source])
+    which = corner[source[on_arc]]
+    place = on_arc - start[source[on_arc]]
+    angle = (turn / np.maximum(chords, 1))[which] * place
+    size = arc[which]
+    along, inwards = size * np.sin(angle) - setback[which], size * (1 - np.cos(angle))
+    left = np.sign(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+    # Axis by axis: NumPy is slow along the short axis of an array.
+    new[on_arc, 0] += along * before[which, 0] - inwards * (left * before[:, 1])[which]
+    new[on_arc, 1] += along * before[which, 1] + inwards * (left * before[:, 0])[which]
+    if unit:
+        new = np.rint(new / unit) * unit
+    # Arcs that meet in the middle of a leg share a point there; an arc may end at a point of the path, which stays.
+    keep = np.ones(len(new), dtype=bool)
+    step = np.abs(np.diff(new, axis=0))
+    near = np.flatnonzero(np.maximum(step[:, 0], step[:, 1]) <= max(unit * 5, 1e-9)) + 1
+    fixed = ~bent[source]
+    both = fixed[near] & fixed[near - 1]
+    keep[np.where(fixed[near], near - 1, near)[~both]] = False
+    final = np.concatenate([[0], np.cumsum(keep)])
+    return Rounded(points=new[keep], first=final[start[first]], source=source[keep], radius=radii)

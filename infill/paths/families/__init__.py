@@ -1,0 +1,1 @@
+"""Families of paths that cover a region."""

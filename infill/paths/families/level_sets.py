@@ -1,0 +1,172 @@
+"""Triply periodic minimal surfaces at the height of a layer, solved for one coordinate: curves without a grid.
+
+At some heights two sheets of such a surface meet in saddles, where its section crosses itself. A layer near such
+a height takes the nearest one at which lines are still `TOUCH` line widths apart there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from infill.paths.families.curves import Floats, copies, parameters, rows
+from infill.paths.families.protocol import TOUCH, Bounds, Path
+
+# Neighbouring waves of a gyroid climb where they come nearest: what they are apart along an axis, over their distance.
+# Measured on sections from 2.5 to 10 mm: at most 1.31.
+ASLANT = 1.31
+ALONG_X, ALONG_Y = np.eye(2), np.eye(2)[::-1]
+DIAGONAL = np.array([[1.0, 1.0], [1.0, -1.0]]) / math.sqrt(2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gyroid:
+    """sin x cos y + sin y cos z + sin z cos x = 0; `cell` is the period.
+
+    Solved for y, y = atan2(cos z, sin x) ± acos(−sin z cos x / √(sin² x + cos² z)), where |cos z| > |sin z|; for x
+    at the other heights.
+    """
+
+    name: str = "gyroid"
+    summary: str = "smooth waves that turn with height; equally stiff in every direction"
+    prismatic: bool = False
+    wide: bool = False
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height says it
+        radius: float,  # noqa: ARG002 - there are no corners
+    ) -> list[Path]:
+        """Return two waves a period; see `Family`."""
+        unit = cell / math.tau
+        sine, cosine = _apart(z / unit, ASLANT * TOUCH * line_width / unit)
+        along_x = abs(cosine) > abs(sine)
+
+        def middle(angle: Floats) -> Floats:
+            return np.arctan2(cosine, np.sin(angle)) if along_x else np.arctan2(np.cos(angle) * side, abs(sine))
+
+        def swing(angle: Floats) -> Floats:
+            if along_x:
+                return np.arccos(-sine * np.cos(angle) / np.hypot(np.sin(angle), cosine))
+            return np.arccos(-side * cosine * np.sin(angle) / np.hypot(np.cos(angle), sine))
+
+        side = math.copysign(1.0, sine)
+        curves = [lambda angle: middle(angle) + swing(angle), lambda angle: middle(angle) - swing(angle)]
+        return rows(curves, unit, bounds, ALONG_X if along_x else ALONG_Y)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, in the mean over heights; see `Family`."""
+        return 2.45 * TOUCH * line_width / density
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchwarzP:
+    """cos x + cos y + cos z = 0; `cell` is the period.
+
+    With c = |cos z|, every loop is cos x = c/2 + (1 − c/2) cos t, cos y = c/2 − (1 − c/2) cos t about its middle.
+    """
+
+    name: str = "schwarz-p"
+    summary: str = "smooth tubes along three axes; every one a closed loop"
+    prismatic: bool = False
+    wide: bool = False
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height says it
+        radius: float,  # noqa: ARG002 - there are no corners
+    ) -> list[Path]:
+        """Return one closed loop a period; see `Family`."""
+        unit = cell / math.tau
+        cosine = math.cos(z / unit)
+        least = 1 - math.cos(min(math.pi / 2, TOUCH * line_width / unit / 2))
+        half = max(abs(cosine), least) / 2
+
+        def quarter(angle: Floats) -> Path:
+            swing = (1 - half) * np.cos(angle)
+            return unit * np.arccos(np.clip(half + np.stack([swing, -swing], axis=-1), -1, 1))
+
+        points = quarter(parameters(quarter, math.pi))
+        turned = points[::-1]
+        loop = np.concatenate([points, (turned * [1, -1])[1:], (points * [-1, -1])[1:], (turned * [-1, 1])[1:]], axis=0)
+        return copies(loop + (cell / 2 if cosine > 0 else 0.0), cell, bounds)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, in the mean over heights; see `Family`."""
+        return 1.88 * TOUCH * line_width / density
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
+
+
+@dataclass(frozen=True, kw_only=True)
+class SchwarzD:
+    """cos z sin(x + y) + sin z cos(x − y) = 0; `cell` is the period."""
+
+    name: str = "schwarz-d"
+    summary: str = "smooth waves at 45 degrees that turn with height, as atoms in diamond are bound"
+    prismatic: bool = False
+    wide: bool = False
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height says it
+        radius: float,  # noqa: ARG002 - there are no corners
+    ) -> list[Path]:
+        """Return two waves a period; see `Family`."""
+        unit = cell / math.tau / math.sqrt(2)
+        sine, cosine = _apart(z * math.tau / cell, TOUCH * line_width / unit)
+        if abs(cosine) > abs(sine):  # x + y by x − y
+
+            def swing(angle: Floats) -> Floats:
+                return np.arcsin(sine / cosine * np.cos(angle))
+
+            return rows(
+                [lambda angle: -swing(angle), lambda angle: math.pi + swing(angle)], unit, bounds, DIAGONAL[::-1]
+            )
+
+        def reach(angle: Floats) -> Floats:
+            return np.arccos(-cosine / sine * np.sin(angle))
+
+        return rows([reach, lambda angle: -reach(angle)], unit, bounds, DIAGONAL)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, in the mean over heights; see `Family`."""
+        return 3.04 * TOUCH * line_width / density
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return infinity: the curves have no corners, and no wall in common."""
+        return math.inf
+
+
+def _apart(angle: float, gap: float) -> tuple[float, float]:
+    """Return sine and cosine of an angle that is kept from the odd multiples of 45°, where lines would meet.
+
+    Lines are 2 acos(t) apart there, for the smaller t of |tan| and |cot|: as much as `gap` if t <= cos(gap / 2).
+    """
+    nearest = math.floor(angle / (math.pi / 2) + 0.5) * math.pi / 2
+    most = math.atan(math.cos(min(gap / 2, math.pi / 2)))
+    kept = nearest + max(-most, min(most, angle - nearest))
+    return math.sin(kept), math.cos(kept)

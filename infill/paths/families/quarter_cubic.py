@@ -1,0 +1,107 @@
+r"""Quarter cubic: sections of tetrahedra with every crossing resolved, drawn as two waves a row that touch.
+
+The planes of `patterns.planes.QUARTER_CUBIC` are cut at one height in lines u = x + y and v = x - y. Those along u lie
+in pairs about fixed middles, those along v as well: as z rises, lines of a pair part until they meet those of the
+next pairs, and come back. A wave climbs along one line of v and comes down along one of u, turn by turn; flats at
+every corner touch the waves above and below::
+
+         /\                  of each pair of u, one line is climbed along and the other
+        /  \    __/\         on the way back, so that a wave has four flanks a period
+    \__/    \  /    \__/
+             \/
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.waves import cell_of, flat, repeated
+
+TURN = math.radians(45)  # at each end of a flat
+SHARE = 0.1  # of a cell that a radius may have, so that cells keep their shape
+FLATS = 4  # of a wave in one period
+SAME = 1e-6  # mm: corners nearer than that are one
+
+
+@dataclass(frozen=True, kw_only=True)
+class QuarterCubic:
+    """Tetrahedra, with and without corners; `cell` is the period in x, y and z, without what flats and touching add.
+
+    Planes are `cell` / √3 apart.
+    """
+
+    name: str = "quarter-cubic"
+    summary: str = "tetrahedra, with and without corners; very stiff for its weight, in height as well"
+    prismatic: bool = False
+    wide: bool = False
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height says it
+        radius: float,
+    ) -> list[Path]:
+        """Return two waves a row; see `Family`."""
+        gap, crest, period, pitch = self._sizes(cell, line_width, radius)
+        (middle_u, half_u), (middle_v, half_v) = (_pair(z / cell, sign) for sign in (1, -1))
+        # Places are those of planes, but for the room that flats take along a row, and touching waves across it: the
+        # pairs keep their middles.
+        x = (middle_u + middle_v) / 2 * period
+        y = (middle_u - middle_v) / 2 * 2 * pitch
+        u, v = half_u * cell, half_v * cell
+        left = np.array([-(u + v) / 2 - crest, (v - u) / 2])
+        top = np.array([(u - v) / 2, (u + v) / 2])
+        down = np.array([(u + v) / 2 + crest, (u - v) / 2])
+        last = np.array([cell / 2 - (u - v) / 2 + 2 * crest, cell / 2 - (u + v) / 2])
+        upper = np.array([left, top, down, last]) + np.array([0.0, gap / 2])
+        # A half turn about the middle of both pairs puts the wave above on the one below.
+        lower = -upper[[2, 1, 0, 3]]
+        lower[3, 0] += period
+        ends = np.array([[-crest / 2, 0.0], [crest / 2, 0.0]])
+        paths: list[Path] = []
+        for wave in (upper, lower):
+            corners = (wave[:, None] + ends).reshape(-1, 2)
+            before = np.concatenate([corners[-1:] - (period, 0.0), corners[:-1]])
+            apart = np.hypot(*(corners - before).T) > SAME  # where lines of pairs meet, two flats are one
+            paths += repeated(corners[apart] + (0.0, y), period, pitch, shift=x, slip=period / 2, bounds=bounds)
+        return paths
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, which is the same at every height; see `Family`."""
+
+        def length_per_area(cell: float) -> float:
+            _, crest, period, pitch = self._sizes(cell, line_width, 0.0)
+            return 2 * (math.sqrt(2) * cell + FLATS * crest) / (period * pitch)
+
+        return cell_of(length_per_area, density, line_width)
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return the radius at which cells keep their shape, mm; flats touch at any."""
+        return SHARE * cell
+
+    def _sizes(self, cell: float, line_width: float, radius: float) -> tuple[float, float, float, float]:
+        """Return how far touching lines are apart, the length of a flat, the period of a wave and of rows, mm."""
+        gap = TOUCH * line_width
+        crest = flat(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
+        return gap, crest, cell + FLATS * crest, cell / 2 + 2 * gap
+
+
+def _pair(z: float, sign: int) -> tuple[float, float]:
+    """Return the middle of the two lines x + y (or x - y, for a sign of -1) and half of their distance, in cells."""
+    from patterns.planes import QUARTER_CUBIC
+
+    normals, offsets = QUARTER_CUBIC.families()
+    # A plane n . p + offset = 0 cuts the height z in x + sign y = -(n_z z + offset) n_x, modulo 1.
+    along = normals[:, 0] * normals[:, 1] == sign
+    one = -(normals[along, 2] * z + offsets[along])[0] * normals[along, 0][0]
+    middle = (offsets[along] @ -normals[along, 0]) / 2 % 0.5
+    half = one - middle
+    return float(middle), float(abs((half + 0.5) % 1 - 0.5))

@@ -1,0 +1,101 @@
+r"""Lines in three directions with every crossing resolved: triangles, stars and hexagons, and cubes on a corner.
+
+Lines along x cut the diamonds between the lines of the two other directions, at a share s of their half height::
+
+      \    /\    /      s = 0: all lines meet in points, triangles
+    ___\__/__\__/___    s = 1/2: triangles and hexagons
+        \/    \/        s rises with z: sections of cubes that stand on a corner
+        /\    /\
+
+At each crossing of flanks, and at each crossing of a flank with a line along x, the strands turn off instead.
+Two waves a row result, one above the line along x and one below it; their flats overlap where they touch.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from infill.paths.families.protocol import TOUCH, Bounds, Path
+from infill.paths.families.waves import Rows, Wave, cell_of, flat, strands
+
+TURN = math.radians(60)
+SHARE = 0.25  # of a cell that a radius may have, so that cells keep their shape
+LEAST = 0.25  # line widths: a lower wave is drawn as a straight line
+AT_LEAST = 24  # sections in which the mean of a family over its heights is taken
+
+
+@dataclass(frozen=True, kw_only=True)
+class Threefold:
+    """Resolved lines in three directions; `cell` is the distance between parallel lines.
+
+    `share` is s at height 0, and `rises` says whether the lines move with height as sections of cubes do.
+
+    >>> rows = Threefold(name="stars", summary="", share=0.5).rows(6.0, 0.45, 0.0, 0.0)
+    >>> [wave.height for wave in rows.waves]
+    [3.0, 3.0]
+    """
+
+    name: str
+    summary: str
+    share: float = 0.0
+    rises: bool = False
+    prismatic: bool = True
+    wide: bool = False
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float,
+        layer: int,  # noqa: ARG002 - the height says it
+        radius: float,
+    ) -> list[Path]:
+        """Return two waves a row; see `Family`."""
+        return strands(self.rows(cell, line_width, radius, z), bounds)
+
+    def rows(self, cell: float, line_width: float, radius: float, z: float) -> Rows:
+        """Return the rows of waves at height `z`."""
+        gap = TOUCH * line_width
+        crest = flat(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
+        pitch = cell + 2 * gap
+        # A cube's faces are orthogonal planes: as z rises by 1, the lines along x sink by √½ and the crossings of
+        # the other two directions rise by √2.
+        rise = z * math.sqrt(2) * pitch / cell if self.rises else 0.0
+        place = (self.share - 1.5 * rise / pitch) % 1
+        lowest = LEAST * line_width / cell
+        share = place if lowest <= place <= 1 - lowest else float(round(place))
+        # Lines along x stay where they belong, and flanks give way: sideways they move by half of that.
+        base = rise + place * pitch - share * (cell + gap)
+        heights = share * cell, (1 - share) * cell
+        # Two crests a period, or four where flats overlap beside the crossings; as one wave becomes a straight line,
+        # its neighbour needs no overlap, and flanks of the last layer and of the next one meet.
+        crests = 4 if self.share or self.rises else 2
+        tip = crest * (crests / 2 - min(share, 1 - share) * (crests - 2))
+        period = 2 * cell / math.sqrt(3) + crests * crest
+        free = [period - tip - 2 * height / math.sqrt(3) for height in heights]
+        low = Wave(period=period, bottom=tip, top=free[0], height=heights[0], base=base)
+        high = Wave(period=period, bottom=free[1], top=tip, height=heights[1], base=base + heights[0] + gap)
+        return Rows(waves=[low, high], pitch=pitch, slip=period / 2)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the cell for a density, in the mean over heights; see `Family`."""
+
+        def length_per_area(cell: float) -> float:
+            heights = [cell * math.sqrt(2) / 3 * part / AT_LEAST for part in range(AT_LEAST if self.rises else 1)]
+            return sum(self.rows(cell, line_width, 0, z).length_per_area for z in heights) / len(heights)
+
+        return cell_of(length_per_area, density, line_width)
+
+    def largest_radius(self, cell: float, line_width: float) -> float:  # noqa: ARG002
+        """Return the radius at which cells keep their shape, mm; crests touch at any."""
+        return SHARE * cell
+
+
+TRIANGLES = Threefold(name="triangles", summary="straight lines with zigzags between them that touch both")
+TRI_HEXAGON = Threefold(name="tri-hexagon", summary="triangles around hexagons, drawn as waves that touch", share=0.5)
+CUBIC = Threefold(
+    name="cubic", summary="cubes that stand on a corner; stiff in height as well", rises=True, prismatic=False
+)

@@ -1,0 +1,151 @@
+r"""Rows of waves with straight flanks and flat crests, the common shape of families that touch but never cross.
+
+::
+
+        .------.          .------.      top
+       /        \\        /        \
+      /          \\      /          \\    height
+    -'            '----'            '-  bottom
+    |<---- period ---->|
+
+Crests of neighbouring rows meet flat on flat. A flat keeps `bond` after both its corners are rounded, so
+that rows touch at any radius: it is longer by twice what an arc takes from it, radius · tan(turn / 2).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from infill.paths.families.protocol import TOUCH, Bounds, Path
+
+BOND = 1.0  # line widths that crests touch along, at least
+
+
+@dataclass(frozen=True, kw_only=True)
+class Wave:
+    """One wave of every row, mm: `base` is the height of its bottom, and `shift` where one has its middle."""
+
+    period: float
+    bottom: float
+    top: float
+    height: float
+    base: float = 0.0
+    shift: float = 0.0
+
+    @property
+    def length(self) -> float:
+        """Return the length of line in one period, mm."""
+        return self.bottom + self.top + 2 * math.hypot((self.period - self.bottom - self.top) / 2, self.height)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rows:
+    """Waves that repeat every `pitch` mm across the rows, each row `slip` mm further on; turned by `angle` degrees."""
+
+    waves: Sequence[Wave]
+    pitch: float
+    slip: float
+    angle: float = 0.0
+
+    @property
+    def length_per_area(self) -> float:
+        """Return mm of line per square millimetre."""
+        return sum(wave.length for wave in self.waves) / (self.waves[0].period * self.pitch)
+
+
+def flat(line_width: float, radius: float, turn: float) -> float:
+    """Return the length of a crest, mm, that keeps its bond after corners that turn by `turn` are rounded."""
+    return BOND * line_width + 2 * radius * math.tan(turn / 2)
+
+
+def strands(rows: Rows, bounds: Bounds) -> list[Path]:
+    """Return one line per row and wave, from beyond one side of the box to beyond the other.
+
+    >>> square = Wave(period=4, bottom=2, top=2, height=1)
+    >>> [line[:3].tolist() for line in strands(Rows(waves=[square], pitch=2, slip=0), (0, 0.2, 1, 0.8))][1]
+    [[-5.0, 0.0], [-3.0, 0.0], [-3.0, 1.0]]
+    """
+    paths: list[Path] = []
+    for wave in rows.waves:
+        lines = repeated(
+            _corners(wave) + np.array([0.0, wave.base]),
+            wave.period,
+            rows.pitch,
+            shift=wave.shift,
+            slip=rows.slip,
+            angle=rows.angle,
+            bounds=bounds,
+        )
+        paths.extend(lines if wave.height else [line[[0, -1]] for line in lines])
+    return paths
+
+
+def repeated(
+    corners: Path,
+    period: float,
+    pitch: float,
+    *,
+    shift: float = 0.0,
+    slip: float = 0.0,
+    angle: float = 0.0,
+    bounds: Bounds,
+) -> list[Path]:
+    """Return rows of a line, each from beyond one side of a box to beyond the other.
+
+    Parameters
+    ----------
+    corners : (N, 2) float64
+        Of one period, mm: the first at x <= 0, the last at x >= 0. The next ones begin `period` further along x.
+    period, pitch, shift, slip : float
+        mm: along a row, from row to row, and how much further on row 0 lies, and each row than the one below.
+    angle : float
+        Degrees by which all of it is turned.
+    bounds : (x0, y0, x1, y1)
+        mm.
+    """
+    x0, y0, x1, y1 = _turned(bounds, -angle)
+    first = math.floor((y0 - corners[:, 1].max()) / pitch)
+    last = math.ceil((y1 - corners[:, 1].min()) / pitch)
+    row = np.arange(first, last + 1, dtype=np.float64)
+    further = (shift + row * slip) % period
+    column = np.arange(math.floor(x0 / period) - 1, math.ceil(x1 / period) + 1, dtype=np.float64)
+    x = ((column * period)[:, None] + corners[:, 0]).ravel() + further[:, None]
+    y = np.tile(corners[:, 1], len(column)) + (row * pitch)[:, None]
+    return list(_turn(np.stack([x, y], axis=-1), angle))
+
+
+def cell_of(length_per_area: Callable[[float], float], density: float, line_width: float) -> float:
+    """Return the cell, mm, at which a family whose lines come closer as cells shrink has a density."""
+    wanted = density / (TOUCH * line_width)
+    low, high = TOUCH * line_width, 1000 * line_width / density
+    for _ in range(60):  # halvings in the logarithm: to 1e-15 of the cell
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if length_per_area(middle) > wanted else (low, middle)
+    return math.sqrt(low * high)
+
+
+def _corners(wave: Wave) -> Path:
+    """Return the corners of one period, (2 to 4, 2); a flat of no length is one corner."""
+    middle = wave.period / 2
+    low = [(-wave.bottom / 2, 0.0), (wave.bottom / 2, 0.0)] if wave.bottom > 0 else [(0.0, 0.0)]
+    high = [(middle - wave.top / 2, wave.height), (middle + wave.top / 2, wave.height)]
+    return np.array(low + (high if wave.top > 0 else [(middle, wave.height)]))
+
+
+def _turn(points: Path, angle: float) -> Path:
+    if not angle:
+        return points
+    from patterns.linework import turn
+
+    return turn(points, angle)
+
+
+def _turned(bounds: Bounds, angle: float) -> Bounds:
+    """Return the box around a box that is turned about (0, 0)."""
+    corners = _turn(np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]], dtype=np.float64), angle)
+    (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
+    return x0, y0, x1, y1

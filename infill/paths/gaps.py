@@ -1,0 +1,145 @@
+"""The outline of a region between neighbouring ends of paths, and how far it is clear for a bead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.paths.clipping import Pieces
+from infill.paths.families.protocol import TOUCH, Path
+from infill.paths.outlines import Floats, Numbers, Outline
+
+CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
+NEXT = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
+NEXT_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
+STEPS = 4  # per line width, in which the outline is examined
+
+
+@dataclass(frozen=True, kw_only=True)
+class Gaps:
+    """Gaps between neighbouring ends, ring by ring and forwards along each.
+
+    Attributes
+    ----------
+    ring : (G,) int
+    begin, end : (G,) int
+        The ends beside a gap, numbered 2 · path for where a path begins and 2 · path + 1 for where it ends.
+    place, length : (G,) float64
+        Where it begins along its ring, and how long it is, mm.
+    across : (G,) float64
+        How far apart the ends are, mm: less than `length` around a corner.
+    clear : (G,) bool
+        Whether a bead fits along the whole of it.
+    forwards, backwards : (G,) float64
+        How far an anchor may reach from `begin` and from `end`, mm.
+    """
+
+    ring: Numbers
+    begin: Numbers
+    end: Numbers
+    place: Floats
+    length: Floats
+    across: Floats
+    clear: NDArray[np.bool_]
+    forwards: Floats
+    backwards: Floats
+
+
+def gaps_of(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
+    """Return the gaps of all rings, and how far each is clear of paths."""
+    number = np.flatnonzero(pieces.ring.ravel() >= 0)
+    ring, place = pieces.ring.ravel()[number], pieces.place.ravel()[number]
+    order = np.lexsort((place, ring))
+    number, ring, place = number[order], ring[order], place[order]
+    tips = np.array([path[[0, -1]] for path in pieces.paths]).reshape(-1, 2)
+    # The gap after the last end of a ring goes on to the first.
+    opening = np.flatnonzero(np.append(True, ring[1:] != ring[:-1])[: len(ring)])
+    following = np.arange(1, len(ring) + 1)
+    closing = np.append(opening[1:], len(ring))[: len(opening)] - 1
+    following[closing] = opening
+    length = place[following] - place if len(ring) else place
+    length[closing] += outline.around[ring[closing]]
+    forwards, backwards, whole = _clear(pieces, outline, line_width, (ring, place, length, number, number[following]))
+    return Gaps(
+        ring=ring,
+        begin=number,
+        end=number[following],
+        place=place,
+        length=length,
+        across=np.hypot(*(tips[number[following]] - tips[number]).T),
+        clear=whole,
+        forwards=forwards,
+        backwards=backwards,
+    )
+
+
+def _clear(
+    pieces: Pieces,
+    outline: Outline,
+    line_width: float,
+    gaps: tuple[Numbers, Floats, Floats, Numbers, Numbers],
+) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Return how far gaps are clear from their begin and from their end, mm, and which are clear as a whole."""
+    import shapely
+
+    ring, place, length, begin, end = gaps
+    forwards, backwards, whole = length.copy(), length.copy(), np.ones(len(length), dtype=bool)
+    if not len(length):
+        return forwards, backwards, whole
+    reach, near = CLEAR * TOUCH * line_width, NEXT * line_width
+    step = line_width / STEPS
+    count = np.maximum(1, np.ceil(length / step).astype(np.intp))
+    gap = np.repeat(np.arange(len(length)), count)
+    within = (np.arange(len(gap)) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[gap] * length[gap]
+    points = np.empty((len(gap), 2))
+    for one in np.unique(ring):
+        here = ring[gap] == one
+        points[here] = outline.points_at(int(one), (place[gap] + within)[here])
+
+    # Which segments of paths come near, and how far along the path those places are from either end of the gap.
+    flat = np.concatenate(pieces.paths)
+    owner = np.repeat(np.arange(len(pieces.paths)), [len(path) for path in pieces.paths])
+    start = np.flatnonzero(owner[1:] == owner[:-1])
+    long = np.hypot(*(flat[start + 1] - flat[start]).T)
+    along = np.zeros(len(flat))
+    along[start + 1] = long
+    along = np.cumsum(along)
+    along -= along[np.searchsorted(owner, owner)]
+    total = np.zeros(len(pieces.paths))
+    np.maximum.at(total, owner, along)
+    segments = shapely.linestrings(np.stack([flat[start], flat[start + 1]], axis=1))
+    sample, segment = shapely.STRtree(segments).query(shapely.points(points), predicate="dwithin", distance=reach)
+    from_begin, from_end = within[sample], (length[gap] - within)[sample]
+    a, path = flat[start[segment]], owner[start[segment]]
+    part = ((points[sample] - a) * (flat[start[segment] + 1] - a)).sum(axis=-1) / np.maximum(long[segment], 1e-12)
+    passed = along[start[segment]] + part.clip(0, long[segment])
+    walks = [
+        np.where(path == tip // 2, np.where(tip % 2 == 0, passed, total[path] - passed) + walked, np.inf)
+        for tip, walked in ((begin[gap[sample]], from_begin), (end[gap[sample]], from_end))
+    ]
+    # Where the outline comes near itself nothing is walked: the other side may be.
+    tight = _near_itself(points, ring[gap], place[gap] + within, outline, reach, near)
+    sample = np.concatenate([sample, tight])
+    by_begin, by_end = (np.concatenate([walk, np.full(len(tight), np.inf)]) for walk in walks)
+    which = gap[sample]
+    far = by_begin > NEXT_OF_ANCHOR * line_width
+    np.minimum.at(forwards, which[far], (within[sample] - step)[far])
+    far = by_end > NEXT_OF_ANCHOR * line_width
+    np.minimum.at(backwards, which[far], (length[which] - within[sample] - step)[far])
+    whole[which[np.minimum(by_begin, by_end) > near]] = False
+    return forwards.clip(min=0), backwards.clip(min=0), whole
+
+
+def _near_itself(points: Path, ring: Numbers, place: Floats, outline: Outline, reach: float, near: float) -> Numbers:
+    """Return the points on the outline that are near another one, but not along a ring."""
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
+    one, other = pairs.T
+    around = outline.around[ring[one]]
+    apart = np.abs(place[one] - place[other]) % around
+    far = (ring[one] != ring[other]) | (np.minimum(apart, around - apart) > near)
+    found: Numbers = np.unique(pairs[far])
+    return found

@@ -1,0 +1,158 @@
+"""Ends of paths joined along the outline of their region, as slicers anchor infill.
+
+Ends divide a ring of the outline into gaps. A gap may be walked whole, from one end to the next, or in part, as
+an anchor of a free end; never twice. Paths in a region do not cross and gaps do not overlap, so joined paths do not
+cross either. What is walked keeps clear of everything that is not next to it along the same path.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.paths.clipping import Pieces
+from infill.paths.families.protocol import TOUCH, Path
+from infill.paths.gaps import CLEAR, Gaps, gaps_of
+from infill.paths.layer_below import Ground
+from infill.paths.outlines import Outline
+from infill.paths.pairing import walked_gaps
+
+SHORTEST = 2.0  # line widths; a path shorter than this is a dot
+
+
+def join(
+    pieces: Pieces,
+    outline: Outline,
+    *,
+    line_width: float,
+    anchor: float,
+    anchor_max: float,
+    ground: Ground | None = None,
+) -> list[Path]:
+    """Return paths joined along the outline.
+
+    Parameters
+    ----------
+    pieces : Pieces
+        From `clip`.
+    outline : Outline
+    line_width : float
+        mm.
+    anchor : float
+        Length of the anchor of an end that stays free, mm, at most.
+    anchor_max : float
+        Length of the outline along which two ends are joined, mm, at most; the shortest are joined first.
+    ground : Ground, optional
+        The layer below: where the outline lies on it, ends are joined before all others, and anchored.
+
+    Returns
+    -------
+    list of (N, 2) float64, mm
+        Joining closes a path only where its ends would overlap. Those shorter than two line widths are left out.
+    """
+    gaps = gaps_of(pieces, outline, line_width)
+    apart = TOUCH * line_width
+    held = None if ground is None else _held(gaps, outline, ground)
+    walked = walked_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=held)
+    link: dict[int, tuple[int, Path]] = {}
+    for gap in np.flatnonzero(walked).tolist():
+        begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])
+        wall = outline.between(int(gaps.ring[gap]), place, float(gaps.length[gap]))
+        link[begin], link[end] = (end, wall), (begin, wall[::-1])
+    chains = _chains(len(pieces.paths), link)
+    lengths = np.array([np.hypot(*np.diff(path, axis=0).T).sum() for path in pieces.paths])
+    kept = [chain for chain in chains if len(chain) > 1 or lengths[chain[0] // 2] >= SHORTEST * line_width]
+    free = [end for chain in kept for end in (chain[0], chain[-1] ^ 1) if end not in link]
+    heading = {end: _heading(pieces.paths[end // 2], end) for end in free}
+    anchors = _anchors(heading, gaps, walked, outline, anchor, apart, ground)
+    return [_laid(chain, pieces.paths, link, anchors) for chain in kept]
+
+
+def _held(gaps: Gaps, outline: Outline, ground: Ground) -> NDArray[np.bool_]:
+    """Return whether the middles of gaps lie on something."""
+    middles = [
+        outline.points_at(ring, np.array([place + length / 2]))[0]
+        for ring, place, length in zip(gaps.ring.tolist(), gaps.place.tolist(), gaps.length.tolist(), strict=True)
+    ]
+    return ground.holds(np.array(middles).reshape(-1, 2))
+
+
+def _chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:
+    """Return which paths follow one another: each by the number of the end that it is entered at.
+
+    Open chains come first, from an end that is not linked; what they leave over is closed.
+    """
+    chains: list[list[int]] = []
+    seen: set[int] = set()
+    for entry in sorted(range(2 * count), key=link.__contains__):
+        if entry // 2 not in seen:
+            chain = [entry]
+            while chain[-1] ^ 1 in link and (after := link[chain[-1] ^ 1][0]) != entry:
+                chain.append(after)
+            seen.update(end // 2 for end in chain)
+            chains.append(chain)
+    return chains
+
+
+def _heading(path: Path, end: int) -> Path:
+    """Return the direction in which a path arrives at one of its ends, (2,)."""
+    step = path[-1] - path[-2] if end % 2 else path[0] - path[1]
+    direction: Path = step / max(float(np.hypot(*step)), 1e-12)
+    return direction
+
+
+def _anchors(
+    heading: Mapping[int, Path],
+    gaps: Gaps,
+    walked: NDArray[np.bool_],
+    outline: Outline,
+    anchor: float,
+    apart: float,
+    ground: Ground | None,
+) -> dict[int, Path]:
+    """Return the anchors of free ends, by end, from the end on.
+
+    The way that lies on something, else the longer one, or the blunter one if it is clear.
+    """
+    after = dict(zip(gaps.begin.tolist(), range(len(gaps.begin)), strict=True))
+    before = dict(zip(gaps.end.tolist(), range(len(gaps.end)), strict=True))
+    # Two anchors in a gap keep apart around a right angle too.
+    left = np.where(walked, 0.0, gaps.length - math.sqrt(2) * apart)
+    anchors: dict[int, Path] = {}
+    for end, direction in heading.items():
+        if end not in after:
+            continue
+        onwards, back = after[end], before[end]
+        ways: list[tuple[float, float, int, Path]] = []
+        for gap, clear, sign in ((onwards, gaps.forwards, 1.0), (back, gaps.backwards, -1.0)):
+            reach = min(anchor, float(left[gap]), float(clear[gap]))
+            if reach >= apart:
+                place = float(gaps.place[onwards])
+                wall = outline.stretch(int(gaps.ring[onwards]), place, sign * reach)
+                blunt = bool((_heading(wall[:2], 1) * direction).sum() >= 0)
+                held = ground is not None and bool(ground.holds(wall[1:].mean(axis=0)[None])[0])
+                ways.append((reach + (blunt + 2 * held) * anchor, reach, gap, wall[1:]))
+        if ways:
+            _, reach, gap, anchors[end] = max(ways, key=lambda way: way[0])
+            left[gap] -= reach
+    return anchors
+
+
+def _laid(chain: list[int], paths: Sequence[Path], link: dict[int, tuple[int, Path]], anchors: dict[int, Path]) -> Path:
+    """Return the path along a chain, with the walls between its pieces and the anchors at its ends."""
+    parts: list[Path] = []
+    if chain[0] in anchors:
+        parts.append(anchors[chain[0]][::-1])
+    for entry in chain:
+        path = paths[entry // 2]
+        parts.append(path[::-1] if entry % 2 else path)
+        if entry ^ 1 in link:
+            parts.append(link[entry ^ 1][1])
+    if chain[-1] ^ 1 in anchors:
+        parts.append(anchors[chain[-1] ^ 1])
+    if chain[0] in link:
+        parts.append(parts[0][:1])
+    return np.concatenate(parts)

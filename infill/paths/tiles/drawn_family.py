@@ -1,0 +1,152 @@
+"""A drawing as a family of paths: a tile that is repeated, smoothed by the paper's equation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.checks import length, positive, within
+from infill.drawing import Bounds, Drawing
+from infill.errors import GeometryError
+from infill.paths.tiles.borders import TOUCH, borders
+from infill.paths.tiles.nodes import tile_grid
+from infill.paths.tiles.strands import Strand, repeated, tile_strands
+from infill.paths.tiles.two_colours import two_colours
+
+CELL_STEP = 1.04  # between the cells whose fields are computed
+IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
+LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
+BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
+LARGEST_RADIUS = 0.1  # of the smaller side of a tile
+MOST_LINES = 4.0  # line widths: rounder corners look no better, and smoothing takes longer with the fourth power
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Drawn:
+    """A drawing that is repeated in both directions; `cell` is the width of its tile, mm.
+
+    Parameters
+    ----------
+    name : str
+        Of the file.
+    drawing : Drawing
+        Its lines, with the tile as the page.
+    """
+
+    name: str
+    drawing: Drawing
+    summary: str = "a drawing, repeated"
+    prismatic: bool = True
+    wide: bool = False
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """What the file holds besides lines, in words: "2 texts"."""
+        return self.drawing.left_out
+
+    @property
+    def width(self) -> float:
+        """The width of the tile as drawn, mm."""
+        x0, _, x1, _ = self.tile
+        return x1 - x0
+
+    @property
+    def tile(self) -> Bounds:
+        """The box that is repeated, mm."""
+        assert self.drawing.page is not None
+        return self.drawing.page
+
+    def strands(
+        self,
+        bounds: Bounds,
+        *,
+        cell: float,
+        line_width: float,
+        z: float = 0.0,  # noqa: ARG002 - every layer is the same
+        layer: int = 0,  # noqa: ARG002
+        radius: float = 0.0,
+    ) -> list[NDArray[np.float64]]:
+        """Return paths that cover a box: no two cross, and those of open or branching lines run on both sides of them.
+
+        Parameters
+        ----------
+        bounds : (x0, y0, x1, y1)
+            mm.
+        cell : float
+            Width of the tile, mm.
+        line_width : float
+            mm.
+        z, layer
+            Of no effect.
+        radius : float
+            mm: about the radius that a right angle gets, up to `largest_radius`. Small outlines get less.
+
+        Raises
+        ------
+        GeometryError
+            If nothing is left of the drawing at this size, or the tile is too large for the line width.
+        """
+        strands, size = _scaled_strands(self, length("cell", cell), length("line_width", line_width), radius)
+        return repeated(strands, size, bounds)
+
+    def cell_for(self, density: float, line_width: float) -> float:
+        """Return the width of the tile at which the paths fill about `density` of the plane."""
+        within("density", density, 1e-4, 1)
+        positive("line_width", line_width, "mm")
+        _, y0, _, y1 = self.tile
+        drawn_length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in self.drawing.lines)
+        cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
+        for _ in range(IMPROVED):
+            strands, size = _scaled_strands(self, cell, line_width, 0.0)
+            found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
+            cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
+        return cell
+
+    def largest_radius(self, cell: float, line_width: float) -> float:
+        """Return a tenth of the smaller side of the tile, and at most four line widths, mm.
+
+        Beyond a tenth, little would be left of the drawing.
+        """
+        x0, y0, x1, y1 = self.tile
+        return min(LARGEST_RADIUS * cell * min(1.0, (y1 - y0) / (x1 - x0)), MOST_LINES * line_width)
+
+
+def _scaled_strands(
+    family: Drawn, cell: float, line_width: float, radius: float
+) -> tuple[list[Strand], tuple[float, float]]:
+    """Return the strands of a tile and its size, mm: those of the nearest of some fixed cells, scaled.
+
+    What finds room between beads changes with the cell, and each time the length of paths jumps. Scaled by a fiftieth
+    at most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly.
+    """
+    fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
+    least = min(within("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
+    strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, least)
+    scale = cell / fixed
+    return [replace(each, points=each.points * scale) for each in strands], (width * scale, height * scale)
+
+
+@lru_cache(maxsize=16)
+def _strands(
+    name: str, drawing: Drawing, cell: float, line_width: float, radius: float
+) -> tuple[list[Strand], tuple[float, float]]:
+    """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
+    assert drawing.page is not None
+    x0, y0, x1, y1 = drawing.page
+    factor = cell / (x1 - x0)
+    size = cell, (y1 - y0) * factor
+    lines = [(line - (x0, y0)) * factor for line in drawing.lines]
+    blur = max(LEAST_BLUR * line_width, BLUR_PER_RADIUS * radius)
+    grid = tile_grid(size, line_width=line_width, blur=blur)
+    field = two_colours(borders(lines, size, line_width=line_width), grid, line_width=line_width, blur=blur)
+    strands = tile_strands(field, grid)
+    if not strands:
+        raise GeometryError(
+            f"nothing is left of {name} in tiles of {size[0]:.4g} × {size[1]:.4g} mm with lines of "
+            f"{line_width:g} mm; make the cell larger"
+        )
+    return strands, size

@@ -1,0 +1,1 @@
+"""Motion of a printer: junctions, look-ahead, printing time."""

@@ -1,0 +1,127 @@
+"""Arcs as firmware drives them: chords of one millimetre, or fewer degrees where the arc is small."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.gcode.table import Table
+from infill.planner.bounds import Floats
+
+LONGEST = 1.0  # mm: the default of Marlin (MM_PER_ARC_SEGMENT) and of Klipper (gcode_arcs)
+SHORTEST = 0.1  # mm
+CIRCLE = 72  # chords at least, if they do not get too short
+MOST_OF_ARC, MOST = 1 << 14, 1 << 22  # chords of an arc, and of all at once: more of them mean that the file is wrong
+COARSE = 0.26  # of the diameter: the sine of 15 degrees; even the smallest arcs are cut finer
+PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane and the one across it
+
+
+def arc_chords(
+    table: Table, arcs: NDArray[np.intp], start: Floats, end: Floats
+) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """Cut arcs of a table into chords, in whichever plane they lie, by their centre or by their radius.
+
+    Parameters
+    ----------
+    table : Table
+    arcs : (N,) int
+        Lines.
+    start, end : (N, 3) float64
+        mm
+
+    Returns
+    -------
+    arc, first : as by `chords`
+    way : (M, 3) float64
+        From there to its end, as long as the arc that the chord stands for, mm.
+    """
+    words = [table.further.get(line, {}) for line in arcs.tolist()] if table.further else [{}] * len(arcs)
+    offset = np.nan_to_num(np.column_stack([table.i[arcs], table.j[arcs], [each.get("K", 0.0) for each in words]]))
+    radius = np.array([each.get("R", np.nan) for each in words])
+    turns = np.maximum(np.array([each.get("P", 1.0) for each in words]), 1.0)
+    clockwise = table.code[arcs] == 2
+    found = []
+    for plane in np.unique(table.plane[arcs]).tolist():
+        some, axes = np.flatnonzero(table.plane[arcs] == plane), PLANES[plane]
+        here, there = start[some][:, axes], end[some][:, axes]
+        centre = here[:, :2] + offset[some][:, axes[:2]]
+        by_radius = ~np.isnan(radius[some])
+        centre[by_radius] = _centre(here, there, radius[some], clockwise[some])[by_radius]
+        which, first, last = chords(here, there, centre, clockwise[some], np.floor(turns[some]))
+        back = np.argsort(axes)
+        way = (last - first) * _longer(last - first, np.hypot(*(here[:, :2] - centre).T)[which])[:, None]
+        found.append((some[which], first[:, back], way[:, back]))
+    which, first, way = (np.concatenate(each) for each in zip(*found, strict=True))
+    order = np.argsort(which, kind="stable")
+    return which[order], first[order], way[order]
+
+
+def _longer(chord: Floats, radius: Floats) -> Floats:
+    """Return how much longer the arc of each chord is; 1 for chords that are no fine part of their circle."""
+    half = np.hypot(*chord[:, :2].T) / np.maximum(2 * radius, 1e-300)
+    fine = (half > 1e-9) & (half < COARSE)
+    half = np.where(fine, half, 0.5)
+    return np.where(fine, np.arcsin(half) / half, 1.0)
+
+
+def _centre(start: Floats, end: Floats, radius: Floats, clockwise: NDArray[np.bool_]) -> Floats:
+    """Return the centres of arcs of a radius, (N, 2); where it is below 0, the arc is more than half a circle."""
+    way = (end - start)[:, :2]
+    chord = np.hypot(*way.T)
+    height = np.sqrt(np.maximum(np.nan_to_num(radius) ** 2 - (chord / 2) ** 2, 0.0))
+    side = np.where(clockwise == (radius > 0), 1.0, -1.0)  # to the right
+    right = np.column_stack([way[:, 1], -way[:, 0]]) / np.maximum(chord, 1e-300)[:, None]
+    return np.asarray(start[:, :2] + way / 2 + right * (side * height)[:, None])
+
+
+def chords(
+    start: Floats, end: Floats, centre: Floats, clockwise: NDArray[np.bool_], turns: Floats | None = None
+) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """Cut arcs into chords.
+
+    Parameters
+    ----------
+    start, end : (N, 3) float64
+        mm; z rises evenly along the arc. Where x and y are the same, it is a whole circle.
+    centre : (N, 2) float64
+        mm
+    clockwise : (N,) bool
+        Seen from above: G2.
+    turns : (N,) float64, optional
+        Whole circles and the rest, as P counts them: 1 and less are the arc alone.
+
+    Returns
+    -------
+    arc : (M,) int
+        Which arc a chord belongs to.
+    first, last : (M, 3) float64
+        Its ends; those of an arc are exactly `start` and `end`.
+
+    >>> arc, first, last = chords(np.zeros((1, 3)), np.array([[2.0, 0, 0]]), np.array([[1.0, 0]]), np.array([True]))
+    >>> len(arc), last[len(arc) // 2 - 1].round(3).tolist()
+    (32, [1.0, 1.0, 0.0])
+    """
+    away, until = start[:, :2] - centre, end[:, :2] - centre
+    radius = np.hypot(*away.T)
+    begin = np.arctan2(away[:, 1], away[:, 0])
+    turn = (np.arctan2(until[:, 1], until[:, 0]) - begin) % (2 * np.pi)
+    turn = np.where(turn < 1e-9, 2 * np.pi, turn)  # a whole circle, to the last digits of the file
+    turn = np.where(clockwise & (turn < 2 * np.pi), turn - 2 * np.pi, np.where(clockwise, -turn, turn))
+    if turns is not None:
+        turn = turn + np.where(clockwise, -2 * np.pi, 2 * np.pi) * np.maximum(turns - 1, 0)
+    length = np.abs(turn) * radius
+    fine = np.minimum(np.abs(turn) * CIRCLE / (2 * np.pi), length / SHORTEST)
+    wanted = np.clip(np.ceil(np.maximum(length / LONGEST, fine) - 1e-9), 1, MOST_OF_ARC)
+    count = np.maximum(wanted * min(1.0, MOST / max(wanted.sum(), 1.0)), 1).astype(np.intp)
+    arc = np.repeat(np.arange(len(count)), count)
+    number = np.arange(len(arc)) - np.repeat(np.cumsum(count) - count, count)
+
+    def at(share: Floats) -> Floats:
+        angle = begin[arc] + share * turn[arc]
+        level = centre[arc] + radius[arc, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+        return np.column_stack([level, start[arc, 2] + share * (end - start)[arc, 2]])
+
+    first, last = at(number / count[arc]), at((number + 1) / count[arc])
+    opening, closing = number == 0, number == count[arc] - 1
+    first[opening], last[closing] = start[arc[opening]], end[arc[closing]]
+    return arc, first, last

@@ -1,0 +1,57 @@
+"""Klipper's minimum cruise ratio: no move speeds up only to slow down at once.
+
+Klipper plans twice, the second time with accelerations lowered by the ratio r to a (1 - r). The slower profile rises
+and falls in humps; over each hump the true speed stays below the top of the slower one. Short moves back and forth are
+then driven at a steady speed. Everything is a square of a speed, mm²/s².
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.planner.bounds import Floats
+
+ROUNDING = 1e-9  # of a profile: its sums are exact to 1e-14, and places in a file to 1e-12
+
+
+def humps(eased: Floats, reach: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which moves do nothing but speed up in the slower profile, and which nothing but slow down.
+
+    Parameters
+    ----------
+    eased : (N + 1,) float64
+        The slower profile at the joints.
+    reach : (N,) float64
+        By how much a move can change it.
+    """
+    change = np.diff(eased)
+    least = reach - ROUNDING * (eased[:-1] + eased[1:])
+    return change >= least, -change >= least
+
+
+def tops(eased: Floats, reach: Floats, cruise: Floats) -> Floats:
+    """Return the top of the hump that each move belongs to, (N,).
+
+    Parameters
+    ----------
+    eased, reach : as for `humps`
+    cruise : (N,) float64
+        The moves' own limits.
+
+    >>> joints = np.array([0.0, 50.0, 100.0, 50.0, 0.0])
+    >>> tops(joints, np.full(4, 50.0), np.full(4, 900.0)).tolist()
+    [100.0, 100.0, 100.0, 100.0]
+    """
+    rising, falling = humps(eased, reach)
+    falling &= ~rising
+    own = np.minimum(cruise, (eased[:-1] + eased[1:] + reach) / 2)
+    number = np.arange(len(own))
+    ahead = np.minimum.accumulate(np.where(rising, len(own), number)[::-1])[::-1]  # the next that does not rise
+    behind = np.maximum.accumulate(np.where(falling, -1, number))  # the last that does not fall
+    at_next = np.minimum(ahead, len(own) - 1)
+    summit = (ahead == len(own)) | falling[at_next]  # from rise to fall without a move between: the joint is the top
+    up = np.where(summit, eased[ahead], own[at_next])
+    at_last = np.maximum(behind, 0)
+    down = np.where((behind < 0) | rising[at_last], eased[behind + 1], own[at_last])
+    return np.where(rising, up, np.where(falling, down, own))

@@ -1,0 +1,155 @@
+"""How fast a planner lets the machine pass from one move to the next: four models, all joints at once.
+
+A joint between moves of unit directions u and w turns by phi, with sin(phi / 2) = |w - u| / 2 and cos(phi / 2) =
+|w + u| / 2. These are exact for the smallest turns, where 1 - cos(phi) has lost every digit. Everything is a square of
+a speed, mm²/s².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.gcode.limits import Limits
+from infill.planner.bounds import Bounded, Floats, Moves, values
+
+Limit = Callable[[str], Floats]
+SMALL_SEGMENT = 1.0  # mm: below it Marlin takes the corner for part of an arc,
+SMALL_TURN = np.pi / 4  # where it turns less than this
+
+
+def joint_limits(moves: Moves, bounds: Bounded, limits: Sequence[Limits]) -> Floats:
+    """Return the square of the highest speed before, between and after moves, (N + 1,), mm²/s².
+
+    At both ends the machine goes from and to rest. The speeds of the moves themselves are limits of the joints as well.
+    """
+
+    def limit(name: str) -> Floats:
+        return values(limits, name, moves.setting)
+
+    inside, at_rest = _MODELS[limits[0].model]
+    cruise, rest = bounds.speed**2, at_rest(bounds, limit) ** 2
+    joints = np.empty(len(cruise) + 1)
+    joints[0], joints[-1] = rest[0], rest[-1]
+    if len(cruise) > 1:
+        inner = np.minimum(inside(bounds, limit), np.minimum(cruise[:-1], cruise[1:]))
+        joints[1:-1] = np.where(moves.stop[1:], np.minimum(rest[:-1], rest[1:]), inner)
+    return joints
+
+
+def _at(limit: Floats, which: slice) -> Floats:
+    """Return the limits of some moves, of one that holds for all too."""
+    return limit if len(limit) == 1 else limit[which]
+
+
+BEFORE, AFTER = slice(None, -1), slice(1, None)
+
+
+def _half_turns(direction: Floats) -> tuple[Floats, Floats]:
+    """Return sin and cos of half the angle by which each unit vector turns into the next, (N - 1,) both."""
+    difference, total = np.diff(direction, axis=0), direction[:-1] + direction[1:]
+    return (
+        np.sqrt(np.einsum("ij,ij->i", difference, difference)) / 2,
+        np.sqrt(np.einsum("ij,ij->i", total, total)) / 2,
+    )
+
+
+def _square_corner(bounds: Bounded, limit: Limit) -> Floats:
+    """Klipper's rule.
+
+    With s = cos(phi / 2), the circle that leaves the corner by the deviation J allows v² = a J s / (1 - s), where J
+    gives the square corner velocity c at a right angle: a J = c² (sqrt(2) - 1). The circle must touch both moves
+    before their middles: v² <= a d / 2 · cot(phi / 2). And filament may not jump by more than its own velocity.
+    """
+    sine, cosine = _half_turns(bounds.direction[:, :3])
+    modal = limit("acceleration")
+    deviation = limit("square_corner_velocity") ** 2 * (np.sqrt(2) - 1) / modal
+    scaled = deviation * bounds.acceleration
+    with np.errstate(divide="ignore", invalid="ignore"):
+        circle = cosine * (1 + cosine) / sine**2 * np.minimum(scaled[:-1], scaled[1:])
+        midpoint = np.minimum(bounds.reach[:-1], bounds.reach[1:]) * cosine / (4 * sine)
+        filament = _at(limit("corner_extrusion_velocity"), AFTER) / np.abs(np.diff(bounds.direction[:, 3]))
+    joints = np.asarray(np.fmin(np.fmin(circle, midpoint), filament**2))
+    joints[bounds.turning_only[:-1] | bounds.turning_only[1:]] = 0.0
+    return joints
+
+
+def _junction_deviation(bounds: Bounded, limit: Limit) -> Floats:
+    """Marlin's rule, in four dimensions.
+
+    v² = a J s / (1 - s) with s = cos(phi / 2), where a is what the axes allow towards the inside of the corner; where
+    a move shorter than 1 mm turns by less than 45 degrees, it is an arc of its length, v² <= a d / phi.
+    """
+    unit = bounds.direction / np.sqrt(np.einsum("ij,ij->i", bounds.direction, bounds.direction))[:, None]
+    sine, cosine = _half_turns(unit)
+    length = np.minimum(bounds.distance[:-1], bounds.distance[1:])
+    inwards = np.abs(np.diff(unit, axis=0))
+    acceleration = np.minimum(bounds.acceleration[:-1], bounds.acceleration[1:])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        inwards /= 2 * sine[:, None]
+        axes = _at(limit("axis_acceleration"), AFTER) / inwards
+        acceleration = np.fmin(acceleration, np.nanmin(np.where(inwards > 0, axes, np.inf), axis=1))
+        circle = acceleration * _at(limit("junction_deviation"), AFTER) * cosine * (1 + cosine) / sine**2
+        turn = 2 * np.arctan2(sine, cosine)
+        arc = np.where((length < SMALL_SEGMENT) & (turn < SMALL_TURN), length * acceleration / turn, np.inf)
+    return np.asarray(np.fmin(np.fmin(circle, arc), np.inf))
+
+
+def _jerk(bounds: Bounded, limit: Limit) -> Floats:
+    """Classic jerk: the velocity of no axis may jump by more than its jerk; a reversal counts its larger side.
+
+    The speed of the joint is the lower one of both moves, scaled down until every axis agrees; or that of a start from
+    rest, if both moves allow it. Two things are not symmetric, in firmware of this model and in the estimates of
+    slicers alike, and so here: the later move counts with its own speed when jumps are measured, not with the joint's,
+    and it is the later move's start from rest that is taken.
+    """
+    slower = np.minimum(bounds.speed[:-1], bounds.speed[1:])
+    leave = bounds.direction[:-1] * slower[:, None]
+    enter = bounds.direction[1:] * bounds.speed[1:, None]
+    jump = np.where(leave * enter > 0, np.abs(leave - enter), np.maximum(np.abs(leave), np.abs(enter)))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = np.fmin((_at(limit("jerk"), AFTER) / jump).min(axis=1), 1.0)
+    joint = slower * factor
+    rest = _rest(bounds, limit)
+    both = (rest[:-1] > 0.99 * joint) & (rest[1:] > 0.99 * joint)
+    return np.asarray(np.where(both, np.minimum(rest[1:], slower), joint) ** 2)
+
+
+def _rest(bounds: Bounded, limit: Limit) -> NDArray[np.float64]:
+    """Return the speed from which the machine may stop at once, and to which it may start: the lowest jerk it meets."""
+    jerk = limit("jerk")
+    meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
+    return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
+
+
+def _vector_jerk(bounds: Bounded, limit: Limit) -> Floats:
+    """Classic jerk of old: x and y jump together, as a vector, and every move counts with its own speed."""
+    jump = np.abs(np.diff(bounds.direction * bounds.speed[:, None], axis=0))
+    jump[:, 0] = np.hypot(jump[:, 0], jump[:, 1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = np.fmin((_at(limit("jerk"), AFTER) / jump)[:, [0, 2, 3]].min(axis=1), 1.0)
+    return np.asarray(np.minimum(bounds.speed[:-1], bounds.speed[1:] * factor) ** 2)
+
+
+def _vector_rest(bounds: Bounded, limit: Limit) -> Floats:
+    """Return half the jerk of x and y, or less where half that of z or e is met."""
+    half = limit("jerk") / 2
+    meets = np.abs(bounds.direction) * bounds.speed[:, None] > half
+    meets[:, :2] = [True, False]
+    return np.asarray(np.minimum(bounds.speed, np.where(meets, half, np.inf).min(axis=1)))
+
+
+def _standstill(bounds: Bounded, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
+    return np.zeros(len(bounds.speed))
+
+
+# How fast joints may be passed, and how fast a move may start from rest and end there.
+_MODELS: Final[dict[str, tuple[Callable[[Bounded, Limit], Floats], Callable[[Bounded, Limit], Floats]]]] = {
+    "jerk": (_jerk, _rest),
+    "vector-jerk": (_vector_jerk, _vector_rest),
+    "junction": (_junction_deviation, _standstill),
+    "klipper": (_square_corner, _standstill),
+}

@@ -1,0 +1,122 @@
+"""Where a printer is fast and where it brakes: the moves of one layer, cut into short pieces of known speed."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import ParameterError
+from infill.gcode.dialect import role_of
+from infill.gcode.sliced_file import opened
+from infill.gcode.stream import LAYER_TAG, batches
+from infill.planner.lookahead import Plan
+from infill.planner.printing_time import given_limits, timeline_of
+from infill.planner.struct_of_arrays import chained, part
+from infill.planner.timeline import Steps
+
+Floats = NDArray[np.float64]
+PIECE: Final = 0.4  # mm
+
+
+@dataclass(frozen=True, kw_only=True)
+class LayerSpeeds:
+    """The moves of one layer, in pieces.
+
+    Parameters
+    ----------
+    start, end : (N, 3) float64
+        mm
+    speed : (N,) float64
+        mm/s, in the middle of the piece.
+    draws : (N,) bool
+        Filament is laid.
+    role : (N,) str
+        What the feature in force means.
+    """
+
+    start: Floats
+    end: Floats
+    speed: Floats
+    draws: NDArray[np.bool_]
+    role: NDArray[np.str_]
+
+
+def layer_speeds(
+    path: str | os.PathLike[str],
+    layer: int,
+    plate: int | None = None,
+    **given: Any,  # noqa: ANN401
+) -> LayerSpeeds:
+    """Plan a file as `motion` does and return the moves of one layer.
+
+    Parameters
+    ----------
+    path : path
+    layer : int
+        Counted from 1.
+    plate : int, optional
+        Which plate of an archive; without it, the first that has G-code.
+    **given
+        As for `motion`.
+
+    Raises
+    ------
+    FormatError
+        If the file is no G-code.
+    ParameterError
+        If the file has no such layer, or no such plate.
+    """
+    found = []
+    with opened(Path(path)) as file, timeline_of(file, file.part(plate), given_limits(**given)) as timeline:
+        for steps, plan in timeline:
+            first, last = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
+            some = slice(int(first), int(last))
+            found.append(_pieces(part(steps, some), part(plan, some), timeline.features))
+    pieces = chained(found)
+    if not len(pieces.speed):
+        raise ParameterError(f"layer is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
+    return pieces
+
+
+def _pieces(steps: Steps, plan: Plan, features: list[bytes]) -> LayerSpeeds:
+    delta, start = steps.moves.delta[:, :3], steps.start
+    distance = np.linalg.norm(delta, axis=1)
+    count = np.where(plan.peak > np.minimum(plan.entry, plan.exit), np.ceil(distance / PIECE), 1).astype(np.intp)
+    count[(distance == 0) | np.isnan(start[:, :2]).any(axis=1)] = 0
+    move = np.repeat(np.arange(len(count)), count)
+    number = np.arange(len(move)) - np.repeat(np.cumsum(count) - count, count)
+    begin, end = number / count[move], (number + 1) / count[move]
+    return LayerSpeeds(
+        start=start[move] + begin[:, None] * delta[move],
+        end=start[move] + end[:, None] * delta[move],
+        speed=_speed(plan, distance, move, (begin + end) / 2),
+        draws=steps.moves.delta[move, 3] > 0,
+        role=np.array([role_of(name) for name in features])[steps.feature[move]],
+    )
+
+
+def _speed(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) -> Floats:
+    """Return the speed at a share of the way of a move.
+
+    From the times of a trapezoid, t = d / p + ((p - e)² + (p - x)²) / (2 a p) with entry e, peak p, exit x, follows the
+    acceleration a; and v² = min(p², e² + 2 a s, x² + 2 a (d - s)).
+    """
+    entry, peak, leaving = plan.entry[move], plan.peak[move], plan.exit[move]
+    length, seconds = distance[move], plan.seconds[move]
+    ramps = ((peak - entry) ** 2 + (peak - leaving) ** 2) / (2 * peak)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        acceleration = np.nan_to_num(ramps / np.maximum(seconds - length / peak, 0), nan=np.inf)
+        rising = entry**2 + 2 * acceleration * share * length
+        falling = leaving**2 + 2 * acceleration * (1 - share) * length
+    return np.asarray(np.sqrt(np.minimum(np.minimum(rising, falling), peak**2)))
+
+
+def middle_layer(path: str | os.PathLike[str], plate: int | None = None) -> int:
+    """Return the number of the layer in the middle of a print, counted from 1; of an archive, that of one plate."""
+    with opened(Path(path)) as file, file.text(file.part(plate)) as given:
+        return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(given.text)) // 2)

@@ -1,0 +1,166 @@
+"""The planner: how fast a machine makes each move, with trapezoids of speed and look-ahead over all moves.
+
+Along a move the square of the speed changes by at most 2 a d. With S the sum of that over the moves so far, and c the
+squares of the highest speeds at the joints, a planner that looks ahead without end gives joint j
+
+    u_j = min over i of c_i + |S_j - S_i|,
+
+the greatest profile that breaks no limit. Both halves of it are found without a loop over moves, from windows of 1, 2,
+4 … of them, whose reach is a sum of positive numbers: no digit is lost, however far the machine can speed up before or
+after, so that a move means the same in any surroundings. A joint whose u stays the same whether the machine stops after
+the last move known or drives on for ever is settled, so long files are planned in pieces, each from where the last one
+was settled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.gcode.limits import Limits
+from infill.planner.bounds import Bounded, Floats, Moves, bounded, values
+from infill.planner.cruising import ROUNDING, humps, tops
+from infill.planner.junctions import joint_limits
+from infill.planner.struct_of_arrays import chained, part
+
+PIECE = 1 << 16  # moves planned at once
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """How moves are made.
+
+    Parameters
+    ----------
+    seconds : (N,) float64
+    entry, peak, exit : (N,) float64
+        Speeds, mm/s along the move (of filament where nothing else moves).
+    """
+
+    seconds: Floats
+    entry: Floats
+    peak: Floats
+    exit: Floats
+
+    def __len__(self) -> int:
+        return len(self.seconds)
+
+
+NOTHING = Plan(seconds=np.empty(0), entry=np.empty(0), peak=np.empty(0), exit=np.empty(0))
+
+
+def look_ahead(joints: Floats, reach: Floats) -> Floats:
+    """Return the greatest u <= joints with |u[j + 1] - u[j]| <= reach[j], (N + 1,), mm²/s².
+
+    >>> look_ahead(np.array([0.0, 100.0, 100.0, 4.0]), np.array([30.0, 10.0, 30.0])).tolist()
+    [0.0, 30.0, 34.0, 4.0]
+    """
+    forward, backward, window, size = joints.copy(), joints.copy(), reach, 1
+    while len(window):  # the reach of `size` moves in a row, beginning with each
+        onward = forward[:-size] + window
+        back = backward[size:] + window
+        if not ((onward < forward[size:]).any() or (back < backward[:-size]).any()):
+            break  # nor does any wider window change anything: it is made of two of these
+        np.minimum(forward[size:], onward, out=forward[size:])
+        np.minimum(backward[:-size], back, out=backward[:-size])
+        window, size = window[:-size] + window[size:], 2 * size
+    return np.asarray(np.minimum(forward, backward))
+
+
+def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
+    """Plan moves from rest to rest.
+
+    Parameters
+    ----------
+    moves : Moves
+    limits : sequence of Limits
+        What `moves.setting` counts; all of one model.
+
+    Returns
+    -------
+    Plan
+    """
+    plans, entry, first, last = [], None, 0, 0
+    while first < len(moves):
+        last = min(last + PIECE, len(moves))
+        settled, done, entry = settle(part(moves, slice(first, last)), limits, entry, ends=last == len(moves))
+        plans.append(done)
+        first += settled
+    return chained(plans) if plans else NOTHING
+
+
+def settle(
+    moves: Moves, limits: Sequence[Limits], entry: float | None, *, ends: bool
+) -> tuple[int, Plan, float | None]:
+    """Plan as many moves as can be planned without knowing what follows.
+
+    Parameters
+    ----------
+    moves : Moves
+    limits : sequence of Limits
+    entry : float, optional
+        Square of the speed before the first move, as this function returned it; None for rest.
+    ends : bool
+        The machine rests after the last move; else more moves follow.
+
+    Returns
+    -------
+    settled : int
+        How many moves, from the front.
+    plan : Plan
+        Of those.
+    exit : float or None
+        Square of the speed after them.
+    """
+    if not len(moves):
+        return 0, NOTHING, entry
+    bounds = bounded(moves, limits)
+    joints = joint_limits(moves, bounds, limits)
+    if entry is not None:
+        joints[0] = entry
+    if not ends:
+        joints[-1] = bounds.speed[-1] ** 2
+    reach = bounds.reach
+    squares, cruise = look_ahead(joints, reach), bounds.speed**2
+    known = squares <= _stopping(reach)
+    ratio = values(limits, "minimum_cruise_ratio", moves.setting)
+    if limits[0].model == "klipper" and (ratio.any() or not ends):  # moves that follow may have one, in the same hump
+        squares, cruise, between = _eased(bounds, joints, squares, reach * (1 - ratio))
+        known &= between
+    known[0] = True
+    settled = len(moves) if ends else int(np.flatnonzero(known)[-1])
+    return settled, _trapezoids(bounds, squares, cruise, settled), float(squares[settled])
+
+
+def _eased(bounds: Bounded, joints: Floats, squares: Floats, reach: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Return profile, limits of the moves, and joints between humps, with the humps of a slower profile cut off."""
+    slower = look_ahead(joints, reach)
+    rising, falling = humps(slower, reach)
+    between = (slower <= _stopping(reach)) & (slower >= joints * (1 - ROUNDING))
+    between[1:] &= ~rising  # each hump must be whole
+    between[:-1] &= ~falling
+    top = tops(slower, reach, bounds.speed**2)
+    squares = squares.copy()
+    np.minimum(squares[:-1], top, out=squares[:-1])
+    np.minimum(squares[1:], top, out=squares[1:])
+    return squares, np.where(falling & ~rising, np.minimum(top, squares[:-1]), top), between
+
+
+def _stopping(reach: Floats) -> Floats:
+    """Return the squares of the speeds at the joints from which the machine can stop at the end, (N + 1,)."""
+    return np.append(np.cumsum(reach[::-1])[::-1], 0.0)
+
+
+def _trapezoids(bounds: Bounded, squares: Floats, cruise: Floats, count: int) -> Plan:
+    """Return times and speeds of the first moves: speeding up, at constant speed, slowing down."""
+    distance, acceleration = bounds.distance[:count], bounds.acceleration[:count]
+    before, after = squares[:count], squares[1 : count + 1]
+    peak = np.minimum(cruise[:count], (before + after) / 2 + acceleration * distance)
+    peak = np.maximum(peak, np.maximum(before, after))  # by rounding only
+    cruising = np.maximum(distance - (2 * peak - before - after) / (2 * acceleration), 0.0)
+    entry, top, leaving = np.sqrt(before), np.sqrt(peak), np.sqrt(after)
+    seconds = (2 * top - entry - leaving) / acceleration + cruising / top
+    return Plan(seconds=seconds, entry=entry, peak=top, exit=leaving)

@@ -1,0 +1,312 @@
+"""`motion`: how long a printer takes for a file of G-code, feature by feature, and how it moves."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from infill.errors import FormatError, UsageError
+from infill.gcode.dialect import role_of
+from infill.gcode.found_limits import USED, FoundLimits
+from infill.gcode.limits import Limits, Model
+from infill.gcode.sliced_file import SlicedFile, SlicedText, opened
+from infill.planner.strokes import Strokes
+from infill.planner.timeline import Timeline
+
+
+@dataclass(frozen=True, kw_only=True)
+class FeatureMotion:
+    """How one feature of a print is made. What leads to it counts for it: travel, retractions, pauses.
+
+    Parameters
+    ----------
+    name : str
+        The slicer's own, "" before the first.
+    role : str
+        What it means, the same word for every slicer: "sparse infill", "external perimeter", ... or "other".
+    seconds, drawing_seconds : float
+        All of it, and while filament is laid.
+    filament, length, travel : float
+        mm of filament laid, mm laid, mm travelled.
+    paths, segments, retractions, turns : int
+        Paths are runs of lines without a gap; turns are those of more than 30 degrees within a path.
+    turning : float
+        Degrees per mm laid.
+    median_segment, short_segments : float or None
+        mm (to 0.6 %), and the share of segments under 0.1 mm; None where nothing is laid.
+    peak_flow : float
+        mm³/s at most, of segments of 0.1 mm and more.
+    """
+
+    name: str
+    role: str
+    seconds: float
+    drawing_seconds: float
+    filament: float
+    length: float
+    travel: float
+    paths: int
+    segments: int
+    retractions: int
+    turns: int
+    turning: float
+    median_segment: float | None
+    short_segments: float | None
+    peak_flow: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """What `motion` found.
+
+    Parameters
+    ----------
+    seconds : float
+        Of the whole file, dwelling included; heating, homing and changing tools are not.
+    estimate : float or None
+        What the slicer wrote into the file, s.
+    slicer : str
+        Its name and version, "" if unknown.
+    layers : int
+    filament, length, travel : float
+        mm
+    retractions : int
+    features : tuple of FeatureMotion
+        In the order of the file, one for every name.
+    limits : dict
+        The limits in force at the end, as far as the model uses them, by name; lists are x, y, z, e.
+    sources : dict
+        Where each of these comes from: "settings" or "commands" of the file, "given" here, or "assumed".
+    plate : int or None
+        Which plate of an archive it is; None for any other file.
+    plates : tuple of int
+        Those that the archive has.
+    unread_lines, first_unread_line : int
+        Lines that may move or extrude but are not understood, which are left out; and the number of the first, from 1.
+    first_unread_text : str
+        What stands on it.
+    macros : tuple of str
+        Commands that only the printer knows and that may move, such as PRINT_START; they are left out too.
+    volumetric : bool
+        E counts mm³ at the end of the file.
+    filament_diameter : float
+        mm
+    """
+
+    seconds: float
+    estimate: float | None
+    slicer: str
+    layers: int
+    filament: float
+    length: float
+    travel: float
+    retractions: int
+    features: tuple[FeatureMotion, ...]
+    limits: dict[str, Any]
+    sources: dict[str, str]
+    plate: int | None = None
+    plates: tuple[int, ...] = ()
+    unread_lines: int = 0
+    first_unread_line: int = 0
+    first_unread_text: str = ""
+    macros: tuple[str, ...] = ()
+    volumetric: bool = False
+    filament_diameter: float = 1.75
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain numbers and strings: what ``--json`` prints."""
+        return asdict(self)
+
+    def of_role(self, role: str) -> float:
+        """Return the seconds of all features of a role.
+
+        Parameters
+        ----------
+        role : str
+            Such as "sparse infill".
+        """
+        return sum(each.seconds for each in self.features if each.role == role)
+
+
+def motion(
+    path: str | os.PathLike[str],
+    *,
+    model: Model | None = None,
+    acceleration: float | None = None,
+    jerk: float | None = None,
+    junction_deviation: float | None = None,
+    square_corner_velocity: float | None = None,
+    minimum_cruise_ratio: float | None = None,
+    plate: int | None = None,
+) -> Motion:
+    """Plan every move of a file of G-code as a printer's firmware does, and sum up by feature.
+
+    The limits of the machine are those that the file tells in its settings and commands; what it does not tell is
+    assumed, and `Motion.sources` says so. What is given here holds instead of either, for the whole file.
+
+    Parameters
+    ----------
+    path : path
+        G-code as text, binary G-code, or an archive of plates (.gcode.3mf).
+    model : {"jerk", "vector-jerk", "junction", "klipper"}, optional
+        What bounds the speed at corners. By default what the file was sliced for, or what the limits given here mean.
+    acceleration : float, optional
+        mm/s², of printing and travel.
+    jerk : float, optional
+        mm/s, of x and y.
+    junction_deviation : float, optional
+        mm
+    square_corner_velocity : float, optional
+        mm/s
+    minimum_cruise_ratio : float, optional
+        From 0 to less than 1.
+    plate : int, optional
+        Which plate of an archive; without it, the first that has G-code.
+
+    Raises
+    ------
+    FormatError
+        If the file is no G-code, is damaged, or has no moves.
+    ParameterError
+        If a limit is out of range, or there is no such plate.
+    """
+    fixed = given_limits(
+        model=model,
+        acceleration=acceleration,
+        jerk=jerk,
+        junction_deviation=junction_deviation,
+        square_corner_velocity=square_corner_velocity,
+        minimum_cruise_ratio=minimum_cruise_ratio,
+    )
+    strokes = Strokes()
+    with opened(Path(path)) as file:
+        plate = file.part(plate)
+        with timeline_of(file, plate, fixed) as timeline:
+            for steps, plan in timeline:
+                strokes.add(steps, plan)
+    strokes.finish(timeline.pause, timeline.retractions)
+    if timeline.trouble and not strokes.total("length").any():
+        raise FormatError(f"{Path(path)}: {timeline.trouble}")
+    found = timeline.found
+    features = [_feature(number, name, strokes) for number, name in enumerate(timeline.features)]
+    return Motion(
+        seconds=float(strokes.total("seconds").sum()),
+        estimate=found.estimate,
+        slicer=found.slicer,
+        layers=timeline.layers,
+        filament=float(strokes.total("filament").sum()),
+        length=float(strokes.total("length").sum()),
+        travel=float(strokes.total("travel").sum()),
+        retractions=round(float(strokes.total("retractions").sum())),
+        features=tuple(each for each in features if each.seconds > 0),
+        limits=_told(found),
+        sources=dict(found.sources),
+        plate=plate,
+        plates=file.plates,
+        unread_lines=timeline.unread.lines,
+        first_unread_line=timeline.unread.first,
+        first_unread_text=timeline.unread.text,
+        macros=tuple(timeline.macros),
+        volumetric=timeline.state.volumetric,
+        filament_diameter=timeline.state.diameter,
+    )
+
+
+@contextlib.contextmanager
+def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -> Iterator[Timeline]:
+    """Yield the moves of a print, with what its file tells outside the text.
+
+    Parameters
+    ----------
+    file : SlicedFile
+    plate : int or None
+        One of its `parts`.
+    fixed : mapping
+        As `given_limits` returns it.
+    """
+    with file.text(plate) as given:
+        yield timeline_of_text(given, fixed=fixed)
+
+
+def timeline_of_text(
+    given: SlicedText,
+    text: BinaryIO | None = None,
+    fixed: Mapping[str, Any] | None = None,
+    found: FoundLimits | None = None,
+) -> Timeline:
+    """Return the moves of a print, or of another text in its place, with what its file tells outside the text.
+
+    Parameters
+    ----------
+    given : SlicedText
+    text : binary file, optional
+    fixed : mapping, optional
+        As `given_limits` returns it.
+    found : FoundLimits, optional
+        What the file tells, if it is known.
+    """
+    told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
+    timeline = Timeline(text or given.text, fixed, {**given.settings, **told}, found)
+    timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
+    return timeline
+
+
+def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
+    """Return the fields of `Limits` that the arguments of `motion` mean.
+
+    >>> given_limits(square_corner_velocity=8)
+    {'square_corner_velocity': 8, 'model': 'klipper'}
+    """
+    fixed = {name: value for name, value in given.items() if value is not None}
+    means = {"square_corner_velocity": "klipper", "minimum_cruise_ratio": "klipper", "junction_deviation": "junction"}
+    means["jerk"] = "jerk"
+    meant = {model for name, model in means.items() if name in fixed}
+    if "model" not in fixed and len(meant) > 1:
+        names = " and ".join(name for name in means if name in fixed)
+        raise UsageError(f"{names} belong to {len(meant)} models, {', '.join(sorted(meant))}; give model")
+    if "model" not in fixed and meant - {"jerk"}:  # there are two models with jerk: the file decides
+        fixed["model"] = meant.pop()
+    if "acceleration" in fixed:
+        fixed["travel_acceleration"] = fixed["acceleration"]
+    if "jerk" in fixed:
+        still = Limits().jerk
+        fixed["jerk"] = (fixed["jerk"], fixed["jerk"], *still[2:])
+    return fixed
+
+
+def _feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
+    row = {
+        each: float(strokes.total(each)[number]) if number < len(strokes.sums) else 0.0
+        for each in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")
+    }
+    counts = {
+        each: round(float(strokes.total(each)[number])) if number < len(strokes.sums) else 0
+        for each in ("paths", "segments", "retractions", "turns")
+    }
+    return FeatureMotion(
+        name=name.decode("utf-8", "replace"),
+        role=role_of(name),
+        seconds=row["seconds"],
+        drawing_seconds=row["drawing"],
+        filament=row["filament"],
+        length=row["length"],
+        travel=row["travel"],
+        **counts,
+        turning=math.degrees(row["turning"]) / row["length"] if row["length"] else 0.0,
+        median_segment=strokes.median_length(number) if counts["segments"] else None,
+        short_segments=row["short"] / counts["segments"] if counts["segments"] else None,
+        peak_flow=float(strokes.flow[number]) if number < len(strokes.flow) else 0.0,
+    )
+
+
+def _told(found: FoundLimits) -> dict[str, Any]:
+    """Return the limits that the model uses, as plain numbers."""
+    limits = found.limits
+    values = {name: getattr(limits, name) for name in USED[limits.model]}
+    plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+    return {"model": limits.model, **plain, "travel_acceleration": limits.travel_acceleration}

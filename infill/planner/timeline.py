@@ -1,0 +1,399 @@
+"""A file of G-code as a stream of planned moves: where each goes, for which feature, and how long it takes.
+
+The file is read in batches; what the planner has not settled yet waits for the next, so memory does not grow with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, BinaryIO, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.errors import FormatError
+from infill.gcode.dialect import LONGEST_TAG, TAGS, tag_of
+from infill.gcode.found_limits import FoundLimits, found_limits
+from infill.gcode.limits import LIMITING_CODES, Limits
+from infill.gcode.lines import ARC, COMMENT, MOVE, ODD, Command
+from infill.gcode.table import State, Table, firmware_retraction, read
+from infill.gcode.unusual_moves import is_macro
+from infill.planner.bounds import Floats, Moves
+from infill.planner.chords import arc_chords
+from infill.planner.lookahead import NOTHING, Plan, settle
+from infill.planner.struct_of_arrays import chained, part
+
+BATCH: Final = 1 << 22  # bytes
+ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings
+WORD: Final = 4  # bytes that tell a tag from most other comments
+TELLING: Final = sorted({int.from_bytes(tag[:WORD], "little") for tag in TAGS if TAGS[tag] in ("role", "layer")})
+SHOWN: Final = 60  # bytes of a line that is not understood
+MOST_MACROS: Final = 100  # names that are remembered
+MOST_SHARE: Final = 1000.0  # per cent, of M220 and M221
+STOPS: Final = frozenset({"G4", "G10", "G11", "G28", "G29", "M0", "M1", "M109", "M190", "M400", "M600", "M601"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Steps:
+    """Moves, and what they are for.
+
+    Parameters
+    ----------
+    moves : Moves
+    start : (N, 3) float64
+        mm; NaN where the file has not said yet.
+    feature : (N,) int
+        Which of the names of `Timeline.features` is in force; 0 before the first.
+    layer : (N,) int
+        From 1; 0 before the first.
+    pause : (N,) float64
+        Seconds of dwelling before the move.
+    retractions : (N,) int
+        By firmware (G10), before the move.
+    section : (N,) float64
+        Of the filament, mm².
+    place : (N,) int
+        Where the line of the move begins in the text, bytes.
+    """
+
+    moves: Moves
+    start: Floats
+    feature: NDArray[np.intp]
+    layer: NDArray[np.intp]
+    pause: Floats
+    retractions: NDArray[np.intp]
+    section: Floats
+    place: NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.layer)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Unread:
+    """Lines that may move or extrude, and are not planned.
+
+    Parameters
+    ----------
+    lines : int
+        How many.
+    first : int
+        Number of the first one, from 1; 0 if there is none.
+    text : str
+        What stands there.
+    """
+
+    lines: int = 0
+    first: int = 0
+    text: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Orders:
+    """What the commands of a table ask for, by line.
+
+    Parameters
+    ----------
+    setting : (N,) int
+        Which limits are in force.
+    stop : (N,) bool
+        The machine stands still.
+    pause : (N,) float64
+        Seconds of dwelling.
+    retractions : (N,) int
+        By firmware.
+    speed, flow : (N,) float64
+        Shares of the feed rate and of the filament that the file asks for: M220 and M221.
+    """
+
+    setting: NDArray[np.intp]
+    stop: NDArray[np.bool_]
+    pause: Floats
+    retractions: NDArray[np.intp]
+    speed: Floats
+    flow: Floats
+
+
+class Timeline:
+    """The moves of a file, batch by batch.
+
+    Parameters
+    ----------
+    file : binary file
+        G-code as text, which can be read from any place.
+    fixed : mapping, optional
+        Fields of `Limits` that hold instead of what the file says.
+    settings : mapping, optional
+        What the slicer tells outside the text.
+    found : FoundLimits, optional
+        What the file tells, if it is known.
+
+    Raises
+    ------
+    FormatError
+        If the file is none of plain G-code.
+    """
+
+    def __init__(
+        self,
+        file: BinaryIO,
+        fixed: Mapping[str, Any] | None = None,
+        settings: Mapping[str, str] | None = None,
+        found: FoundLimits | None = None,
+    ) -> None:
+        self._file = file
+        self.features: list[bytes] = [b""]
+        self.layers = 0
+        self.pause = 0.0  # seconds of dwelling since the last move
+        self.retractions = 0  # by firmware since the last move
+        self.unread = Unread()
+        self.macros: dict[str, None] = {}  # in the order of the file
+        self._stopped = self._drawn_back = False
+        self.moved = False  # a move was read
+        self._waiting: Steps | None = None
+        self._entry: float | None = None
+        self._feature = 0
+        self._lines = self._bytes = 0  # read so far
+        self._speed = self._stored_speed = 1.0
+        self._flow: dict[int | None, float] = {None: 1.0}  # by tool
+        self.found = found or found_limits(*_ends(file), fixed, settings)
+        self.state = State(
+            volumetric=self.found.volumetric, diameters=self.found.diameters, firmware=self.found.rule_of_e
+        )
+        self._limits: list[Limits] = [self.found.limits]
+
+    def __iter__(self) -> Iterator[tuple[Steps, Plan]]:
+        """Read the file from the beginning and yield moves with their plan."""
+        for table in self.tables():
+            yield self.follow(table)
+        yield self.rest()
+
+    def tables(self) -> Iterator[Table]:
+        """Read the file from the beginning; each table must be followed before the next is read."""
+        self._file.seek(0)
+        for data in _batches(self._file):
+            yield read(data, self.state)
+
+    def follow(self, table: Table) -> tuple[Steps, Plan]:
+        """Take the next lines of the file, for those who read it themselves, and plan what can be planned by now."""
+        self.state = table.after
+        orders = self._obeyed(table)
+        which, layer, self._feature = self._tagged(table, self._feature)
+        steps = self._moves(table, orders, which, layer)
+        self._lines += len(table)
+        self._bytes += len(table.data)
+        if not len(steps):
+            return steps, NOTHING
+        self.moved = True
+        waiting = chained([self._waiting, steps]) if self._waiting is not None else steps
+        settled, plan, self._entry = settle(waiting.moves, self._limits, self._entry, ends=False)
+        self._waiting = part(waiting, slice(settled, None))
+        return part(waiting, slice(settled)), plan
+
+    def rest(self) -> tuple[Steps, Plan]:
+        """Plan what is left at the end of the file.
+
+        Raises
+        ------
+        FormatError
+            If the file has no moves.
+        """
+        if self._waiting is None:
+            raise FormatError(self.trouble or "the file has no moves; give a file of G-code that a slicer wrote")
+        _, plan, _ = settle(self._waiting.moves, self._limits, self._entry, ends=True)
+        return self._waiting, plan
+
+    @property
+    def trouble(self) -> str:
+        """What to say of a file of which nothing that extrudes can be read; "" if no line is unread."""
+        if not self.unread.lines:
+            return ""
+        return (
+            f"no line that extrudes can be read: {self.unread.lines} are not understood, the first is line "
+            f"{self.unread.first}, {self.unread.text!r}; slice it for Marlin or Klipper"
+        )
+
+    def _obeyed(self, table: Table) -> _Orders:
+        """Follow the commands."""
+        setting = np.full(len(table), self._number(self.found.limits), dtype=np.intp)
+        stop, pause = np.zeros(len(table), dtype=bool), np.zeros(len(table))
+        retractions = np.zeros(len(table), dtype=np.intp)
+        speed, flow = np.full(len(table), self._speed), np.full(len(table), self._flow_of(table.before.tool))
+        tool = table.before.tool
+        unread = np.flatnonzero(table.unread).tolist()
+        for command in table.commands:
+            code, line = command.code, command.line
+            if code in LIMITING_CODES:
+                self.found = self.found.after(code, table.text(line, line + 1))
+                setting[line:] = self._number(self.found.limits)
+            elif code in STOPS:
+                stop[line] = True
+            match code:
+                case "G4":
+                    words = command.words
+                    pause[line] = max(words.get("S") or 0.0, 0.0) + max(words.get("P") or 0.0, 0.0) / 1000
+                case "G10" | "G11":
+                    back = firmware_retraction(command, table.before.firmware)
+                    retractions[line] = back is True and not self._drawn_back
+                    self._drawn_back = self._drawn_back if back is None else back
+                case "M220":
+                    speed[line:] = self._hurried(command)
+                case "M221":
+                    share = command.words.get("S")
+                    if share is not None and 0 < share < MOST_SHARE:
+                        of = command.words.get("T", command.words.get("D"))
+                        self._flow[None if of is None else int(of)] = share / 100
+                    flow[line:] = self._flow_of(tool)
+                case _ if code[:1] == "T" and code[1:].isdigit():
+                    tool = int(code[1:])
+                    flow[line:] = self._flow_of(tool)
+                case _ if is_macro(code):
+                    if len(self.macros) < MOST_MACROS:
+                        self.macros[code] = None
+            if code == "M101" and not table.after.letters and not table.unread[line]:
+                unread.append(line)
+        self._count(table, unread)
+        return _Orders(setting=setting, stop=stop, pause=pause, retractions=retractions, speed=speed, flow=flow)
+
+    def _hurried(self, command: Command) -> float:
+        """Follow M220: S, per cent of all feed rates; B puts them aside, R takes what was put aside."""
+        if "B" in command.words:
+            self._stored_speed = self._speed
+        share = command.words.get("S")
+        if share is not None and 0 < share < MOST_SHARE:
+            self._speed = share / 100
+        if "R" in command.words:
+            self._speed = self._stored_speed
+        return self._speed
+
+    def _flow_of(self, tool: int) -> float:
+        return self._flow.get(tool, self._flow[None])
+
+    def _count(self, table: Table, unread: list[int]) -> None:
+        """Count lines that may move and are not planned."""
+        if not unread:
+            return
+        first, text = self.unread.first, self.unread.text
+        if not self.unread.lines:
+            line = min(unread)
+            first = self._lines + line + 1
+            text = table.text(line, line + 1)[:SHOWN].decode("utf-8", "replace").strip()
+        self.unread = Unread(lines=self.unread.lines + len(unread), first=first, text=text)
+
+    def _number(self, limits: Limits) -> int:
+        if limits not in self._limits:
+            self._limits.append(limits)
+        return self._limits.index(limits)
+
+    def _tagged(self, table: Table, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
+        """Return feature and layer of every line, and the last feature."""
+        lines, features, layers = [0], [feature], [self.layers]
+        for line in _comments(table, TELLING):
+            tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG])
+            if tag is None:
+                continue
+            if tag[0] == "role":
+                if tag[1] not in self.features:
+                    self.features.append(tag[1])
+                feature = self.features.index(tag[1])
+            elif tag[0] == "layer":
+                self.layers += 1
+            else:
+                continue
+            lines.append(line)
+            features.append(feature)
+            layers.append(self.layers)
+        count = np.diff([*lines, len(table)])
+        return np.repeat(features, count), np.repeat(layers, count), feature
+
+    def _moves(self, table: Table, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
+        """Return the lines that move something; stops and pauses go to the move that follows them."""
+        place = np.column_stack([table.x, table.y, table.z])
+        before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
+        travel = np.nan_to_num(place) - np.nan_to_num(before)  # from home, where the file has not said a place yet
+        filament = table.filament * orders.flow
+        odd = table.kind == ODD
+        going = ((table.kind == MOVE) | (odd & (table.code < 2))) & (travel.any(axis=1) | (filament != 0))
+        line, first, delta = np.flatnonzero(going), before[going], travel[going]
+        pushed = filament[going]
+        arcs = (table.kind == ARC) | (odd & (table.code > 1) & ~table.unread)
+        if arcs.any():
+            bent = np.flatnonzero(arcs)
+            which, start, way = arc_chords(table, bent, np.nan_to_num(before[bent]), np.nan_to_num(place[bent]))
+            long = np.linalg.norm(way, axis=1)
+            share = long / np.maximum(np.bincount(which, weights=long, minlength=len(bent))[which], 1e-300)
+            order = np.argsort(np.concatenate([line, bent[which]]), kind="stable")
+            line = np.concatenate([line, bent[which]])[order]
+            first, delta = np.concatenate([first, start])[order], np.concatenate([delta, way])[order]
+            pushed = np.concatenate([pushed, filament[bent[which]] * share])[order]
+            some = delta.any(axis=1) | (pushed != 0)
+            line, first, delta, pushed = line[some], first[some], delta[some], pushed[some]
+        dwelt, halts, retractions = (_since(each, line) for each in (orders.pause, orders.stop, orders.retractions))
+        left = line[-1] if len(line) else 0
+        if len(line):
+            dwelt[0] += self.pause
+            halts[0] += self._stopped
+            retractions[0] += self.retractions
+            self.pause, self._stopped, self.retractions = 0.0, False, 0
+        self.pause += float(orders.pause[left:].sum())
+        self._stopped = self._stopped or bool(orders.stop[left:].any())
+        self.retractions += int(orders.retractions[left:].sum())
+        moves = Moves(
+            delta=np.column_stack([delta, pushed]),
+            feedrate=table.f[line] / 60 * orders.speed[line],
+            setting=orders.setting[line],
+            stop=halts > 0,
+        )
+        return Steps(
+            moves=moves,
+            start=first,
+            feature=feature[line],
+            layer=layer[line],
+            pause=dwelt.astype(np.float64),
+            retractions=retractions.astype(np.intp),
+            section=table.section[line],
+            place=self._bytes + table.start[line],
+        )
+
+
+def _comments(table: Table, beginnings: Sequence[int]) -> list[int]:
+    """Return the comments that begin with one of several words of four bytes."""
+    lines = np.flatnonzero(table.kind == COMMENT)
+    text = np.frombuffer(table.data, dtype=np.uint8)
+    lines = lines[table.start[lines] + WORD <= len(text)]
+    begin = table.start[lines]
+    words = sum(text[begin + byte].astype(np.int64) << (8 * byte) for byte in range(WORD))
+    return [int(line) for line in lines[np.isin(words, beginnings)]]
+
+
+def _since(values: NDArray[Any], line: NDArray[np.intp]) -> NDArray[Any]:
+    """Return the sums of what stands on the lines up to each move, since the move before it."""
+    return np.diff(np.concatenate([[0], np.cumsum(values)])[line], prepend=0)
+
+
+def _ends(file: BinaryIO) -> tuple[bytes, bytes]:
+    """Return the beginning and the end of a file, or raise FormatError if it is not plain G-code."""
+    size = file.seek(0, 2)
+    file.seek(0)
+    head = file.read(ENDS)
+    file.seek(max(size - ENDS, 0))
+    if not head.strip():
+        raise FormatError("the file is empty; give a file of G-code")
+    if b"\0" in head:
+        raise FormatError("the file is not text; give a file of G-code that a slicer wrote")
+    return head, file.read()
+
+
+def _batches(file: BinaryIO) -> Iterator[bytes]:
+    """Yield the file in batches of whole lines."""
+    rest = b""
+    while data := file.read(BATCH):
+        whole = data.rfind(b"\n") + 1
+        if whole:
+            yield rest + data[:whole]
+            rest = data[whole:]
+        else:
+            rest += data
+    if rest:
+        yield rest

@@ -1,0 +1,204 @@
+"""What a slicer will do with a 3MF: what it prints, with which settings, and what it would lose without a word."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from infill.errors import UsageError
+from infill.projects import bambustudio, cura, prusaslicer
+from infill.projects.findings import Finding, Kind, PrintedVolume, as_problem, as_warning
+from infill.projects.project import NAMES, SLICERS, Slicer
+from infill.projects.reading import RELATIONS, Package, read_package
+from infill.projects.rules_bambustudio import volumes_for_bambustudio
+from infill.projects.rules_cura import volumes_for_cura
+from infill.projects.rules_prusaslicer import volumes_for_prusaslicer
+
+MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a command line
+
+
+@dataclass(frozen=True, kw_only=True)
+class Diagnosis:
+    """What `check_project` found.
+
+    Parameters
+    ----------
+    slicer : str
+    fine : bool
+        True if there are no problems.
+    problems, warnings : tuple of str
+        What the slicer would lose or refuse, and what it does that may surprise.
+    application, unit : str
+        As the file says.
+    volumes : tuple of PrintedVolume
+        What the slicer prints, in its order.
+    """
+
+    slicer: str
+    fine: bool
+    problems: tuple[str, ...]
+    warnings: tuple[str, ...]
+    application: str
+    unit: str
+    volumes: tuple[PrintedVolume, ...] = field(default_factory=tuple)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return it as plain values, as ``--json`` prints it."""
+        return asdict(self)
+
+
+def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
+    """Say what a slicer will do with a 3MF, and what is wrong with it.
+
+    Parameters
+    ----------
+    path : str or Path
+    slicer : {"prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"}
+
+    Returns
+    -------
+    Diagnosis
+
+    Raises
+    ------
+    FormatError
+        If there is no such file, or it is no 3MF.
+    UsageError
+        For a slicer that is not known.
+
+    Notes
+    -----
+    The rules are those that the readers of the slicers follow; their own exit status is 0 in most of these cases.
+    """
+    if slicer not in SLICERS:
+        raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
+    package = read_package(Path(path))
+    findings: list[Finding] = []
+    volumes: list[PrintedVolume] = []
+    for each in _examined(package, slicer):
+        (volumes if isinstance(each, PrintedVolume) else findings).append(each)  # type: ignore[arg-type]
+    told = {kind: tuple(dict.fromkeys(each.text for each in findings if each.kind is kind)) for kind in Kind}
+    return Diagnosis(
+        slicer=slicer,
+        fine=not told[Kind.PROBLEM],
+        problems=told[Kind.PROBLEM],
+        warnings=told[Kind.WARNING],
+        application=package.metadata.get("Application", ""),
+        unit=package.unit,
+        volumes=tuple(volumes),
+    )
+
+
+def _examined(package: Package, slicer: Slicer) -> Iterator[PrintedVolume | Finding]:
+    """Yield what a slicer prints, and what is to be said of it."""
+    yield from _anywhere(package, slicer)
+    volumes = []
+    for each in READERS[slicer](package):
+        if isinstance(each, PrintedVolume):
+            volumes.append(each)
+        yield each
+    for volume in volumes:
+        yield from _shape(volume)
+    total = sum(volume.triangles for volume in volumes)
+    if slicer in ("orcaslicer", "bambustudio") and total > MOST_ON_COMMAND_LINE:
+        yield as_warning(
+            f"it has {total:,} triangles, and OrcaSlicer's command line takes a million; its window takes more"
+        )
+    if not any(volume.prints for volume in volumes):
+        yield as_problem("there is nothing in it to print")
+
+
+def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
+    """Say what holds in every slicer."""
+    if not package.has(RELATIONS):
+        yield as_problem(f"it has no {RELATIONS}, without which newer slicers do not open it")
+    if package.unit not in STATED_UNITS:
+        yield as_problem(f"its unit is {package.unit!r}, and 3MF knows {', '.join(STATED_UNITS)}")
+    elif package.unit != "millimeter":
+        yield as_warning(f"its unit is the {package.unit}, and it is scaled to millimetres")
+    for extension in package.extensions:
+        if not extension.known:
+            yield as_problem(
+                f"it requires the extension {extension}, which slicers do not know: they leave out what it describes"
+            )
+    for item in package.items:
+        if not item.prints:
+            yield as_warning(f"object {item.key} is not to be printed")
+    for key in dict.fromkeys(item.key for item in package.items):
+        if key in package.bodies:
+            yield from _of_tree(package, key, slicer)
+        else:
+            yield as_problem(f"it builds an object {key} that it does not hold")
+    made_for = [name for name, config in CONFIGS.items() if package.has(config)]
+    if any(key.startswith(f"{{{cura.NAMESPACE}}}") for body in package.bodies.values() for key in body.settings):
+        made_for.append("cura")
+    if slicer != "plain" and made_for and FAMILY[slicer] not in made_for:
+        yield as_problem(
+            f"its settings are for {' and '.join(NAMES[each] for each in made_for)}, and {NAMES[slicer]} does not read "
+            f"them; make it again with --for {slicer}"
+        )
+
+
+def _of_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]:
+    """Say what is wrong with an object that is built, and with what it consists of."""
+    tree = package.tree(key)
+    for each in tree.missing:
+        yield as_problem(f"object {key} consists of {each}, which is not there, holds itself, or lies too deep")
+    if not tree.whole:
+        yield as_problem(f"object {key} consists of more objects or triangles than a slicer can take")
+    for leaf in tree.leaves:
+        if (other := leaf.other) is not None and slicer != "prusaslicer":  # which has a rule of its own
+            yield as_problem(
+                f"object {other.number} is of type {other.kind!r}, which is no part: slicers leave it out, print it "
+                "or refuse the file"
+            )
+        for body in (*leaf.above, leaf.body):
+            for shape in body.foreign:
+                yield as_problem(f"object {body.number} has {shape}, which slicers leave out")
+    body = package.bodies[key]
+    if not tree.leaves and body.foreign:
+        yield as_problem(f"object {key} has {' and '.join(body.foreign)}, which slicers leave out")
+
+
+def _shape(volume: PrintedVolume) -> Iterator[Finding]:
+    """Say what is wrong with a mesh."""
+    if not volume.triangles:
+        yield as_problem(f"{volume.name} has no triangles")
+    elif not volume.closed:
+        yield as_problem(f"{volume.name} is not closed: slicers leave out layers where it is open, without a word")
+    elif not volume.outward:
+        yield as_problem(f"{volume.name} faces inwards")
+    elif volume.shared:
+        yield as_warning(f"{volume.name} has {volume.shared:,} edge(s) with more than two faces: slicers mostly cope")
+
+
+def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
+    """Yield every object that is built, each for itself."""
+    found = [
+        PrintedVolume.of(leaf.body.name or f"object {leaf.key}", leaf.body.mesh, "part", {})
+        for item in package.items
+        if item.prints
+        for leaf in package.tree(item.key).leaves
+        if leaf.other is None and leaf.body.mesh is not None
+    ]
+    yield from found
+    if len(found) > 1:
+        yield as_warning(
+            f"its {len(found)} objects have no settings: a slicer fills each as its profile says, and prints what two "
+            "of them have in common twice, unless they are put together there"
+        )
+
+
+FAMILY = {"prusaslicer": "prusaslicer", "orcaslicer": "bambustudio", "bambustudio": "bambustudio", "cura": "cura"}
+CONFIGS = {"prusaslicer": prusaslicer.CONFIG, "bambustudio": bambustudio.CONFIG}
+STATED_UNITS = ("micron", "millimeter", "centimeter", "inch", "foot", "meter")
+READERS: dict[str, Callable[[Package], Iterator[PrintedVolume | Finding]]] = {
+    "prusaslicer": volumes_for_prusaslicer,
+    "orcaslicer": lambda package: volumes_for_bambustudio(package, "orcaslicer"),
+    "bambustudio": lambda package: volumes_for_bambustudio(package, "bambustudio"),
+    "cura": volumes_for_cura,
+    "plain": _volumes_of_any,
+}

@@ -1,0 +1,96 @@
+"""`save_project`: a part that was filled, as a project for a slicer."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from infill.errors import FormatError, UsageError
+from infill.files.whole_files import whole_file
+from infill.options.toml import options_text
+from infill.projects import bambustudio, cura, plain, prusaslicer
+from infill.projects.project import INFILL, PART, SLICERS, Project, Slicer
+from infill.result import Result
+
+
+def project_writer(slicer: str) -> Callable[[Project, BinaryIO], None]:
+    """Return what writes projects for a slicer, or raise UsageError."""
+    if slicer not in SLICERS:
+        raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
+    return WRITERS[slicer]
+
+
+def project_of(result: Result[Any, Any], *, slicer: str, title: str, units: str | None = None) -> Project:
+    """Return a part that was filled as a project, with a picture and the options that make it again.
+
+    Raises
+    ------
+    UsageError
+        If it was filled as something else.
+    """
+    if set(result.surfaces) != {PART, INFILL}:
+        raise UsageError(f"this holds {' and '.join(result.surfaces)}, no part and infill; fill it as a project")
+    from infill.pictures.cuts import thumbnail
+
+    options = {**result.report["request"], "units": units, "for": slicer}
+    return Project(
+        part=result.surfaces[PART],
+        infill=result.surfaces[INFILL],
+        title=title,
+        thumbnail=thumbnail(result.surfaces[INFILL]),
+        settings=options_text(options, "infill fill PART --config THIS_FILE -o OUT.3mf"),
+    )
+
+
+def save_project(
+    result: Result[Any, Any], path: str | os.PathLike[str], *, slicer: Slicer, title: str | None = None
+) -> Path:
+    """Write a part and its infill as a project for a slicer.
+
+    Parameters
+    ----------
+    result : Result
+        Of `infill.fill` with ``as_="project"``.
+    path : str or Path
+        A .3mf; an existing file is replaced once the new one is complete.
+    slicer : {"prusaslicer", "orcaslicer", "bambustudio", "cura", "plain"}
+        In "plain", part and infill are two objects without settings.
+    title : str, optional
+        Of the object, as the slicer lists it; the name of the file by default.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    FormatError
+        For a suffix other than .3mf.
+    UsageError
+        For a slicer that is not known, or a result that is no project.
+    OutputError
+        If the file cannot be written.
+    """
+    write, target = project_writer(slicer), Path(path)
+    check_suffix(target)
+    project = project_of(result, slicer=slicer, title=target.stem if title is None else title)
+    with whole_file(target) as file:
+        write(project, file)
+    return target
+
+
+def check_suffix(path: Path) -> None:
+    """Raise FormatError unless a path is that of a 3MF."""
+    if path.suffix.lower() != ".3mf":
+        raise FormatError(f"{path} is to hold a project, and those are .3mf; give a name such as {path.stem}.3mf")
+
+
+WRITERS: dict[str, Callable[[Project, BinaryIO], None]] = {
+    "prusaslicer": prusaslicer.write,
+    "orcaslicer": bambustudio.write_orcaslicer,
+    "bambustudio": bambustudio.write,
+    "cura": cura.write,
+    "plain": plain.write,
+}

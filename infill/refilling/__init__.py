@@ -1,0 +1,1 @@
+"""`refill`: the infill of a sliced print drawn again."""

@@ -1,0 +1,160 @@
+"""Which pattern fills the regions of a print, and how large its cells are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.paths.contact import sampled
+from infill.paths.covering import check_cell, solve_cell, total_length
+from infill.paths.families.heart import ConcentricHeart
+from infill.paths.families.protocol import TOUCH, Family
+from infill.paths.families.spirals import Spirals
+from infill.paths.neighbours import walls_of
+from infill.paths.rounding import Rounding, rounded_paths
+from infill.ragged import picked
+from infill.refilling.batch import Batch
+from infill.refilling.regions import INFILL_STEP, STEP, Region, region_of
+from infill.refilling.support import filled
+
+if TYPE_CHECKING:
+    from shapely import MultiPolygon
+
+Floats = NDArray[np.float64]
+
+USUAL_SPEED = 80.0  # mm/s, for lengths: it only decides how finely arcs are cut
+LARGEST_RADIUS = 1000.0  # mm: as large as it gets
+USUAL_HEIGHT = 0.2  # mm of a layer, where no tag tells it
+
+
+@dataclass(frozen=True, kw_only=True)
+class Plan:
+    """What fills the regions.
+
+    Parameters
+    ----------
+    family : Family
+    cell : float, mm
+    line_width : float, mm
+    rounding : Rounding
+    density : float, optional
+        mm of line per mm², if it was asked for; else every section keeps its filament.
+    fixed : bool
+        The cell was asked for: it is the same everywhere, and decides the filament.
+    """
+
+    family: Family
+    cell: float
+    line_width: float
+    rounding: Rounding
+    density: float | None
+    fixed: bool = False
+
+    def with_cell(self, cell: float) -> Plan:
+        """Return the plan with another cell, mm, or the smallest that beads fit into."""
+        return replace(self, cell=max(cell, TOUCH * self.line_width))
+
+    @property
+    def radius(self) -> float:
+        """The largest radius that was asked for, mm."""
+        return min(self.rounding.radius, LARGEST_RADIUS)
+
+    def rounding_of(self, cell: float) -> Rounding:
+        """Return how the corners of a cell, mm, are rounded."""
+        return replace(self.rounding, radius=min(self.radius, self.family.largest_radius(cell, self.line_width)))
+
+
+def planned(
+    family: Family,
+    some: Sequence[Batch],
+    rounding: Rounding,
+    *,
+    density: float | None,
+    acceleration: float,
+    cell: float | None = None,
+) -> Plan | None:
+    """Choose the cell, so that the layers that were looked at take the filament that they should; None without infill.
+
+    Parameters
+    ----------
+    family : Family
+    some : sequence of Batch
+    rounding : Rounding
+    density : float, optional
+        Share of the volume; without it, the filament of the slicer's own infill.
+    acceleration : float, mm/s²
+        Where the print commands none.
+    cell : float, optional
+        mm; with it, whatever filament it takes.
+    """
+    import shapely
+
+    regions: list[tuple[MultiPolygon, float, int]] = []
+    walls, length, width, spacing = [], 0.0, 0.0, 1.0
+    region: Region | None = None
+    seen: set[tuple[float, bytes]] = set()
+    area = shapely.MultiPolygon()
+    for batch in some:
+        width = batch.line_width
+        for number in filled(batch):
+            chosen = np.flatnonzero(batch.layer == number)
+            opens = batch.infill.opens[chosen]
+            which = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[chosen[0]]].tobytes()
+            if which in seen:  # places that were looked at overlap in small prints
+                continue
+            seen.add(which)
+            around = batch.others.around(number, STEP)
+            places, first = picked(batch.infill.first, chosen)
+            drawn = sampled(batch.infill.points[places], first, INFILL_STEP).points
+            before = region
+            region = region_of(around, drawn, before)
+            if not region.polygons:
+                continue
+            if region is not before:
+                walls.append(around.points)
+                area = shapely.MultiPolygon(list(region.polygons))
+            regions.append((area, float(batch.table.z[opens[0]]), number))
+            spacing = _spacing(width, float(np.median(batch.marks.height[opens])))
+            length += float(batch.infill.length[chosen].sum()) if density is None else density * area.area / spacing
+    if not regions:
+        return None
+    if isinstance(family, ConcentricHeart | Spirals) and family.middle is None:  # one centre for the whole print
+        boxes = np.array([area.bounds for area, _, _ in regions])
+        low, high = boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)
+        family = replace(family, middle=tuple(((low + high) / 2).tolist()))
+    plan = Plan(
+        family=family,
+        cell=1.0,
+        line_width=width,
+        rounding=rounding,
+        density=None if density is None else density / spacing,
+    )
+    if cell is not None:
+        check_cell(cell, width)
+        return replace(plan, cell=cell, fixed=True)
+    # Of all layers at once: where they differ, a few more corners stay sharp.
+    everywhere = walls_of(np.concatenate(walls))
+
+    def measure(paths: Sequence[Floats], cell: float) -> float:
+        done, _ = rounded_paths(
+            [path for path in paths if len(path) > 1],
+            walls=everywhere,
+            acceleration=acceleration,
+            speed=USUAL_SPEED,
+            rounding=plan.rounding_of(cell),
+            line_width=width,
+            wide=family.wide,
+        )
+        return total_length(done)
+
+    solved = solve_cell(regions, family, length, line_width=width, radius=plan.radius, measure=measure)
+    return replace(plan, cell=solved.cell)
+
+
+def _spacing(width: float, height: float) -> float:
+    """Return the spacing, mm, at which beads with rounded sides fill the plane."""
+    return width - (USUAL_HEIGHT if np.isnan(height) else min(height, width)) * (1 - np.pi / 4)

@@ -1,0 +1,164 @@
+"""The report of a refill."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from infill.gcode.survey import Survey
+from infill.refilling.placement import placement
+from infill.refilling.request import KEEP, Request
+from infill.refilling.rules import Rules
+from infill.refilling.stats import Tally
+from infill.refilling.support import LEAST_LENGTH, LEAST_SHARE, kept_shares
+from infill.version import __version__
+from patterns.declared import parameter_values
+
+FORM = 1
+
+
+MOST_OFF = 0.01  # of the filament of all infill, that it may be off
+
+
+def report_of_refill(
+    request: Request,
+    found: Survey,
+    tally: Tally | None,
+    *,
+    already: bool,
+    rules: Rules | None = None,
+    plates: Sequence[int] = (),
+    remedy: Tally | None = None,
+) -> dict[str, Any]:
+    """Return the report of one run: plain numbers, strings, lists and dicts."""
+    report: dict[str, Any] = {
+        "product": "refill",
+        "version": __version__,
+        "form": FORM,
+        "request": {
+            "pattern": request.pattern,
+            "parameters": parameter_values(placement(request.pattern, request.parameters)),
+            "density": request.density,
+            "smooth_radius_mm": request.smooth_radius,
+            "max_deviation_mm": request.max_deviation,
+            "layers": list(request.layers) if request.layers else None,
+            "part": request.part,
+        },
+        "print": {
+            "slicer": found.slicer,
+            "bytes": found.size,
+            "plates": list(plates),
+            "already_refilled": already,
+        },
+        "problems": [],
+    }
+    if tally is None or rules is None:
+        return report
+    report["print"]["layers"] = tally.layers
+    report["print"]["unread_lines"] = tally.unread
+    report["sections"] = {"all": tally.sections, "replaced": tally.replaced, "kept": dict(sorted(tally.kept.items()))}
+    report["rounding"] = {
+        "deviation_mm": _finite(rules.rounding.deviation),
+        "corners": tally.corners,
+        "radius_mm": tally.radii.report(),
+    }
+    keeps_paths = request.pattern == KEEP
+    keeps = keeps_paths and request.density is None
+    before, after = tally.infill, tally.infill_after
+    ratio = _ratio(tally)
+    density = found.number("fill_density", "sparse_infill_density")
+    report["filament"] = {
+        "infill_before_mm": before.filament,
+        "infill_after_mm": after.filament,
+        "print_before_mm": tally.print_before.filament,
+        "print_after_mm": tally.print_after.filament,
+        "print_before_g": tally.print_before.grams,
+        "print_after_g": tally.print_after.grams,
+        "print_ratio": tally.filament_ratio,
+        "density_for_the_same_percent": round(density / ratio, 2)
+        if keeps and density and ratio >= LEAST_LENGTH
+        else None,
+        "ratio_with_density_same": tally.widened / before.filament if keeps and before.filament else None,
+    }
+    report["time"] = {
+        "slicer_s": tally.slicer_seconds or None,
+        "print_before_s": tally.print_before.seconds,
+        "print_after_s": tally.print_after.seconds,
+        "infill_before_s": tally.print_before.infill_seconds,
+        "infill_after_s": tally.print_after.infill_seconds,
+    }
+    report["contact"] = contact_section(tally)
+    report["problems"] = _problems(report, tally)
+    if keeps_paths and loses_filament(tally):
+        lost = f"the infill takes {ratio - 1:+.1%} filament"
+        if remedy is not None and not loses_filament(remedy):
+            lost += f"; leave --smooth-radius out, and it takes {_ratio(remedy) - 1:+.1%}"
+        report["problems"].append(lost)
+    promised = request.pattern != KEEP and isinstance(request.density, str | None) and request.cell is None
+    if promised and tally.replaced and abs(ratio - 1) > MOST_OFF:
+        report["problems"].append(
+            f"the infill takes {ratio - 1:+.1%} filament: its lines come and go whole here; take another pattern, or "
+            "another --density"
+        )
+    return report
+
+
+def loses_filament(tally: Tally) -> bool:
+    """Return whether the infill takes so much less filament than before that it must be said."""
+    return _ratio(tally) < LEAST_LENGTH
+
+
+def _ratio(tally: Tally) -> float:
+    """Return the filament of the infill, after over before."""
+    before, after = tally.infill.filament, tally.infill_after.filament
+    return after / before if before else 1.0
+
+
+def contact_section(tally: Tally) -> dict[str, Any]:
+    """Return what holds the infill up, before and after, as measured on some layers."""
+    before, after = tally.before.shares, tally.after.shares
+    kept = kept_shares(tally.before, tally.after)
+    return {
+        "measured_mm": tally.before.length,
+        "supported_before": before[0],
+        "supported_after": after[0],
+        "bonded_before": before[1],
+        "bonded_after": after[1],
+        "kept_supported": kept[0],
+        "kept_bonded": kept[1],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
+    keeps = report["request"]["pattern"] == KEEP
+    found = []
+    if not tally.sections:
+        found.append("there is no sparse infill in this print; nothing was changed")
+    elif not tally.replaced:
+        reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(tally.kept.items()))
+        found.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
+    failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
+    if failed:
+        found.append(f"{failed} sections were kept because a check of the new text failed")
+    if tally.unread:
+        found.append(
+            f"{tally.unread} lines that may move or extrude were not understood, the first is line "
+            f"{tally.first_unread}; they stay as they are, and the times leave them out"
+        )
+    contact = report["contact"]
+    if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
+        found.append(
+            f"support on the layer below fell to {contact['kept_supported']:.2f} of the slicer's own; "
+            + ("give a smaller --max-deviation" if keeps else "take another pattern, or keep")
+        )
+    if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
+        found.append(
+            f"contact of doubled lines fell to {contact['kept_bonded']:.2f} of the slicer's own; "
+            "give a smaller --max-deviation"
+        )
+    return found

@@ -1,0 +1,138 @@
+"""How a print is refilled: how corners are rounded, and which strokes may change at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.gcode.limits import Limits, makes_sense
+from infill.gcode.survey import Survey
+from infill.paths.corners import UNIT
+from infill.paths.rounding import Rounding
+from infill.refilling.batch import Batch
+from infill.refilling.measuring import stride_of
+from infill.refilling.request import SAME, Request
+from infill.refilling.timing import neutral_limits
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+Flags = NDArray[np.bool_]
+
+ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings tell it
+CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
+LEAST_CORNER = 1.0  # mm/s × rad: less would cut an arc into crumbs
+SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the file tells
+SLOWED = 0.97  # a layer whose infill is slower than this share of the usual was slowed down to cool
+LEAST_LEFT = 0.9  # of the length of a layer's infill, that rounding leaves
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rules:
+    """How every batch is refilled.
+
+    Parameters
+    ----------
+    request : Request
+    rounding : Rounding
+    acceleration : float, mm/s²
+        Where the print commands none.
+    usual_speed : float, mm/min
+        Of the infill in most layers; 0 if it is not known.
+    least_layer : float, s
+        A layer that would take less is left as it is.
+    resets_filament : bool
+        The print sets its counter of filament by G92, so that we may.
+    stride : int
+        Every so-many-th layer is measured.
+    limits : Limits
+        What paths are timed with.
+    """
+
+    request: Request
+    rounding: Rounding
+    acceleration: float = ACCELERATION
+    usual_speed: float = 0.0
+    least_layer: float = 0.0
+    resets_filament: bool = True
+    stride: int = 1
+    limits: Limits = field(default_factory=neutral_limits)
+
+    def rounded_by(self, deviation: float) -> Rules:
+        """Return the rules with another largest deviation, mm."""
+        return replace(self, rounding=replace(self.rounding, deviation=deviation))
+
+    def with_radius(self, radius: float) -> Rules:
+        """Return the rules with another largest radius of corners, mm."""
+        return replace(self, rounding=replace(self.rounding, radius=radius))
+
+
+def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
+    """Return the rules for a print, from what its header and some of its layers tell."""
+    jerk = found.number("machine_max_jerk_x") if found.number("machine_max_junction_deviation") is None else None
+    speeds = [batch.table.f[batch.infill.opens] for batch in some]
+    lengths = [batch.infill.length[batch.layer == layer].sum() for batch in some for layer in np.unique(batch.layer)]
+    cooled = found.settings.get("cooling", "1") != "0"
+    least = found.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
+    settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
+    told = found.number(*settings) or 0.0
+    return Rules(
+        request=request,
+        rounding=Rounding(
+            deviation=request.deviation,
+            most=request.deviation,
+            radius=request.radius,
+            corner=max(jerk if jerk and makes_sense(jerk, "jerk") else CORNER, LEAST_CORNER),
+            same_filament=request.density == SAME,
+        ),
+        acceleration=told if makes_sense(told, "acceleration") else ACCELERATION,
+        usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
+        least_layer=least or 0.0,
+        resets_filament=found.resets_filament,
+        stride=stride_of(found.layers, float(np.median(lengths)) if lengths else 0.0),
+    )
+
+
+def unchanged(batch: Batch, rules: Rules) -> dict[str, Flags]:
+    """Return by reason which strokes must stay as they are, (M,) each."""
+    infill, layer, table = batch.infill, batch.layer, batch.table
+    reasons: dict[str, Flags] = {}
+    if rules.request.layers is not None:
+        low, high = rules.request.layers
+        reasons["not among the layers asked for"] = (layer < low) | (layer > high)
+    if rules.request.part is not None:
+        wanted = [number for number, name in batch.marks.names.items() if rules.request.part in name]
+        reasons["another object"] = ~np.isin(batch.section, wanted)
+    reasons["slowed down to cool"] = _slowed(batch, rules)
+    ends = np.stack([infill.points[infill.first[:-1]], infill.points[infill.first[1:] - 1]])
+    reasons["cut off by the end of the file"] = (infill.closes == len(table) - 1) & (not table.data.endswith(b"\n"))
+    reasons["finer numbers than a micrometre"] = np.abs(ends / UNIT - np.rint(ends / UNIT)).max(axis=(0, 2)) > 1e-4
+    if not rules.resets_filament and rules.request.density != SAME:
+        reasons["a counter of filament that is never set"] = ~table.relative_e[infill.opens]
+    return reasons
+
+
+def _slowed(batch: Batch, rules: Rules) -> Flags:
+    """Return which strokes lie in layers that were slowed down to cool, or are as short as may be."""
+    if not rules.least_layer:
+        return np.zeros(len(batch.layer), dtype=bool)
+    slowed = batch.table.f[batch.infill.opens] < SLOWED * rules.usual_speed
+    short = _layer_seconds(batch) * LEAST_LEFT < rules.least_layer
+    found: Flags = slowed | short[batch.layer - batch.marks.layer[0]]
+    return found
+
+
+def short_layers(batch: Batch, rules: Rules) -> Flags:
+    """Return which layers of a batch, from its first on, may be as short as cooling allows."""
+    return _layer_seconds(batch) < max(SHORT_LAYER, rules.least_layer)
+
+
+def _layer_seconds(batch: Batch) -> Floats:
+    """Return how long each layer takes at its feed rates, from the first on, without acceleration, as slicers do."""
+    table, layer = batch.table, batch.marks.layer
+    x = np.diff(table.x, prepend=table.before.x)
+    y = np.diff(table.y, prepend=table.before.y)
+    seconds = np.nan_to_num(np.hypot(x, y) / (table.f / 60))
+    return np.bincount(layer - layer[0], weights=seconds).astype(np.float64)

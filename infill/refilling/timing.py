@@ -1,0 +1,171 @@
+"""How long a machine takes: for paths, each from rest to rest, and for a whole print up to each of its lines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.gcode.dialect import role_of
+from infill.gcode.found_limits import FoundLimits
+from infill.gcode.limits import Limits
+from infill.gcode.sections import SPARSE
+from infill.gcode.sliced_file import SlicedText
+from infill.gcode.table import State, Table
+from infill.planner.bounds import Moves
+from infill.planner.lookahead import Plan, plan
+from infill.planner.printing_time import timeline_of_text
+from infill.planner.strokes import Strokes as Sums
+from infill.planner.timeline import Steps
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+
+
+def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
+    """Return the limits that paths are compared by: corners by square corner velocity, arcs by acceleration.
+
+    Nothing else limits: the paths compared share their axes, filament per mm and feed rates.
+    """
+    infinite = (np.inf,) * 4
+    return Limits(
+        model="klipper",
+        feedrate=infinite,
+        axis_acceleration=infinite,
+        square_corner_velocity=square_corner_velocity,
+        corner_extrusion_velocity=1e6,
+        minimum_cruise_ratio=0.0,
+    )
+
+
+def path_seconds(points: Floats, first: Places, feedrate: Floats, acceleration: Floats, limits: Limits) -> Floats:
+    """Return the seconds that each path takes.
+
+    Parameters
+    ----------
+    points : (N, 2) float64, mm
+    first : (M + 1,) int
+    feedrate, acceleration : (M,) float64
+        mm/s and mm/s².
+    limits : Limits
+        All others.
+    """
+    number = np.diff(first)
+    if not len(number):
+        return np.empty(0)
+    path = np.repeat(np.arange(len(number)), number)
+    move = np.flatnonzero(np.diff(path) == 0)
+    owner = path[move]
+    delta = np.zeros((len(move), 4))
+    delta[:, :2] = points[move + 1] - points[move]
+    delta[:, 3] = 1e-9
+    levels, setting = np.unique(acceleration, return_inverse=True)
+    several = [replace(limits, acceleration=float(level), travel_acceleration=float(level)) for level in levels]
+    stop = np.concatenate([[True], np.diff(owner) != 0])
+    moves = Moves(delta=delta, feedrate=feedrate[owner], setting=setting[owner], stop=stop)
+    seconds: Floats = np.bincount(owner, plan(moves, several).seconds, len(number)).astype(np.float64)
+    return seconds
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrintTime:
+    """How long a print takes, planned as `infill motion` does by the limits that the file tells.
+
+    Parameters
+    ----------
+    seconds : float
+        Of the whole print; 0 if it has no moves.
+    infill : float
+        Of its sparse infill, with what leads to it.
+    first_layer : float
+        Up to the end of the first layer.
+    elapsed : (N,) float64
+        Up to each of the places that were asked for, s.
+    unread, first_unread : int
+        Lines that may move or extrude and are not understood, and the number of the first.
+    """
+
+    seconds: float = 0.0
+    infill: float = 0.0
+    first_layer: float = 0.0
+    elapsed: Floats
+    unread: int = 0
+    first_unread: int = 0
+
+
+class PrintClock:
+    """The time of a print, batch by batch.
+
+    Parameters
+    ----------
+    given : SlicedText
+        With what stands outside the text.
+    text : binary file, optional
+        Its text, if it is another one by now.
+    places : sequence of int, ascending
+        Bytes of the text at which to tell the time.
+    like : PrintClock, optional
+        Of the same file, with the same limits from the beginning.
+    """
+
+    def __init__(
+        self,
+        given: SlicedText,
+        text: BinaryIO | None = None,
+        places: Sequence[int] = (),
+        *,
+        like: PrintClock | None = None,
+    ) -> None:
+        self._timeline = timeline_of_text(given, text, found=None if like is None else like.found)
+        self.found: FoundLimits = self._timeline.found
+        self.begin: State = self._timeline.state
+        self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
+        self._elapsed = np.zeros(len(self._asked))
+        self._first_layer = self._total = 0.0
+        self._known = 0  # of the places
+
+    def add(self, table: Table) -> None:
+        """Take the next lines of the print."""
+        self._count(*self._timeline.follow(table))
+
+    def read(self) -> PrintTime:
+        """Read the whole print."""
+        for table in self._timeline.tables():
+            self.add(table)
+        return self.finish()
+
+    def finish(self) -> PrintTime:
+        """Return the time of all lines that were added."""
+        if self._timeline.moved:
+            self._count(*self._timeline.rest())
+        return self._result()
+
+    def _count(self, steps: Steps, done: Plan) -> None:
+        if not len(steps):
+            return
+        self._sums.add(steps, done)
+        seconds = done.seconds + steps.pause
+        gone = np.concatenate([[0.0], np.cumsum(seconds)])
+        self._first_layer += float(seconds[steps.layer < 2].sum())
+        first, self._known = self._known, int(np.searchsorted(self._asked, steps.place[-1], side="right"))
+        here = slice(first, self._known)
+        self._elapsed[here] = self._total + gone[np.searchsorted(steps.place, self._asked[here], side="left")]
+        self._total += float(gone[-1])
+
+    def _result(self) -> PrintTime:
+        timeline, sums = self._timeline, self._sums
+        sums.finish(timeline.pause, timeline.retractions)
+        self._elapsed[self._known :] = self._total
+        seconds = sums.total("seconds")
+        roles = [role_of(name) for name in timeline.features[: len(seconds)]]
+        return PrintTime(
+            seconds=float(seconds.sum()),
+            infill=float(sum(each for role, each in zip(roles, seconds.tolist(), strict=False) if role == SPARSE)),
+            first_layer=self._first_layer,
+            elapsed=self._elapsed,
+            unread=timeline.unread.lines,
+            first_unread=timeline.unread.first,
+        )

@@ -1,0 +1,122 @@
+"""How wide the gaps between the beads of a layer are: what bounds how far its infill may move.
+
+Of every point in the plane, let d be the distance to the nearest bead. If no point of a bead moves farther than δ, and
+none of the new bead is farther than δ from the old one, d grows by δ at most, everywhere. The widest gap is the largest
+circle that no centre line enters, of radius R = max d over the region of the infill. So with δ ≤ `MOST_GROWTH` R, it
+grows by that share at most, whatever the pattern.
+
+R is found on a raster, for each region that the other beads of a layer enclose, and is taken smaller by what a raster
+may err.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from infill.ragged import picked
+from infill.refilling.batch import Batch
+
+Floats = NDArray[np.float64]
+Places = NDArray[np.intp]
+Flags = NDArray[np.bool_]
+
+MOST_GROWTH = 0.15  # of the radius of the widest gap
+MOST_PIXELS = 512  # along the longer side of a raster
+FINEST = 0.5  # line widths: a pixel of a small one
+MARGIN = 2.0  # mm around the infill of a layer
+ERROR = 0.75  # pixels: that a centre line may lie from the pixels that stand for it, diagonally
+
+
+def largest_moves(batch: Batch) -> Floats:
+    """Return how far each stroke of a batch may move for the gaps of its region, (M,), mm."""
+    moves = np.zeros(len(batch.infill))
+    for number in np.unique(batch.layer).tolist():
+        some = np.flatnonzero(batch.layer == number)
+        moves[some] = MOST_GROWTH * _widest_gaps(batch, number, some)
+    return moves
+
+
+def _widest_gaps(batch: Batch, number: int, some: Places) -> Floats:
+    """Return the radius, mm, of the widest gap around each of some strokes, all those of a layer."""
+    from scipy import ndimage
+
+    infill = batch.infill
+    places, first = picked(infill.first, some)
+    points = infill.points[places]
+    low, high = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
+    spacing = _spacing(points, first)
+    pixel = max(FINEST * batch.line_width, float((high - low).max()) / MOST_PIXELS)
+    if not np.isfinite(high - low).all() or pixel > spacing:
+        return np.full(len(some), spacing / 2)
+    shape = tuple(np.ceil((high - low) / pixel).astype(int) + 1)
+    others = batch.others.ends_of(number)
+    walls = _raster(others[:, 0], others[:, 1], low, pixel, shape)
+    leg = np.ones(len(points), dtype=bool)
+    leg[first[1:] - 1] = False
+    begins = np.flatnonzero(leg)
+    beads = _raster(points[begins], points[begins + 1], low, pixel, shape)
+    at = np.floor((points - low) / pixel + 0.5).astype(np.intp)
+    beads[at[:, 0], at[:, 1]] = True
+    region, _ = ndimage.label(~_dilated(walls))
+    open_sides = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
+    # The squares of distances, in whole numbers, of which only the largest are needed.
+    row, column = ndimage.distance_transform_edt(~(walls | beads), return_distances=False, return_indices=True)
+    row -= np.arange(shape[0], dtype=row.dtype)[:, None]
+    column -= np.arange(shape[1], dtype=column.dtype)
+    square = np.zeros(int(region.max()) + 1, dtype=row.dtype)
+    np.maximum.at(square, region.ravel(), (row * row + column * column).ravel())
+    radius = np.maximum(np.sqrt(square) * pixel - ERROR * pixel, 0.0)
+    radius[0] = np.inf  # beside a wall
+    radius[open_sides] = spacing / 2  # around it is nothing that tells where the infill ends
+    least = np.minimum.reduceat(radius[region[at[:, 0], at[:, 1]]], first[:-1])
+    return np.where(np.isfinite(least), least, float(least[np.isfinite(least)].min(initial=spacing / 2)))
+
+
+def _spacing(points: Floats, first: Places) -> float:
+    """Return about how far lines lie from one another, mm: the area of their hull over their length."""
+    from scipy.spatial import ConvexHull, QhullError  # which loads sooner than a library of geometry
+
+    step = np.hypot(*np.diff(points, axis=0).T)
+    step[first[1:-1] - 1] = 0.0
+    length = float(step.sum())
+    if not length or not np.isfinite(points).all():
+        return 0.0
+    try:
+        return float(ConvexHull(points).volume) / length  # of two axes, its area
+    except QhullError:  # all on one line
+        return 0.0
+
+
+def _raster(starts: Floats, ends: Floats, low: Floats, pixel: float, shape: tuple[int, ...]) -> Flags:
+    """Return the pixels that straight pieces of beads pass through; what lies outside is left out.
+
+    Pieces are cut into equal ones of half a pixel at most, and the middle of each is marked.
+    """
+    found = np.zeros(shape, dtype=bool)
+    high = low + pixel * np.array(shape)
+    # Axis by axis: NumPy is slow along the short axis of an array.
+    near = np.ones(len(starts), dtype=bool)
+    for axis in (0, 1):
+        one, other = starts[:, axis], ends[:, axis]
+        near &= (np.maximum(one, other) >= low[axis] - pixel) & (np.minimum(one, other) <= high[axis])
+    (x, y), (then_x, then_y) = starts[near].T, ends[near].T
+    dx, dy = then_x - x, then_y - y
+    pieces = np.maximum(1, np.ceil(np.hypot(dx, dy) / (pixel / 2) - 1e-9)).astype(np.intp)
+    of = np.repeat(np.arange(len(pieces)), pieces)
+    share = (np.arange(len(of)) - (np.cumsum(pieces) - pieces)[of] + 0.5) / pieces[of]
+    row = np.floor((x[of] + share * dx[of] - low[0]) / pixel + 0.5)
+    column = np.floor((y[of] + share * dy[of] - low[1]) / pixel + 0.5)
+    inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
+    found[row[inside].astype(np.intp), column[inside].astype(np.intp)] = True
+    return found
+
+
+def _dilated(pixels: Flags) -> Flags:
+    """Return pixels and their neighbours on all four sides."""
+    found = pixels.copy()
+    found[1:] |= pixels[:-1]
+    found[:-1] |= pixels[1:]
+    found[:, 1:] |= pixels[:, :-1]
+    found[:, :-1] |= pixels[:, 1:]
+    return found
