@@ -7,6 +7,7 @@ import math
 from infill.errors import ParameterError
 
 SHORTEST, LONGEST = 1e-6, 1e6  # of a length in mm; beyond these, files of 32-bit numbers lose it
+FARTHEST = 1e5  # mm: no machine is larger
 
 
 def positive(name: str, value: float, unit: str = "") -> float:

@@ -381,3 +381,22 @@ def test_infill_beside_lines_that_cannot_be_read_stays(tmp_path: Path) -> None:
     assert report["print"]["unread_lines"] == motion(path).unread_lines == 3
     assert any("3 lines that may move or extrude were not understood" in each for each in report["problems"])
     assert (tmp_path / "new.gcode").read_bytes().count(b"G1 Q1 X1") == 3
+
+
+# --- places where no machine is --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("word", ["Y2147483647", "X-2147483649.5", "Z1000000", "X100000.001"])
+@pytest.mark.parametrize("begin", ["G1 ", "G0", "g1 "])
+def test_a_place_beyond_every_machine_is_counted_and_draws_nothing(word: str, begin: str) -> None:
+    """Sampled along such a move, a wall would fill the memory."""
+    axis = word[0].lower() if begin.islower() else word[0]
+    table = read(f"G1 X1 Y2 F600\n{begin}{axis}{word[1:]} E1\nG1 X3 Y2 E1\n".encode(), State(relative_e=True))
+    assert table.unread.tolist() == [False, True, False]
+    assert table.x[2] == 3
+
+
+def test_the_farthest_place_is_a_place() -> None:
+    table = read(b"G1 X100000 Y-100000 E1\n", State())
+    assert table.x.tolist() == [100_000]
+    assert not table.unread.any()

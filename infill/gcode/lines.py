@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.checks import FARTHEST
 from infill.gcode.numbers import MINUS, MOST_DIGITS, PLUS, POINT, SEMICOLON, SPACE, TAB, read_numbers
 from infill.gcode.unusual_moves import may_move, read_move
 
@@ -18,6 +19,7 @@ Floats = NDArray[np.float64]
 # has values like the others, but its text holds more than they tell; if not, it is `unread`.
 OTHER, MOVE, ARC, COMMENT, BLANK, ODD = range(6)
 WORDS = "XYZEFIJ"
+_PLACES = np.array([letter in "XYZIJ" for letter in WORDS] + [False])  # the last of letters that are none of these
 _LETTERS = np.full(256, -1, dtype=np.int8)
 for _place, _letter in enumerate(WORDS):
     _LETTERS[ord(_letter)] = _LETTERS[ord(_letter.lower())] = _place
@@ -229,6 +231,7 @@ def _values(
     doubtful = digit & ((text[place[exponent]] == ord("e")) | (back == MINUS) | (back == PLUS))
     strange[line[exponent[doubtful]]] = True
     strange[line[~known | ~good]] = True
+    strange[line[_PLACES[word] & (np.abs(number) > FARTHEST)]] = True
     flat = line[known] * len(WORDS) + word[known]
     values.ravel()[flat] = number[known]
     given = np.zeros(values.shape, dtype=bool)

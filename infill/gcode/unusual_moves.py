@@ -11,7 +11,9 @@ import re
 from collections.abc import Mapping
 from typing import Final
 
-FARTHEST: Final = 1e7  # mm, or mm/min: a larger number is a mistake of the file
+from infill.checks import FARTHEST
+
+LARGEST: Final = 1e7  # mm, or mm/min: a larger number is a mistake of the file
 # What RepRapFirmware, Marlin, Klipper and Sailfish let stand on a move without changing where it goes: an endstop (H),
 # a laser (S), pins (P, of straight moves), and axes beyond the third.
 IGNORED: Final = frozenset("HSUVWCD")
@@ -107,6 +109,8 @@ def read_move(text: bytes) -> tuple[int, dict[str, float]] | None:
         if letter in words or (value is None and letter not in IGNORED):
             return None
         words[letter] = value or 0.0
+    if any(abs(words.get(letter, 0.0)) > FARTHEST for letter in "XYZIJKR"):
+        return None
     return None if _is_unsure(code, words) else (code, {k: v for k, v in words.items() if k in "XYZEFIJKRPAB"})
 
 
@@ -115,7 +119,7 @@ def _value(number: bytes | None, letter: str) -> float | None:
     if number is None:
         return None
     parts = [float(part) for part in number.split(b":")]
-    if (len(parts) > 1 and letter != "E") or max(map(abs, parts)) > FARTHEST:
+    if (len(parts) > 1 and letter != "E") or max(map(abs, parts)) > LARGEST:
         return None
     return sum(parts)
 

@@ -16,9 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.checks import FARTHEST
 from infill.paths.contact import OWN, TOUCHING, sampled
 from infill.paths.corners import turns
-from infill.paths.neighbours import BESIDE, FARTHEST, Walls, walls_of
+from infill.paths.neighbours import BESIDE, Walls, walls_of
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from infill.checks import FARTHEST
 from infill.paths.contact import STEP as FINE
 from infill.paths.contact import Samples, projected, sampled
 
@@ -27,7 +28,6 @@ TOWARDS = 0.015  # mm that it may move towards it
 LARGEST_DISTANCE = 5.0  # mm, of a search
 NEAREST = 3  # pieces of beads around a point, of which one is the nearest
 FEW = 500  # points: with so few, nothing is gained by looking where walls are
-FARTHEST = 1e5  # mm: no machine is larger
 MOST_SQUARES = 1 << 24  # of a plane of squares: a byte each
 
 

@@ -129,9 +129,14 @@ def judge_print(path: Path, folder: Path, rng: Random) -> Iterator[str]:
 
 
 def _is_unambiguous(path: Path, answer: Answer) -> bool:
-    """Tell whether every reader must read a print alike: no line that refill warns of, and M73 as slicers write it."""
-    lines = [line for line in path.read_bytes().splitlines() if b"M73" in line]
-    return json.loads(answer.out)["print"]["unread_lines"] == 0 and all(map(PROGRESS.fullmatch, lines))
+    """Tell whether every reader must read a print alike.
+
+    Refill warns of no line, M73 is written as slicers write it, and all lines end alike.
+    """
+    text = path.read_bytes()
+    progress = [line for line in text.splitlines() if b"M73" in line]
+    unread = json.loads(answer.out)["print"]["unread_lines"]
+    return unread == 0 and all(map(PROGRESS.fullmatch, progress)) and text.count(b"\r\n") in (0, text.count(b"\n"))
 
 
 def judge_settings(path: Path, folder: Path, rng: Random) -> Iterator[str]:
