@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -51,6 +52,26 @@ def test_whole_seeds_are_read(name: str, compiled: None, tmp_path: Path) -> None
     found = json.loads((tmp_path / "found.json").read_text())
     assert len(found) > 1
     assert not any(found.values()), found
+
+
+DIGESTS = """
+import hashlib, json
+from tests.fuzzing.targets import TARGETS
+seeds = {name: repr(sorted(target.make_seeds().items())).encode() for name, target in TARGETS.items()}
+print(json.dumps({name: hashlib.md5(text).hexdigest() for name, text in seeds.items()}))
+"""
+
+
+def test_seeds_are_the_same_in_every_run() -> None:
+    """Whatever the time of day, and whatever the order of sets: a finding can be made again by its numbers."""
+    answers = []
+    for seed in ("1", "2"):
+        words = [sys.executable, "-c", DIGESTS]
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        answers.append(subprocess.run(words, cwd=ROOT, check=True, capture_output=True, env=environment).stdout)
+        time.sleep(2)  # the clock of a ZIP file
+    assert answers[0] == answers[1]
+    assert set(json.loads(answers[0])) == set(TARGETS)
 
 
 def test_a_case_is_the_same_for_the_same_numbers() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import io
 import json
+import re
 import tempfile
 import zipfile
 import zlib
@@ -119,6 +120,7 @@ def drawing_seeds() -> dict[str, bytes]:
     document.blocks.new("B").add_circle((0, 0), 2)
     space.add_blockref("B", (3, 3), dxfattribs={"xscale": 2, "rotation": 30})
     text = io.StringIO()
+    ezdxf.options.write_fixed_meta_data_for_testing = True
     document.write(text)
     picture = io.BytesIO()
     grey = np.full((24, 24), 255, np.uint8)
@@ -127,7 +129,7 @@ def drawing_seeds() -> dict[str, bytes]:
     wkt = "LINESTRING (0 0, 10 5, 20 0)\nPOLYGON ((0 0, 8 0, 8 8, 0 8, 0 0), (2 2, 4 2, 4 4, 2 2))\nGEOMETRYCOLLECTION (MULTILINESTRING ((1 1, 2 9), (3 3, 9 1)), POINT (1 2))\n"
     return {
         "leaf.svg": svg.encode(),
-        "lines.dxf": text.getvalue().encode(),
+        "lines.dxf": re.sub(r"[\d.]+ @ \d.*", "1.4.5 @ 2026-01-02", text.getvalue()).encode(),
         "lines.wkt": wkt.encode(),
         "dark.png": picture.getvalue(),
     }
@@ -303,7 +305,9 @@ def repacked_zip(members: dict[str, bytes]) -> bytes:
     file = io.BytesIO()
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in members.items():
-            archive.writestr(name, data)
+            member = zipfile.ZipInfo(name)  # without the time of day: seeds are the same in every run
+            member.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(member, data)
     return file.getvalue()
 
 
