@@ -1,4 +1,4 @@
-"""Checks of single numbers, so that the same mistake is reported the same way everywhere."""
+"""Checks of single numbers, so that the same mistake gets the same message everywhere."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ def positive(name: str, value: float, unit: str = "") -> float:
     >>> positive("alpha", 1)
     1.0
     """
-    number = _float(name, value)
+    number = _to_float(name, value)
     if not math.isfinite(number) or number <= 0:
         raise ParameterError(f"{name} is {number:g} {unit}".rstrip() + "; it must be a finite number above 0")
     return number
 
 
 def length(name: str, value: float) -> float:
-    """Return `value` as a float in mm, or raise ParameterError if no mesh can be that long.
+    """Return `value` as a float in mm, or raise ParameterError if no mesh can have that length.
 
     >>> length("height", 6)
     6.0
@@ -34,7 +34,7 @@ def length(name: str, value: float) -> float:
 
 def within(name: str, value: float, low: float, high: float, unit: str = "") -> float:
     """Return `value` as a float, or raise ParameterError if it does not lie between `low` and `high`."""
-    number = _float(name, value)
+    number = _to_float(name, value)
     if not low <= number <= high:
         raise ParameterError(f"{name} is {number:.10g}; it must be a number from {low:g} to {high:g} {unit}".rstrip())
     return number
@@ -42,13 +42,14 @@ def within(name: str, value: float, low: float, high: float, unit: str = "") -> 
 
 def whole(name: str, value: float, low: int) -> int:
     """Return `value` as an int, or raise ParameterError if it is not a whole number of at least `low`."""
-    number = _float(name, value)
+    number = _to_float(name, value)
     if not math.isfinite(number) or number != int(number) or number < low:
         raise ParameterError(f"{name} is {number:.10g}; it must be a whole number of at least {low}")
     return int(value)
 
 
-def _float(name: str, value: float) -> float:
+def _to_float(name: str, value: float) -> float:
+    """Convert a number to float, or raise ParameterError for anything else."""
     if isinstance(value, bool | str | bytes):  # float() would take True for 1 and "6" for 6
         raise ParameterError(f"{name} is {value!r}; it must be a number")
     try:

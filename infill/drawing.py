@@ -1,4 +1,4 @@
-"""What a drawing is, whatever file it came from: lines, or dark and light."""
+"""Drawings and pictures, independent of the file format that they came from."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Drawing:
     page : (x0, y0, x1, y1), optional
         The page in mm, for formats that have one.
     left_out : tuple of str
-        What the file holds besides lines, in words: "2 texts".
+        Content of the file besides lines, in words: "2 texts".
     """
 
     lines: tuple[Line, ...]
@@ -59,11 +59,11 @@ class Picture:
 
 
 class TooComplexError(FormatError):
-    """A drawing exceeds one of the limits that keep its reading within seconds; the path is not in the message."""
+    """A drawing exceeds one of the limits that keep reading it fast; the message lacks the path."""
 
 
 def require_at_most(limit: int, count: float, what: str) -> None:
-    """Raise TooComplexError where a drawing has more of something than the limit.
+    """Raise TooComplexError if a drawing has more items than the limit.
 
     >>> require_at_most(3, 4, "elements")
     Traceback (most recent call last):
@@ -86,26 +86,27 @@ def count_points(lines: Iterable[Line]) -> Iterator[Line]:
 def checked_drawing(
     path: object, lines: list[Line], *, page: Bounds | None = None, left_out: dict[str, int] | None = None
 ) -> Drawing:
-    """Return the drawing with its lines simplified, or raise FormatError where no line is left or one is not finite."""
+    """Simplify lines and return them as a drawing; raise FormatError if none remains or one is not finite."""
     import shapely
 
     left_out = left_out or {}
-    words = tuple(f"{count} {what}{'s' if count > 1 else ''}" for what, count in left_out.items())
-    long = [line for line in lines if len(line) > 1]
-    if not long:
-        only = f", only {' and '.join(words)}" if words else ""
-        raise FormatError(f"{path} holds no lines{only}; draw outlines or strokes, and turn texts into paths")
-    points = np.concatenate(long)
+    omissions = tuple(f"{count} {what}{'s' if count > 1 else ''}" for what, count in left_out.items())
+    polylines = [line for line in lines if len(line) > 1]
+    if not polylines:
+        hint = f", only {' and '.join(omissions)}" if omissions else ""
+        raise FormatError(f"{path} holds no lines{hint}; draw outlines or strokes, and turn texts into paths")
+    points = np.concatenate(polylines)
     largest = np.abs(points).max()
     if not largest <= LARGEST:
         raise FormatError(f"{path} holds a point at {largest:g} mm; the limit is {LARGEST:g} mm; check its units")
     size = float(np.ptp(points, axis=0).max())
     if size == 0:
         raise FormatError(f"{path} holds lines without length; draw outlines or strokes")
-    simple = shapely.simplify(shapely.linestrings(points, indices=_owners(long)), size * FLATNESS / 2)
-    kept = (np.array(line.coords) for line in simple[shapely.length(simple) > 0])
-    return Drawing(lines=tuple(kept), page=page, left_out=words)
+    simple = shapely.simplify(shapely.linestrings(points, indices=_owners(polylines)), size * FLATNESS / 2)
+    simplified = (np.array(line.coords) for line in simple[shapely.length(simple) > 0])
+    return Drawing(lines=tuple(simplified), page=page, left_out=omissions)
 
 
 def _owners(lines: list[Line]) -> NDArray[np.intp]:
+    """Return the index of the line that each point belongs to."""
     return np.repeat(np.arange(len(lines)), [len(line) for line in lines])

@@ -8,26 +8,30 @@ InfillError
 ├── MemoryLimitError(ValueError)    a grid that exceeds the available memory
 └── OutputError(OSError)            a file that exists, or cannot be written
 
-A message is one line: what was given, what the limit is, what to do. One about an argument begins with its name, as
-Python spells it: "line_width is -1 mm; ..."; the command line puts the option that was typed in its place. `patterns`
+A message is one line: the given value, the limit, and the remedy. A message about an argument begins with its name in
+Python: "line_width is -1 mm; ..."; the command line replaces the name by the option. `patterns`
 has its own errors, `patterns.PatternError`, since it may not import this package.
 """
 
 
 def printable(text: str) -> str:
-    r"""Return a text on one line, with whatever a terminal would obey, or not show, as escapes.
+    r"""Return a text on one line, with control and invisible characters escaped.
 
     >>> print(printable("a.nrrd holds \x1b[31m"))
     a.nrrd holds \x1b[31m
     """
-    return text if text.isprintable() else "".join(each if each.isprintable() else ascii(each)[1:-1] for each in text)
+    return (
+        text
+        if text.isprintable()
+        else "".join(character if character.isprintable() else ascii(character)[1:-1] for character in text)
+    )
 
 
 class InfillError(Exception):
-    """Base class of every error this package raises on purpose; its text is one line, whatever it quotes."""
+    """Base class of all errors that this package raises deliberately; the text is always a single line."""
 
     def __str__(self) -> str:
-        """Return the message with control characters as escapes."""
+        """Return the message with control characters escaped."""
         return printable(super().__str__())
 
 
@@ -36,15 +40,15 @@ class ParameterError(InfillError, ValueError):
 
 
 class UsageError(ParameterError):
-    """An argument is not of its kind or none of the choices, or two arguments exclude each other."""
+    """An argument has the wrong type or is not one of the choices, or two arguments exclude each other."""
 
 
 class FormatError(InfillError, ValueError):
-    """A file suffix is unknown, or a file holds something other than it should."""
+    """A file suffix is unknown, or the content of a file is wrong."""
 
 
 class GeometryError(InfillError, ValueError):
-    """The result would not be the part that was asked for."""
+    """The result would not be the requested part."""
 
 
 class MemoryLimitError(InfillError, ValueError):

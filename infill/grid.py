@@ -1,4 +1,4 @@
-"""The grid: equal cells filling a box."""
+"""A grid: a box divided into equal cells."""
 
 from __future__ import annotations
 

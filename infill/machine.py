@@ -1,4 +1,4 @@
-"""The resources of this machine: cores and memory."""
+"""Resources of this machine: cores and memory."""
 
 from __future__ import annotations
 
@@ -11,29 +11,31 @@ from pathlib import Path
 from infill.errors import MemoryLimitError
 
 GIB = 2**30
-LARGEST = 2**100  # bytes that a message names: a grid may be too large for a float
+LARGEST = 2**100  # largest number of bytes in a message: a grid may exceed the range of a float
 
 
 def usable_cores() -> int:
-    """Return how many cores this process may use."""
+    """Return the number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def available_memory() -> int | None:
-    """Return how many bytes of memory are free, or the total where only that is known; None if neither is."""
+    """Return the free memory in bytes, the total if only that is known, or None."""
     if sys.platform == "win32":
         return _windows_available()
     try:
-        found = re.search(r"MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"))
-        available = int(found[1]) * 1024 if found else None
+        line = re.search(r"MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"))
+        available = int(line[1]) * 1024 if line else None
     except OSError:  # not Linux: use the total, the best that is available
         available = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     return available
 
 
 def _windows_available() -> int | None:
+    """Return the free memory in bytes on Windows."""
+
     class Status(ctypes.Structure):
         _fields_ = (
             ("length", ctypes.c_ulong),
@@ -42,16 +44,16 @@ def _windows_available() -> int | None:
         )
 
     status = Status(length=ctypes.sizeof(Status))
-    asked = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # type: ignore[attr-defined]
-    return int(status.available) if asked else None
+    succeeded = ctypes.windll.kernel32.GlobalMemoryStatusEx(ctypes.byref(status))  # type: ignore[attr-defined]
+    return int(status.available) if succeeded else None
 
 
 def require_memory(needed: int, limit: int | None, advice: str) -> None:
-    """Raise MemoryLimitError if `needed` bytes exceed `limit`, or the available memory if it is None."""
+    """Raise MemoryLimitError if `needed` bytes exceed `limit`, or the available memory if `limit` is None."""
     allowed = available_memory() if limit is None else limit
     if allowed is not None and needed > allowed:
         needed = min(needed, LARGEST)
-        whose = "is at hand" if limit is None else "is allowed"
+        origin = "is at hand" if limit is None else "is allowed"
         raise MemoryLimitError(
-            f"this needs about {needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB {whose}; {advice}"
+            f"this needs about {needed / GIB:.2f} GiB of memory and {allowed / GIB:.2f} GiB {origin}; {advice}"
         )

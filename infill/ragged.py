@@ -1,4 +1,4 @@
-"""Rows of different lengths laid end to end: paths among their points, boxes among their cells."""
+"""Rows of different lengths laid end to end, such as the points of several paths."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 def spread(
     counts: NDArray[np.integer], most: int | None = None
 ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.int64]]]:
-    """Yield (row, place): row i occurs `counts[i]` times, with places 0, 1, 2 … in it.
+    """Yield (row, place) arrays: row i occurs `counts[i]` times, with places 0, 1, 2 … in it.
 
     Parameters
     ----------
@@ -27,48 +27,48 @@ def spread(
     ends = np.cumsum(counts)
     begin = 0
     while begin < len(counts):
-        passed = int(ends[begin - 1]) if begin else 0
-        end = len(counts) if most is None else int(np.searchsorted(ends, passed + most, side="right"))
+        done = int(ends[begin - 1]) if begin else 0
+        end = len(counts) if most is None else int(np.searchsorted(ends, done + most, side="right"))
         end = max(end, begin + 1)
-        some = counts[begin:end]
-        row = np.repeat(np.arange(begin, end), some)
-        place = np.arange(len(row)) - np.repeat(ends[begin:end] - some - passed, some)
+        lengths = counts[begin:end]
+        row = np.repeat(np.arange(begin, end), lengths)
+        place = np.arange(len(row)) - np.repeat(ends[begin:end] - lengths - done, lengths)
         if len(row):
             yield row, place
         begin = end
 
 
 def packed(rows: Sequence[NDArray[Any]], *, like: tuple[int, ...] = ()) -> tuple[NDArray[Any], NDArray[np.intp]]:
-    """Return rows one after another, and where each begins, with the end as one more.
+    """Concatenate rows; return the entries and the offsets of the rows, including the end of the last one.
 
     Parameters
     ----------
     rows : sequence of (N, ...) arrays
     like : tuple of int
-        Shape of an entry, for no rows at all.
+        Shape of an entry, used if there are no rows.
 
     >>> packed([np.array([1.0, 2.0]), np.array([3.0])])[1].tolist()
     [0, 2, 3]
     """
-    first = np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(np.intp)
-    return (np.concatenate(rows) if rows else np.empty((0, *like))), first
+    offsets = np.concatenate([[0], np.cumsum([len(row) for row in rows])]).astype(np.intp)
+    return (np.concatenate(rows) if rows else np.empty((0, *like))), offsets
 
 
-def parted(values: NDArray[Any], first: NDArray[np.integer]) -> list[NDArray[Any]]:
-    """Return the rows that `packed` laid end to end.
+def parted(values: NDArray[Any], offsets: NDArray[np.integer]) -> list[NDArray[Any]]:
+    """Split entries into rows at their offsets: the inverse of `packed`.
 
     >>> [row.tolist() for row in parted(np.array([1, 2, 3]), np.array([0, 2, 3]))]
     [[1, 2], [3]]
     """
-    return [values[low:high] for low, high in zip(first[:-1].tolist(), first[1:].tolist(), strict=True)]
+    return [values[low:high] for low, high in zip(offsets[:-1].tolist(), offsets[1:].tolist(), strict=True)]
 
 
-def picked(first: NDArray[np.integer], some: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the places of the entries of some rows, one row after another, and where each of them begins then.
+def picked(offsets: NDArray[np.integer], rows: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the indices of the entries of selected rows, row after row, and the offsets of these rows.
 
-    >>> [each.tolist() for each in picked(np.array([0, 2, 3, 6]), np.array([0, 2]))]
+    >>> [array.tolist() for array in picked(np.array([0, 2, 3, 6]), np.array([0, 2]))]
     [[0, 1, 3, 4, 5], [0, 2, 5]]
     """
-    counts = first[some + 1] - first[some]
+    counts = offsets[rows + 1] - offsets[rows]
     begins = np.concatenate([[0], np.cumsum(counts)]).astype(np.intp)
-    return np.arange(begins[-1]) + np.repeat(first[some] - begins[:-1], counts), begins
+    return np.arange(begins[-1]) + np.repeat(offsets[rows] - begins[:-1], counts), begins

@@ -1,6 +1,6 @@
-"""The report that every product returns: the same sections, keys, types and units. docs/report.md lists each key.
+"""The common part of all reports: sections, keys, types and units. docs/report.md lists each key.
 
-It holds plain numbers, strings, lists and dicts, so that it is what ``--json`` prints. Lengths are in mm, areas in
+A report holds plain numbers, strings, lists and dicts, so that ``--json`` can print it. Lengths are in mm, areas in
 mm², volumes in mm³, angles in degrees.
 """
 
@@ -46,20 +46,20 @@ def report_of(
     grid : mapping
         Its `shape`, `spacing`, `origin` and `space`.
     solid : mapping
-        `data`, the volume before smoothing, mm³, `level`, and whatever else is known about the volume.
+        `data`, the volume before smoothing, mm³, `level`, and further facts about the volume.
     data, result : Counts
         How the solid is connected before and after smoothing.
     changes : Changes
     walls : mapping
         How thick the walls are.
     problems : sequence of str
-        What is wrong, one phrase each.
+        Problems of the result, a phrase each.
     seconds : mapping
         Seconds spent, by stage.
     simplified : mapping, optional
-        What simplification cost.
+        Costs of simplification.
     mesh : mapping, optional
-        How the surface was made.
+        Facts about making the surface.
     **more
         Sections that this product has in addition to the common ones.
     """
@@ -76,24 +76,28 @@ def report_of(
     }
     if simplified is not None:
         facts["simplified"] = dict(simplified)
-    filled = {"volume": surface.volume, "change": surface.volume / solid["data"] - 1, **solid}
-    first = {name: facts[name] for name in ("triangles", "closed", "area", "extents", "bounds")}
-    first |= {"volume": filled["volume"], "volume_change": filled["change"], "components": result.components}
-    if "density" in filled:
-        first["density"] = filled["density"]
+    solid_facts = {"volume": surface.volume, "change": surface.volume / solid["data"] - 1, **solid}
+    summary = {name: facts[name] for name in ("triangles", "closed", "area", "extents", "bounds")}
+    summary |= {
+        "volume": solid_facts["volume"],
+        "volume_change": solid_facts["change"],
+        "components": result.components,
+    }
+    if "density" in solid_facts:
+        summary["density"] = solid_facts["density"]
     if "width" in walls:
-        first["wall_width"] = walls["width"]
+        summary["wall_width"] = walls["width"]
     return {
         "form": FORM,
         "version": __version__,
         "product": product,
-        **first,
+        **summary,
         "problems": list(problems),
         "request": dict(request),
         "grid": dict(grid),
         **{name: dict(section) for name, section in more.items()},
         "mesh": facts,
-        "solid": filled,
+        "solid": solid_facts,
         "topology": {"data": asdict(data), "result": asdict(result)},
         "changes": changes.facts(),
         "walls": dict(walls),

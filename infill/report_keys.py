@@ -1,7 +1,7 @@
 """The keys and types of reports, for editors and type checkers: at run time a report is a plain dict.
 
-docs/report.md says what each key means; a test holds that page, these types and real reports together. Keys that only
-some reports of a product have are `NotRequired`.
+docs/report.md explains each key; a test compares that page, these types and real reports. Keys that only some reports
+of a product have are `NotRequired`.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ Vector = list[float]  # x, y(, z), mm
 
 
 class GridKeys(TypedDict):
-    """Where it was computed."""
+    """The grid of the computation."""
 
     shape: list[int]
     spacing: Vector
@@ -29,21 +29,21 @@ class Spread(TypedDict):
 
 
 class Distances(Spread):
-    """The same, and where the largest one is."""
+    """Distances and the place of the largest one."""
 
     p95: float
     at: Vector
 
 
 class PointDistances(Distances):
-    """The same of points."""
+    """Distances of points."""
 
     far: int
     lost: int
 
 
 class Simplified(TypedDict):
-    """What simplifying cost."""
+    """Costs of simplification."""
 
     triangles_before: int
     volume_change: float
@@ -52,7 +52,7 @@ class Simplified(TypedDict):
 
 
 class MeshKeys(TypedDict):
-    """The surface that is handed over."""
+    """The resulting surface."""
 
     vertices: int
     triangles: int
@@ -64,20 +64,20 @@ class MeshKeys(TypedDict):
 
 
 class BlockMesh(MeshKeys):
-    """The same of a block."""
+    """The surface of a block."""
 
     surface: str
     tolerance: float
 
 
 class SolidMesh(MeshKeys):
-    """The same of a solid."""
+    """The surface of a solid."""
 
     simplified: NotRequired[Simplified]
 
 
 class Level(TypedDict):
-    """Where on phi the surface lies."""
+    """The level of phi on which the surface lies."""
 
     method: str
     common: float
@@ -96,13 +96,13 @@ class Solid(TypedDict):
 
 
 class BlockSolid(Solid):
-    """The same of a block."""
+    """Volumes and density of a block."""
 
     density: float
 
 
 class CountKeys(TypedDict):
-    """How a solid hangs together."""
+    """Connectivity of a solid."""
 
     components: int
     cavities: int
@@ -111,14 +111,14 @@ class CountKeys(TypedDict):
 
 
 class Topology(TypedDict):
-    """Before smoothing, and after it."""
+    """Connectivity before and after smoothing."""
 
     data: CountKeys
     result: CountKeys
 
 
 class ChangeKeys(TypedDict):
-    """What smoothing did to components and walls."""
+    """Changes of components and walls by smoothing."""
 
     vanished: int
     broken: int
@@ -131,14 +131,14 @@ class ChangeKeys(TypedDict):
 
 
 class BlockChanges(ChangeKeys):
-    """The same of a block."""
+    """Changes in a block."""
 
     pinholes: int
     pinhole_share: float
 
 
 class SolidChanges(ChangeKeys):
-    """The same of a solid."""
+    """Changes in a solid."""
 
     walls_lost: int
     faint: int
@@ -156,35 +156,35 @@ class Width(TypedDict):
 
 
 class BlockWalls(TypedDict):
-    """How thick the walls of a block are."""
+    """Thickness of the walls of a block."""
 
     width: Width
     exact: float | None
 
 
 class Thinnest(TypedDict):
-    """The thinnest hundredth, mm."""
+    """Thickness of the thinnest hundredth, mm."""
 
     data: float | None
     result: float | None
 
 
 class LostWall(TypedDict):
-    """A piece of wall that is gone."""
+    """A piece of wall that smoothing removed."""
 
     voxels: int
     at: Vector
 
 
 class SolidWalls(TypedDict):
-    """How thick the walls of a solid are."""
+    """Thickness of the walls of a solid."""
 
     thinnest: Thinnest
     lost: list[LostWall]
 
 
 class SmoothingKeys(TypedDict):
-    """How it was smoothed."""
+    """Parameters of smoothing."""
 
     steps: int
     fidelity: float
@@ -193,7 +193,7 @@ class SmoothingKeys(TypedDict):
 
 
 class BlockRequest(SmoothingKeys):
-    """What was asked for of a block."""
+    """The request for a block."""
 
     pattern: str
     parameters: dict[str, Any]
@@ -207,7 +207,7 @@ class BlockRequest(SmoothingKeys):
 
 
 class SolidRequest(SmoothingKeys):
-    """What was asked for of a solid."""
+    """The request for a solid."""
 
     method: str
     crumbs: float | None
@@ -219,7 +219,7 @@ class SolidRequest(SmoothingKeys):
 
 
 class SegmentationKeys(TypedDict):
-    """How it was decided what is solid."""
+    """The rule that decides which cells are solid."""
 
     method: str
     low: NotRequired[float | None]
@@ -230,7 +230,7 @@ class SegmentationKeys(TypedDict):
 
 
 class RepairKeys(TypedDict):
-    """What had to be assumed of a mesh."""
+    """Repairs and assumptions about a mesh."""
 
     components: int
     turned: int
@@ -240,7 +240,7 @@ class RepairKeys(TypedDict):
 
 
 class Input(TypedDict):
-    """What was given."""
+    """The input."""
 
     source: str
     despeckled: int
@@ -267,7 +267,7 @@ class Place(TypedDict):
 
 
 class CrumbKeys(TypedDict):
-    """Pieces that smoothing broke off and that were taken out."""
+    """Small pieces that smoothing broke off and that were removed."""
 
     removed: int
     volume: float
@@ -275,7 +275,7 @@ class CrumbKeys(TypedDict):
 
 
 class VerdictKeys(TypedDict):
-    """What became of what was given."""
+    """Comparison of the result with the input."""
 
     word: str
     changes: list[str]
@@ -286,7 +286,7 @@ class VerdictKeys(TypedDict):
     taken: str
 
 
-# As a call, since `from` is a word of Python's.
+# As a call, since `from` is a keyword of Python.
 Distance = TypedDict(
     "Distance",
     {
@@ -303,7 +303,7 @@ Distance = TypedDict(
 
 
 class Seconds(TypedDict):
-    """How long it took."""
+    """Seconds by stage."""
 
     smooth: float
     surface: float
@@ -312,20 +312,20 @@ class Seconds(TypedDict):
 
 
 class BlockSeconds(Seconds):
-    """The same of a block."""
+    """Seconds by stage for a block."""
 
     points: float
     stamp: float
 
 
 class SolidSeconds(Seconds):
-    """The same of a solid."""
+    """Seconds by stage for a solid."""
 
     measure: float
 
 
 class Report(TypedDict):
-    """What the reports of a block and of a solid have in common."""
+    """Keys that the reports of blocks and solids have in common."""
 
     form: int
     version: str
@@ -391,7 +391,7 @@ class FailedLabel(TypedDict):
 
 
 class LabelSeconds(TypedDict):
-    """How long it took."""
+    """Seconds by stage for labels."""
 
     labels: float
     smooth: float
@@ -430,13 +430,13 @@ class FailedComponent(TypedDict):
 
 
 class Worst(TypedDict):
-    """What became of all components."""
+    """The worst verdict of all components."""
 
     word: str
 
 
 class ComponentSeconds(TypedDict):
-    """How long it took."""
+    """Seconds by stage for components."""
 
     components: float
     smooth: float
@@ -466,7 +466,7 @@ class ComponentsReport(TypedDict):
 
 
 class FillMesh(TypedDict):
-    """The mesh that is handed over."""
+    """The resulting mesh."""
 
     vertices: int
     manifold: str
@@ -475,7 +475,7 @@ class FillMesh(TypedDict):
 
 
 class FillSizes(TypedDict):
-    """Of the infill, mm."""
+    """Sizes of the infill, mm."""
 
     cell: float
     line_width: float
@@ -500,14 +500,14 @@ class FillPart(TypedDict):
 
 
 class ClosedVoid(TypedDict):
-    """A void that nothing drains from."""
+    """A void that cannot drain."""
 
     volume: float
     at: Vector
 
 
 class FillHole(TypedDict):
-    """A hole that a void drains through."""
+    """A drain hole of a void."""
 
     kind: str
     at: Vector
@@ -520,7 +520,7 @@ class FillHole(TypedDict):
 
 
 class UndrainedVoid(TypedDict):
-    """A void for which there is no hole."""
+    """A void without a drain hole."""
 
     void: int
     volume: float
@@ -529,7 +529,7 @@ class UndrainedVoid(TypedDict):
 
 
 class FillDrains(TypedDict):
-    """Holes that voids drain through."""
+    """Drain holes."""
 
     count: int
     at: list[Vector]
@@ -539,14 +539,14 @@ class FillDrains(TypedDict):
 
 
 class GradedStep(TypedDict):
-    """Where about as much was asked for, of a density that changes."""
+    """A region of similar requested density, for densities that vary."""
 
     wanted: float
     density: float
 
 
 class FillVoids(TypedDict):
-    """What was taken out of it."""
+    """Voids of the infill."""
 
     count: int
     open: int
@@ -558,7 +558,7 @@ class FillVoids(TypedDict):
 
 
 class FillWalls(TypedDict):
-    """The shell, mm."""
+    """Thickness of the shell, mm."""
 
     requested: float
     least: float | None
@@ -566,7 +566,7 @@ class FillWalls(TypedDict):
 
 
 class FillRequest(TypedDict):
-    """What was asked for."""
+    """The request for an infill."""
 
     pattern: str
     parameters: dict[str, Any]
@@ -594,7 +594,7 @@ class FillRequest(TypedDict):
 
 
 class FillSeconds(TypedDict):
-    """How long it took."""
+    """Seconds by stage for an infill."""
 
     density: float
     depth: float

@@ -1,4 +1,4 @@
-"""What every product returns: named surfaces, a report, and the stages they came from."""
+"""The result of every product: named surfaces, a report, and intermediate stages."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Pictured(Protocol):
     """Stages that can be shown."""
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
-        """Return them, and the surface that came of them, as one picture."""
+        """Return the stages, and the surface that they led to, as one picture."""
         ...
 
 
@@ -45,22 +45,22 @@ Told = TypeVar("Told", bound=Mapping[str, Any], covariant=True)
 
 @dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Result(Generic[Stages, Told]):
-    """Surfaces, a report, and the stages they came from.
+    """Surfaces, a report, and the intermediate stages.
 
     Parameters
     ----------
     surfaces : mapping of str to Surface
         The meshes as plain arrays, mm, the main one first. `make` names its surface "block", `smooth` "solid".
     report : dict
-        Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key, and `infill.report_keys` has
-        them for type checkers.
+        Plain numbers and strings, as ``--json`` prints them. docs/report.md lists every key, and type checkers find
+        the keys in `infill.report_keys`.
     stages : frozen dataclass
-        What the surfaces came from: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages`,
+        Intermediate stages: `infill.making.stages.MakeStages`, `infill.smoothing.stages.SmoothStages`,
         `infill.smoothing.labels.LabelStages` or `infill.smoothing.by_component.ComponentStages`.
     colours : mapping of str to (red, green, blue)
         Of surfaces that have one, from 0 to 1, sRGB.
     joins : bool
-        Whether several surfaces may go into a file that holds one mesh, one after the other: parts of one thing.
+        Whether several surfaces may be concatenated into a file that holds a single mesh.
     """
 
     surfaces: Mapping[str, Surface]
@@ -70,13 +70,13 @@ class Result(Generic[Stages, Told]):
     joins: bool = False
 
     def __repr__(self) -> str:
-        """Return the surfaces by name, with their triangles and sizes."""
-        said = (
+        """Return the names of the surfaces, with their triangles and sizes."""
+        summaries = (
             f"{name}: {len(surface.faces):,} triangles, "
             f"{' x '.join(f'{side:.4g}' for side in np.ptp(surface.bounds, axis=0))} mm"
             for name, surface in self.surfaces.items()
         )
-        return f"Result({'; '.join(said)})"
+        return f"Result({'; '.join(summaries)})"
 
     @property
     def surface(self) -> Surface:
@@ -85,7 +85,7 @@ class Result(Generic[Stages, Told]):
 
     @cached_property
     def whole(self) -> Surface:
-        """All surfaces as one, one after the other, mm."""
+        """All surfaces concatenated into one, mm."""
         return joined(list(self.surfaces.values()))
 
     @cached_property
@@ -102,13 +102,13 @@ class Result(Generic[Stages, Told]):
         self.picture().save(file, format="PNG")
 
     def _repr_png_(self) -> bytes:
-        """Return the picture that a notebook shows of a result."""
+        """Return the picture of the result for notebooks."""
         with io.BytesIO() as file:
             self.write_picture(file)
             return file.getvalue()
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
-        """Write the mesh, or a picture of how it came about, the format by suffix, and return the path.
+        """Write the mesh, or a picture of the stages, in the format of the suffix; return the path.
 
         Several surfaces go into one .3mf or .glb, each by its name; the components of a mesh into any format.
 
@@ -137,14 +137,14 @@ class Result(Generic[Stages, Told]):
         return target
 
     def _writer(self, target: Path) -> Callable[[BinaryIO], None]:
-        """Return what writes the format of a path."""
+        """Return the function that writes the format of a path."""
         if is_picture(target):
             return self.write_picture
-        one = writer(target, more=PICTURES)  # raises for an unknown suffix
+        write_one = writer(target, more=PICTURES)  # raises for an unknown suffix
         if len(self.surfaces) == 1 or (self.joins and target.suffix.lower() not in PART_WRITERS):
-            return lambda file: one(self.whole, file)
-        several = parts_writer(target)
-        return lambda file: several(parts_of(self), file)
+            return lambda file: write_one(self.whole, file)
+        write_several = parts_writer(target)
+        return lambda file: write_several(parts_of(self), file)
 
 
 def parts_of(result: Result[Any, Any]) -> list[Part]:
@@ -155,14 +155,14 @@ def parts_of(result: Result[Any, Any]) -> list[Part]:
 
 
 def told_between(progress: Progress | None, begin: float, end: float) -> Progress | None:
-    """Return a listener for a part of the work, which lies between two shares of the whole; None if nobody listens."""
+    """Map progress from 0 to 1 onto the range `begin` to `end`; return None without a listener."""
     if progress is None:
         return None
     return lambda stage, share: progress(stage, begin + share * (end - begin))
 
 
 class Clock:
-    """Seconds per stage; those of a stage that is passed again add up."""
+    """Seconds per stage; repeated stages add up."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.seconds: dict[str, float] = {}
@@ -170,13 +170,13 @@ class Clock:
 
     @contextmanager
     def stage(self, name: str, share: float) -> Iterator[None]:
-        """Time the enclosed code; `share` is how much of the whole is done when it begins."""
+        """Time the enclosed code; `share` is the share of the work that is done when it begins."""
         self.tell(name, share)
         begin = time.perf_counter()
         yield
         self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - begin
 
     def tell(self, name: str, share: float) -> None:
-        """Report to any listener how much of the whole is done."""
+        """Report the finished share of the work to the listener, if any."""
         if self._progress is not None:
             self._progress(name, share)

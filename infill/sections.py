@@ -1,4 +1,4 @@
-"""A report of which some sections are found only when somebody asks for them."""
+"""A report with sections that are computed only when they are read."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import Any
 
 
 class Sections(dict[str, Any]):
-    """A dict with string keys, some of whose values are computed when they are first asked for.
+    """A dict with string keys that computes some of its values when they are first read.
 
-    Whoever reads, copies, merges, compares, prints, pickles or writes it as JSON sees a dict like any other.
+    Reading, copying, merging, comparing, printing, pickling and writing JSON work as for any other dict.
 
     Parameters
     ----------
     known : mapping
         The values, in order.
     late : mapping of str to callable, optional
-        What returns the value of a key, instead of a value; such a key is in `known` as well, to say where it stands.
+        Functions that compute values, by key. Such a key is in `known` as well, which defines its position.
 
     >>> report = Sections({"volume": 2.0, "distance": None}, {"distance": lambda: 0.5})
     >>> report.pending("distance"), report["distance"], report.pending("distance")
@@ -35,17 +35,18 @@ class Sections(dict[str, Any]):
         return super().__getitem__(name)
 
     def pending(self, name: str) -> bool:
-        """Return whether a value is yet to be computed."""
+        """Tell whether a value is not computed yet."""
         return name in self.late
 
     def replaced(self, **values: Any) -> Sections:  # noqa: ANN401 - values of any type
-        """Return the same with other values; those that are yet to be computed stay so."""
-        found = Sections(self)
+        """Return a copy with changed values; pending values stay pending."""
+        updated = Sections(self)
         for name, value in values.items():
-            found[name] = value
-        return found
+            updated[name] = value
+        return updated
 
-    def _computed(self) -> None:
+    def _compute_all(self) -> None:
+        """Compute all pending values."""
         for name in list(self.late):
             self[name]
 
@@ -63,49 +64,49 @@ class Sections(dict[str, Any]):
         self.late.pop(name, None)
         super().__delitem__(name)
 
-    def __iter__(self) -> Iterator[str]:  # without this, dict(report) would not ask for values
+    def __iter__(self) -> Iterator[str]:  # without this, dict(report) would not compute values
         return super().__iter__()
 
     def get(self, name: str, default: Any = None) -> Any:  # noqa: ANN401 - values of any type
-        """Return a value, or the default if there is no such key."""
-        return self[name] if name in self else default  # noqa: SIM401 - that is what get is
+        """Return a value, or the default for a missing key."""
+        return self[name] if name in self else default  # noqa: SIM401 - this is the implementation of get
 
     def items(self) -> ItemsView[str, Any]:  # type: ignore[override]
         """Return keys and values."""
-        self._computed()
+        self._compute_all()
         return super().items()
 
     def values(self) -> ValuesView[Any]:  # type: ignore[override]
         """Return the values."""
-        self._computed()
+        self._compute_all()
         return super().values()
 
     def pop(self, name: str, *default: Any) -> Any:  # noqa: ANN401 - values of any type
-        """Return a value and take it out."""
+        """Remove a key and return its value."""
         if name in self:
             self[name]
         return super().pop(name, *default)
 
     def popitem(self) -> tuple[str, Any]:
-        """Return the last key and its value, and take them out."""
-        self._computed()
+        """Remove the last key; return it and its value."""
+        self._compute_all()
         return super().popitem()
 
     def copy(self) -> dict[str, Any]:
-        """Return a plain dict, all of it computed: nothing holds on any more to what that took."""
+        """Compute all values and return them as a plain dict, which holds no references to the inputs."""
         return dict(self.items())
 
     def __reduce__(self) -> tuple[type[dict[str, Any]], tuple[dict[str, Any]]]:
         return dict, (self.copy(),)
 
     def __repr__(self) -> str:
-        self._computed()
+        self._compute_all()
         return super().__repr__()
 
     def __eq__(self, other: object) -> bool:
-        self._computed()
+        self._compute_all()
         if isinstance(other, Sections):
-            other._computed()
+            other._compute_all()
         return super().__eq__(other)
 
     def __ne__(self, other: object) -> bool:

@@ -1,4 +1,4 @@
-"""A surface: triangles as plain arrays, and the quantities derived from them."""
+"""A surface: triangles as plain arrays, with derived quantities."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ AT_ONCE = 50_000  # faces measured at a time, so that they stay in the cache
 
 @dataclass(frozen=True, kw_only=True)
 class Edges:
-    """The edges of triangles, each once, in the order of their vertices; sides of zero length are left out.
+    """The edges of triangles, each once, ordered by their vertices; sides of zero length are left out.
 
     Parameters
     ----------
     ends : (E, 2) int64
         Two vertices, the lower one first.
     ahead, back : (E,) int64
-        How many faces run along the edge from the lower vertex to the higher one, and how many the other way.
+        Number of faces that run along the edge from the lower vertex to the higher one, and from higher to lower.
     """
 
     ends: NDArray[np.int64]
@@ -39,21 +39,21 @@ class Edges:
         >>> edges.ends[edges.faces == 2].tolist()
         [[0, 2]]
         """
-        key, reverse = np.divmod(_sides(faces), 2)
-        first = np.flatnonzero(np.diff(key, prepend=-1))
-        faces_of, back = np.diff(first, append=len(key)), np.add.reduceat(reverse, first)
-        ends = np.stack(np.divmod(key[first], int(faces.max()) + 1), axis=1)
-        kept = ends[:, 0] != ends[:, 1]
-        return cls(ends=ends[kept], ahead=(faces_of - back)[kept], back=back[kept])
+        edge_numbers, is_backward = np.divmod(_sorted_sides(faces), 2)
+        starts = np.flatnonzero(np.diff(edge_numbers, prepend=-1))
+        faces_of, back = np.diff(starts, append=len(edge_numbers)), np.add.reduceat(is_backward, starts)
+        ends = np.stack(np.divmod(edge_numbers[starts], int(faces.max()) + 1), axis=1)
+        has_length = ends[:, 0] != ends[:, 1]
+        return cls(ends=ends[has_length], ahead=(faces_of - back)[has_length], back=back[has_length])
 
     @property
     def faces(self) -> NDArray[np.int64]:
-        """How many faces an edge has: two, in a closed surface."""
+        """Number of faces at each edge: two in a closed surface."""
         return self.ahead + self.back
 
     @property
     def surplus(self) -> NDArray[np.int64]:
-        """How many more faces run along an edge forwards than backwards: none, where the surface is closed as a sum."""
+        """Number of faces that run forwards along each edge minus those that run backwards: 0 if closed as a sum."""
         return self.ahead - self.back
 
 
@@ -68,7 +68,7 @@ class Surface:
     space : str
         Name of the coordinate system, if it has one: "LPS" for medical images.
     notes : tuple of str
-        Of the reader of its file: what it left out or changed, one phrase each.
+        Remarks of the reader on changes and omissions, a phrase each.
     """
 
     vertices: NDArray[np.floating]
@@ -81,26 +81,30 @@ class Surface:
         """True if every edge has two faces that run along it in opposite directions."""
         if len(self.faces) == 0 or len(self.faces) % 2:
             return False
-        ahead, back = _sides(self.faces).reshape(-1, 2).T
+        ahead, back = _sorted_sides(self.faces).reshape(-1, 2).T
         return bool((back == ahead + 1).all() and not (ahead & 1).any() and (ahead[1:] != ahead[:-1]).all())
 
     @cached_property
     def edges(self) -> Edges | None:
-        """Its edges; None if it has no faces."""
+        """Edges of the surface; None without faces."""
         return Edges.of(self.faces) if len(self.faces) else None
 
     @cached_property
     def _volume_and_area(self) -> tuple[float, float]:
         # Relative to the mean vertex, so that no digits are lost far from the origin.
+        """Enclosed volume, mm³, and area, mm²."""
         vertices = self.vertices - self.vertices.mean(axis=0, dtype=np.float64)
         sixfold = doubled = 0.0
         for low in range(0, len(self.faces), AT_ONCE):
             a, b, c = (vertices[self.faces[low : low + AT_ONCE, i]].T for i in range(3))
             b, c = b - a, c - a
             normal = (b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0])
-            # Not by BLAS, whose threads take longer to wake than such a product takes.
-            sixfold += sum(float(np.einsum("i,i->", part, across)) for part, across in zip(a, normal, strict=True))
-            doubled += float(np.sqrt(sum(across**2 for across in normal)).sum())
+            # Not by BLAS: waking its threads takes longer than such a product.
+            sixfold += sum(
+                float(np.einsum("i,i->", component, normal_component))
+                for component, normal_component in zip(a, normal, strict=True)
+            )
+            doubled += float(np.sqrt(sum(normal_component**2 for normal_component in normal)).sum())
         return sixfold / 6, doubled / 2
 
     @property
@@ -115,7 +119,7 @@ class Surface:
 
     @cached_property
     def euler_number(self) -> int:
-        """V - E + F of a closed surface, in which there are one and a half edges for every face."""
+        """V - E + F of a closed surface, in which E = 3/2 F."""
         return len(self.vertices) - len(self.faces) // 2
 
     @property
@@ -126,25 +130,25 @@ class Surface:
 
     @property
     def knows_closed(self) -> bool:
-        """Whether it has been found out by now whether the surface is closed."""
+        """True if `closed` is computed already."""
         return "closed" in self.__dict__
 
     def knowing(self, *, closed: bool, volume: float, area: float) -> Surface:
-        """Return the same surface with quantities that were measured elsewhere: see `infill.meshes.measuring`."""
-        other = Surface(vertices=self.vertices, faces=self.faces, space=self.space)
-        other.__dict__.update(closed=closed, _volume_and_area=(volume, area))
-        return other
+        """Return the same surface with quantities measured elsewhere: see `infill.meshes.measuring`."""
+        copy = Surface(vertices=self.vertices, faces=self.faces, space=self.space)
+        copy.__dict__.update(closed=closed, _volume_and_area=(volume, area))
+        return copy
 
     def moved(self, vertices: NDArray[np.floating], *, space: str = "", mirrored: bool = False) -> Surface:
-        """Return the same faces with other vertices (V, 3), faces reversed if those are mirrored.
+        """Return the same faces with new vertices (V, 3); reverse the faces if the vertices are mirrored.
 
-        What is already known about the connectivity of the faces is kept.
+        A known value of `closed` is kept.
         """
         faces = self.faces[:, ::-1] if mirrored else self.faces
-        other = Surface(vertices=vertices, faces=faces, space=space)
+        copy = Surface(vertices=vertices, faces=faces, space=space)
         if self.knows_closed:
-            other.__dict__["closed"] = self.closed
-        return other
+            copy.__dict__["closed"] = self.closed
+        return copy
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return the same mesh as a trimesh.Trimesh; vertices are neither merged nor reordered."""
@@ -153,22 +157,22 @@ class Surface:
         return trimesh.Trimesh(vertices=self.vertices, faces=self.faces, process=False)
 
 
-def _sides(faces: NDArray[np.integer]) -> NDArray[np.int64]:
-    """Return the sides of all faces as numbers (3 F,), sorted.
+def _sorted_sides(faces: NDArray[np.integer]) -> NDArray[np.int64]:
+    """Return the sides of all faces as sorted numbers (3 F,).
 
     The side from vertex i to j > i gets 2 (i n + j), with n the number of vertices, and the side from j to i one more.
     So the sides of one edge are adjacent, those from its lower vertex first, and those of a closed surface come in
     pairs: an even number and the next one.
     """
-    count = int(faces.max()) + 1
-    found = np.empty((3, len(faces)), dtype=np.int64)
+    vertex_count = int(faces.max()) + 1
+    sides = np.empty((3, len(faces)), dtype=np.int64)
     corners = [faces[:, i].astype(np.int64) for i in range(3)]
-    for out, start, end in zip(found, corners, (corners[1], corners[2], corners[0]), strict=True):
+    for out, start, end in zip(sides, corners, (corners[1], corners[2], corners[0]), strict=True):
         np.minimum(start, end, out=out)
-        out *= count
+        out *= vertex_count
         out += np.maximum(start, end)
         out *= 2
         out += start > end
-    numbers = found.ravel()
+    numbers = sides.ravel()
     numbers.sort()
     return numbers

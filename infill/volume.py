@@ -1,4 +1,4 @@
-"""A volume: numbers on cells, and where those cells lie in space."""
+"""A volume: numbers on cells, and the position of those cells in space."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from infill.errors import ParameterError
 from infill.grid import spacing_of
 
 AXES = 3
-SKEW = 1e-4  # how far a stored direction may deviate from a rotation: files keep few digits
+SKEW = 1e-4  # tolerance for stored directions against a rotation: files keep few digits
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +32,7 @@ class Volume:
     space : str
         Name of the coordinate system of space: "LPS" (left, posterior, superior) for medical images, else empty.
     warnings : tuple of str
-        What the reader of the file had to assume, or was told of, a line each.
+        Assumptions and warnings of the reader of the file, a line each.
 
     Raises
     ------
@@ -86,7 +86,7 @@ class Volume:
         return bool(np.linalg.det(np.asarray(self.direction)) < 0)
 
     def place(self, points: NDArray[np.floating]) -> NDArray[np.float64]:
-        """Return where points (N, 3) lie in space, given in mm along the grid's axes from its lower corner.
+        """Convert points (N, 3), mm along the grid's axes from its lower corner, to coordinates in space.
 
         Where the grid lies at the origin, these are the points themselves, not a copy.
         """

@@ -1,4 +1,4 @@
-"""Pictures as patterns: what is dark is solid. PNG, JPEG and BMP by Pillow."""
+"""Pictures as patterns, in which dark shapes are solid: PNG, JPEG and BMP by Pillow."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from infill.errors import FormatError
 from infill.files.broken import told_broken
 
 MOST_PIXELS = 16_000_000
-LEAST = 0.05  # of black to white: a fainter picture is one of a single colour
+LEAST = 0.05  # of black to white: a fainter picture counts as a single colour
 
 
 def read_grey(path: Path) -> NDArray[np.float32]:
-    """Return a picture as greys from 0, black, to 1, white: rows from above; what is transparent is white."""
+    """Read a picture as greys from 0, black, to 1, white; rows from above, transparent pixels white."""
     from PIL import Image, UnidentifiedImageError
 
     try:
@@ -27,17 +27,18 @@ def read_grey(path: Path) -> NDArray[np.float32]:
                     f"{path} has {width} × {height} pixels; the limit is {MOST_PIXELS} in all; make it smaller"
                 )
             coloured = image.convert("RGBA")
-            ground = Image.new("RGBA", coloured.size, "white")
-            return np.asarray(Image.alpha_composite(ground, coloured).convert("L"), dtype=np.float32) / np.float32(255)
+            background = Image.new("RGBA", coloured.size, "white")
+            return np.asarray(Image.alpha_composite(background, coloured).convert("L"), dtype=np.float32) / np.float32(
+                255
+            )
     except (UnidentifiedImageError, OSError, Image.DecompressionBombError) as error:
         raise FormatError(f"{path} is broken or not a picture; save it again") from error
 
 
 def read_bitmap(path: Path) -> Picture:
-    """Return a picture as a field from -1, light, to +1, dark; what is transparent is light.
+    """Read a picture as a field from -1, light, to +1, dark; transparent pixels are light.
 
-    The limit between dark and light is the one that parts its greys best (Otsu, IEEE Transactions on Systems, Man,
-    and Cybernetics 9 (1979) 62).
+    The threshold separates its greys best (Otsu, IEEE Transactions on Systems, Man, and Cybernetics 9 (1979) 62).
     """
     from skimage.filters import threshold_otsu
 

@@ -1,4 +1,4 @@
-"""`read_drawing`: lines or dark shapes from a file.
+"""`read_drawing`: read lines or dark shapes from a file.
 
 .svg                     outlines and strokes, with the size of the page
 .dxf                     lines, arcs, splines, polylines, blocks (extra `drawings`)
@@ -32,7 +32,7 @@ READERS: dict[str, Callable[[Path], Drawing | Picture]] = {
 
 
 def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
-    """Return the lines of a drawing, or the dark shapes of a picture.
+    """Read the lines of a drawing, or the dark shapes of a picture.
 
     Parameters
     ----------
@@ -42,8 +42,8 @@ def read_drawing(path: str | os.PathLike[str]) -> Drawing | Picture:
     Raises
     ------
     FormatError
-        If there is no such file, its suffix is unknown, it is broken, it holds no lines (only texts, say), it is a
-        picture of one colour, or it is larger than the limit that the message gives.
+        If the file is missing, its suffix is unknown, it is broken, it holds no lines (only texts, for example), it is
+        a picture of one colour, or it exceeds the limit in the message.
     """
     source = readable(path, READERS, "a drawing")
     try:

@@ -1,6 +1,6 @@
-"""DXF by ezdxf (extra `drawings`): lines, arcs, ellipses, splines, polylines with bulges, and blocks, in mm.
+"""Read DXF by ezdxf (extra `drawings`): lines, arcs, ellipses, splines, polylines with bulges, and blocks, in mm.
 
-What is on layers that are off or frozen is left out, and so is what is not a line: texts, dimensions, solids.
+Layers that are off or frozen are left out, and so are other entities than lines: texts, dimensions, solids.
 """
 
 from __future__ import annotations
@@ -27,16 +27,17 @@ from infill.errors import FormatError
 from infill.files.broken import one_line, told_broken
 
 AGAIN = "save it again as DXF (R2000 or later, text)"
-LARGEST_FILE = 10_000_000  # bytes, of which a second reads one
+LARGEST_FILE = 10_000_000  # bytes: reading takes a second per million
 MOST_ENTITIES = 50_000
-MOST_FIT_POINTS = 1000  # of a spline: finding its controls takes time and memory with the square of them
+MOST_FIT_POINTS = 1000  # of a spline: time and memory for its controls grow with their square
 HIGHEST_DEGREE = 20  # of a spline
 DEEPEST = 50  # blocks in blocks
 DRAWN = ("LINE", "ARC", "CIRCLE", "ELLIPSE", "LWPOLYLINE", "POLYLINE", "SPLINE", "HELIX")
 TEXTS = ("TEXT", "MTEXT", "ATTRIB", "ATTDEF")
 
 
-def _ezdxf() -> ModuleType:
+def _import_ezdxf() -> ModuleType:
+    """Import ezdxf, or raise FormatError if it is not installed."""
     try:
         import ezdxf
     except ImportError as error:
@@ -46,22 +47,22 @@ def _ezdxf() -> ModuleType:
 
 
 def read_dxf(path: Path) -> Drawing:
-    """Return the lines in the model space of a DXF file; a file that states no unit is in mm."""
+    """Read the lines in the model space of a DXF file; a file without a unit is in mm."""
     require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
-    ezdxf = _ezdxf()
+    ezdxf = _import_ezdxf()
     left_out: Counter[str] = Counter()
     try:
         with told_broken(path, advice=AGAIN), np.errstate(all="ignore"):
             document = ezdxf.readfile(path)
-            lines = _lines(document, left_out)
-            unit = _millimetres(path, document.header.get("$INSUNITS", 0))
+            lines = _read_lines(document, left_out)
+            unit = _unit_length(path, document.header.get("$INSUNITS", 0))
     except (ezdxf.DXFError, OSError, StopIteration) as error:
         raise FormatError(f"{path} is broken or not a .dxf file ({one_line(error)}); {AGAIN}") from error
     return checked_drawing(path, [line * unit for line in lines], left_out=+left_out)
 
 
-def _millimetres(path: Path, unit: int) -> float:
-    """Return the length of a DXF unit; 0 states none, which is read as mm."""
+def _unit_length(path: Path, unit: int) -> float:
+    """Return the length of a DXF unit, mm; 0 means no unit, which is read as mm."""
     from ezdxf import enums, units
 
     try:
@@ -73,7 +74,8 @@ def _millimetres(path: Path, unit: int) -> float:
         ) from error
 
 
-def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401 - a document of ezdxf
+def _read_lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401 - a document of ezdxf
+    """Return the lines of a document in its unit, and count the omitted entities."""
     from ezdxf import disassemble, path
 
     hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
@@ -86,19 +88,19 @@ def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401
             left_out["hidden line"] += 1
             continue
         if kind in DRAWN:
-            _require_short(_curves(entity))
-            added = [path.make_path(entity)]
-            left_out["empty line"] += not len(added[0])
+            _require_short(_splines(entity))
+            new_paths = [path.make_path(entity)]
+            left_out["empty line"] += not len(new_paths[0])
         elif kind == "HATCH":
-            _require_short(_curves(entity))
-            added = list(path.from_hatch(entity))
+            _require_short(_splines(entity))
+            new_paths = list(path.from_hatch(entity))
         else:
             left_out["text" if kind in TEXTS else kind.lower()] += 1
             continue
-        for each in added:
-            if len(each):
-                paths.append(each)
-                corners.append(np.array([(v.x, v.y) for v in each.control_vertices()]))
+        for curve in new_paths:
+            if len(curve):
+                paths.append(curve)
+                corners.append(np.array([(v.x, v.y) for v in curve.control_vertices()]))
                 points += len(corners[-1])
         require_at_most(MOST_POINTS, points, "points or more")
     if not corners:
@@ -106,13 +108,13 @@ def _lines(document: Any, left_out: Counter[str]) -> list[Line]:  # noqa: ANN401
     size = float(np.ptp(np.concatenate(corners), axis=0).max())
     if not (math.isfinite(size) and size > 0):
         raise ValueError(f"its lines extend over {size:g}")
-    parts = (part for each in paths for part in (each.sub_paths() if each.has_sub_paths else [each]) if len(part))
+    parts = (part for curve in paths for part in (curve.sub_paths() if curve.has_sub_paths else [curve]) if len(part))
     flat = (np.array([(v.x, v.y) for v in part.flattening(FLATNESS * size / 2)]) for part in parts)
     return list(count_points(flat))
 
 
-def _curves(entity: Any) -> Iterator[Any]:  # noqa: ANN401 - an entity of ezdxf
-    """Yield the splines of an entity: itself, or those of the boundaries of a hatch."""
+def _splines(entity: Any) -> Iterator[Any]:  # noqa: ANN401 - an entity of ezdxf
+    """Yield the splines of an entity: the entity itself, or the boundaries of a hatch."""
     if entity.dxftype() in ("SPLINE", "HELIX"):
         yield entity
     elif entity.dxftype() == "HATCH":
@@ -121,7 +123,7 @@ def _curves(entity: Any) -> Iterator[Any]:  # noqa: ANN401 - an entity of ezdxf
 
 
 def _require_short(splines: Iterable[Any]) -> None:
-    """Raise TooComplexError for a spline that takes minutes or gigabytes to be drawn."""
+    """Raise TooComplexError for a spline that would take minutes or gigabytes."""
     for spline in splines:
         require_at_most(MOST_FIT_POINTS, len(spline.fit_points), "points that a spline goes through")
         degree = spline.dxf.degree if hasattr(spline, "dxf") else spline.degree
@@ -129,10 +131,9 @@ def _require_short(splines: Iterable[Any]) -> None:
 
 
 def _require_few_entities(document: Any) -> None:  # noqa: ANN401 - a document of ezdxf
-    """Raise TooComplexError if the model space holds too many entities, those of repeated blocks counted each time.
+    """Raise TooComplexError if the model space has too many entities, with every copy of a block counted.
 
-    The weight of a block is found from the blocks in it first, so that blocks of blocks of blocks are never gone
-    through.
+    The weight of each block is computed once, from the blocks in it, so that nested blocks are never expanded.
     """
     weights: dict[str, float] = {}
 

@@ -1,8 +1,8 @@
-"""SVG: the outlines and strokes of its shapes, in mm and y upwards.
+"""Read SVG: the outlines and strokes of its shapes, in mm and y upwards.
 
-Read are paths, the basic shapes, groups, nested pages, symbols and copies by `use`, with their transforms, and the
-size of the page in physical units. Lines have no width here, and colours do not matter; texts, pictures and the
-shapes of clips, masks and fills are left out and counted. Style sheets are not read.
+Supported are paths, the basic shapes, groups, nested pages, symbols and copies by `use`, with their transforms, and
+the size of the page in physical units. Widths and colours of lines are ignored; texts, pictures and the shapes of
+clips, masks and fills are left out and counted. Style sheets are not read.
 
 Source: Scalable Vector Graphics (SVG) 2, W3C 2018; CSS lengths at 96 px to the inch.
 """
@@ -26,7 +26,7 @@ from infill.files.broken import told_broken
 
 LARGEST_FILE = 20_000_000  # bytes
 LONGEST_ENTITY = 256  # characters: names of namespaces, which some programs abbreviate
-MOST_ELEMENTS = 100_000  # drawn, copies counted, which may copy copies
+MOST_ELEMENTS = 100_000  # drawn elements, including copies of copies
 MOST_PARSED = 400_000  # elements of the file, drawn or not
 DEEPEST = 100
 HIDDEN = {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
@@ -34,10 +34,10 @@ LEFT_OUT = {"text": "text", "image": "picture", "foreignObject": "foreign object
 
 
 def read_svg(path: Path) -> Drawing:
-    """Return the drawing of an SVG file; see the module for what is read."""
+    """Read the drawing of an SVG file; the module lists the supported elements."""
     require_at_most(LARGEST_FILE, path.stat().st_size, "bytes")
     with told_broken(path, advice="save it again as plain SVG"), np.errstate(all="ignore"):
-        root = _tree(path.read_bytes())
+        root = _parse_xml(path.read_bytes())
         if _tag(root) != "svg":
             raise ValueError(f"its root is {_tag(root)}, not svg")
         reader = _Reader(root)
@@ -46,7 +46,7 @@ def read_svg(path: Path) -> Drawing:
     upright = [line * (PX, PX) * flip + (0, reader.page[3] * PX if reader.page else 0) for line in lines]
     page = None
     if reader.page:
-        x0, y0, x1, y1 = (each * PX for each in reader.page)
+        x0, y0, x1, y1 = (coordinate * PX for coordinate in reader.page)
         page = (x0, y1 - y1, x1, y1 - y0)
     return checked_drawing(path, upright, page=page, left_out=dict(reader.left_out))
 
@@ -54,8 +54,8 @@ def read_svg(path: Path) -> Drawing:
 # --- XML -------------------------------------------------------------------------------------------------
 
 
-def _tree(data: bytes) -> ElementTree.Element:
-    """Return the root; entities that could grow are refused, and none is fetched from outside."""
+def _parse_xml(data: bytes) -> ElementTree.Element:
+    """Parse XML and return its root; refuse entities that could grow, and fetch none from outside."""
     builder = ElementTree.TreeBuilder()
     parser = expat.ParserCreate(namespace_separator="}")
     parser.buffer_text = True
@@ -87,6 +87,7 @@ def _tree(data: bytes) -> ElementTree.Element:
 
 
 def _tag(element: ElementTree.Element) -> str:
+    """Return the name of an element without its namespace."""
     return element.tag.rpartition("}")[2]
 
 
@@ -94,24 +95,25 @@ def _tag(element: ElementTree.Element) -> str:
 
 
 class _Reader:
-    """Goes through the elements, and counts what it leaves out."""
+    """Visitor of the elements that converts shapes to lines and counts omissions."""
 
     def __init__(self, root: ElementTree.Element) -> None:
         self.root = root
         self.left_out: Counter[str] = Counter()
         self.visited = 0
         self.shapes: dict[ElementTree.Element, list[Line]] = {}
-        self.by_name = {each.get("id"): each for each in root.iter() if each.get("id")}
+        self.by_name = {element.get("id"): element for element in root.iter() if element.get("id")}
         self.page = self._page()
         x0, y0, x1, y1 = self.page or (0.0, 0.0, 0.0, 0.0)
-        self.view = (x1 - x0, y1 - y0)  # what 100 % means
+        self.view = (x1 - x0, y1 - y0)  # lengths of 100 %
 
     def _page(self) -> Bounds | None:
+        """Return the page in px, or None without a size."""
         box = self.root.get("viewBox")
         numbers = numbers_in(box) if box else []
-        wide, high = numbers[2:] if len(numbers) == 4 else (0.0, 0.0)
-        width = length_in_px(self.root.get("width"), wide, wide)
-        height = length_in_px(self.root.get("height"), high, high)
+        box_width, box_height = numbers[2:] if len(numbers) == 4 else (0.0, 0.0)
+        width = length_in_px(self.root.get("width"), box_width, box_width)
+        height = length_in_px(self.root.get("height"), box_height, box_height)
         return (0.0, 0.0, width, height) if width > 0 and height > 0 else None
 
     def lines(self) -> Iterator[Line]:
@@ -122,10 +124,11 @@ class _Reader:
         box = self.root.get("viewBox")
         if box:
             self.view = (numbers_in(box)[2], numbers_in(box)[3])
-        for each in self.root:
-            yield from self._inside(each, matrix, 0)
+        for child in self.root:
+            yield from self._lines_of(child, matrix, 0)
 
-    def _inside(self, element: ElementTree.Element, outer: Matrix, depth: int) -> Iterator[Line]:
+    def _lines_of(self, element: ElementTree.Element, outer: Matrix, depth: int) -> Iterator[Line]:
+        """Yield the lines of an element and its children."""
         tag, get = _tag(element), element.get
         style = f"{get('style', '')};display:{get('display', '')};visibility:{get('visibility', '')}"
         if tag in HIDDEN or re.search(r"display:\s*none|visibility:\s*(hidden|collapse)", style):
@@ -142,47 +145,50 @@ class _Reader:
         matrix = chained(outer, matrix_of(get("transform")))
         width, height = self.view
         if tag in ("svg", "use", "symbol"):
-            place = np.array([[1, 0, length_in_px(get("x"), width)], [0, 1, length_in_px(get("y"), height)]])
-            matrix = chained(matrix, place)
+            shift = np.array([[1, 0, length_in_px(get("x"), width)], [0, 1, length_in_px(get("y"), height)]])
+            matrix = chained(matrix, shift)
         if tag == "svg":
-            matrix = chained(matrix, self._nested(element, element))
+            matrix = chained(matrix, self._nested_matrix(element, element))
         if tag == "use":
-            yield from self._copied(element, matrix, depth)
+            yield from self._lines_of_copy(element, matrix, depth)
         elif tag in ("g", "svg", "a", "switch"):
-            for each in element:
-                yield from self._inside(each, matrix, depth + 1)
+            for child in element:
+                yield from self._lines_of(child, matrix, depth + 1)
         else:
-            if element not in self.shapes:  # which copies share
-                self.shapes[element] = self._shape(element, tag)
+            if element not in self.shapes:  # copies share them
+                self.shapes[element] = self._shape_lines(element, tag)
             for line in self.shapes[element]:
                 yield line @ matrix[:, :2].T + matrix[:, 2]
 
-    def _nested(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:
+    def _nested_matrix(self, element: ElementTree.Element, sized: ElementTree.Element) -> Matrix:
+        """Return the matrix of a nested view box."""
         width, height = (
-            length_in_px(sized.get(name), whole, whole)
-            for name, whole in zip(("width", "height"), self.view, strict=True)
+            length_in_px(sized.get(name), full_size, full_size)
+            for name, full_size in zip(("width", "height"), self.view, strict=True)
         )
         return fitted(element, width, height)
 
-    def _copied(self, element: ElementTree.Element, matrix: Matrix, depth: int) -> Iterator[Line]:
+    def _lines_of_copy(self, element: ElementTree.Element, matrix: Matrix, depth: int) -> Iterator[Line]:
+        """Yield the lines of the target of a `use` element."""
         name = element.get("href") or element.get("http://www.w3.org/1999/xlink}href") or ""
         target = self.by_name.get(name.removeprefix("#"))
         if target is None:
             self.left_out["broken link"] += 1
         elif _tag(target) == "symbol":
-            matrix = chained(matrix, self._nested(target, element))
-            for each in target:
-                yield from self._inside(each, matrix, depth + 1)
+            matrix = chained(matrix, self._nested_matrix(target, element))
+            for child in target:
+                yield from self._lines_of(child, matrix, depth + 1)
         else:
-            yield from self._inside(target, matrix, depth + 1)
+            yield from self._lines_of(target, matrix, depth + 1)
 
-    def _shape(self, element: ElementTree.Element, tag: str) -> list[Line]:
+    def _shape_lines(self, element: ElementTree.Element, tag: str) -> list[Line]:
+        """Return the lines of a shape in its own coordinates."""
         width, height = self.view
         mean = math.hypot(width, height) / math.sqrt(2)
 
         def get(name: str) -> float:
-            whole = {"x": width, "c": width, "w": width, "y": height, "h": height}.get(name[0], mean)
-            return length_in_px(element.get(name), height if name in ("cy", "ry") else whole)
+            full_size = {"x": width, "c": width, "w": width, "y": height, "h": height}.get(name[0], mean)
+            return length_in_px(element.get(name), height if name in ("cy", "ry") else full_size)
 
         match tag:
             case "path":
@@ -199,15 +205,17 @@ class _Reader:
                 rx, ry = (element.get(name) for name in ("rx", "ry"))
                 return ellipse_lines(get("cx"), get("cy"), get("rx" if rx else "ry"), get("ry" if ry else "rx"))
             case "rect":
-                if self._is_ground(element, (get("x"), get("y"), get("width"), get("height"))):
+                if self._is_background(element, (get("x"), get("y"), get("width"), get("height"))):
                     self.left_out["background"] += 1
                     return []
-                across, up = get("rx"), get("ry")
-                return rectangle_lines(get("x"), get("y"), get("width"), get("height"), across or up, up or across)
+                corner_rx, corner_ry = get("rx"), get("ry")
+                return rectangle_lines(
+                    get("x"), get("y"), get("width"), get("height"), corner_rx or corner_ry, corner_ry or corner_rx
+                )
         return []
 
-    def _is_ground(self, element: ElementTree.Element, box: Bounds) -> bool:
-        """Return whether a rectangle is the ground of the page: filled, without a stroke, and covering it."""
+    def _is_background(self, element: ElementTree.Element, box: Bounds) -> bool:
+        """Tell whether a rectangle is the background of the page: filled, without a stroke, and covering it."""
         stroke = re.search(r"stroke:\s*(\w+)", element.get("style", ""))
         stroked = (stroke[1] if stroke else element.get("stroke", "none")) != "none"
         return (

@@ -1,4 +1,4 @@
-"""The numbers of SVG: lengths in their units, transforms, and view boxes."""
+"""Numbers of SVG: lengths with units, transforms, and view boxes."""
 
 from __future__ import annotations
 
@@ -22,27 +22,27 @@ IDENTITY = np.array([[1.0, 0, 0], [0, 1, 0]])
 
 
 def length_in_px(text: str | None, whole: float, otherwise: float = 0.0) -> float:
-    """Return a length in user units (px); `whole` is what 100 % means."""
+    """Convert a length to user units (px); `whole` is the length of 100 %."""
     if text is None or text.strip() in ("", "auto"):
         return otherwise
-    found = re.fullmatch(rf"\s*({NUMBER})\s*([A-Za-z]*|%)\s*", text)
-    if found and found[2] == "%":
-        return float(found[1]) / 100 * whole
-    if not found or found[2].lower() not in UNITS:
+    match = re.fullmatch(rf"\s*({NUMBER})\s*([A-Za-z]*|%)\s*", text)
+    if match and match[2] == "%":
+        return float(match[1]) / 100 * whole
+    if not match or match[2].lower() not in UNITS:
         raise ValueError(f"it gives the length {text[:30]!r}")
-    return float(found[1]) * UNITS[found[2].lower()]
+    return float(match[1]) * UNITS[match[2].lower()]
 
 
 def numbers_in(text: str) -> list[float]:
-    """Return the numbers of a text that holds nothing else, or raise ValueError."""
+    """Parse a list of numbers, or raise ValueError for other content."""
     if re.sub(r"[\s,]", "", re.sub(NUMBER, "", text)):
         raise ValueError(f"it gives {text.strip()[:30]!r} for numbers")
-    return [float(each) for each in re.findall(NUMBER, text)]
+    return [float(number) for number in re.findall(NUMBER, text)]
 
 
 @lru_cache(maxsize=10_000)
 def matrix_of(text: str | None) -> Matrix:
-    """Return the matrix of an attribute `transform`."""
+    """Parse an attribute `transform` to a matrix."""
     matrix = IDENTITY
     transforms = re.findall(r"(\w+)\s*\(([^)]*)\)", text or "")
     require_at_most(MOST_TRANSFORMS, len(transforms), "transforms of one element")
@@ -50,46 +50,46 @@ def matrix_of(text: str | None) -> Matrix:
         numbers = numbers_in(inside)
         match name, numbers:
             case "matrix", [a, b, c, d, e, f]:
-                each = [[a, c, e], [b, d, f]]
+                rows = [[a, c, e], [b, d, f]]
             case "translate", [x, *y] if len(y) < 2:
-                each = [[1, 0, x], [0, 1, *(y or [0])]]
+                rows = [[1, 0, x], [0, 1, *(y or [0])]]
             case "scale", [x, *y] if len(y) < 2:
-                each = [[x, 0, 0], [0, *(y or [x]), 0]]
+                rows = [[x, 0, 0], [0, *(y or [x]), 0]]
             case "rotate", [angle, *centre] if len(centre) in (0, 2):
                 cos, sin = math.cos(math.radians(angle)), math.sin(math.radians(angle))
                 x, y0 = centre or (0.0, 0.0)
-                each = [[cos, -sin, x - cos * x + sin * y0], [sin, cos, y0 - sin * x - cos * y0]]
+                rows = [[cos, -sin, x - cos * x + sin * y0], [sin, cos, y0 - sin * x - cos * y0]]
             case "skewX", [angle]:
-                each = [[1, math.tan(math.radians(angle)), 0], [0, 1, 0]]
+                rows = [[1, math.tan(math.radians(angle)), 0], [0, 1, 0]]
             case "skewY", [angle]:
-                each = [[1, 0, 0], [math.tan(math.radians(angle)), 1, 0]]
+                rows = [[1, 0, 0], [math.tan(math.radians(angle)), 1, 0]]
             case _:
                 raise ValueError(f"it holds the transform {name}({inside[:30]})")
-        matrix = chained(matrix, np.array(each, dtype=np.float64))
+        matrix = chained(matrix, np.array(rows, dtype=np.float64))
     return matrix
 
 
 def chained(outer: Matrix, inner: Matrix) -> Matrix:
     """Return the matrix of the inner transform followed by the outer one, (2, 3)."""
-    both: Matrix = outer[:, :2] @ inner
-    both[:, 2] += outer[:, 2]
-    return both
+    product: Matrix = outer[:, :2] @ inner
+    product[:, 2] += outer[:, 2]
+    return product
 
 
 def fitted(element: ElementTree.Element, width: float, height: float) -> Matrix:
-    """Return the matrix that puts the view box of an element into width × height."""
+    """Return the matrix that fits the view box of an element into width × height."""
     box = element.get("viewBox")
     if not box:
         return IDENTITY
     numbers = numbers_in(box)
     if len(numbers) != 4 or min(numbers[2:]) <= 0:
         raise ValueError(f"it gives the view box {box[:40]!r}")
-    x, y, wide, high = numbers
-    across, up = width / wide, height / high
-    how = element.get("preserveAspectRatio", "xMidYMid meet")
-    if "none" not in how:
-        across = up = max(across, up) if "slice" in how else min(across, up)
-    left, top = width - wide * across, height - high * up
-    left *= 0 if "xMin" in how else 1 if "xMax" in how else 0.5
-    top *= 0 if "YMin" in how else 1 if "YMax" in how else 0.5
-    return np.array([[across, 0, left - x * across], [0, up, top - y * up]])
+    x, y, box_width, box_height = numbers
+    x_scale, y_scale = width / box_width, height / box_height
+    aspect_rule = element.get("preserveAspectRatio", "xMidYMid meet")
+    if "none" not in aspect_rule:
+        x_scale = y_scale = max(x_scale, y_scale) if "slice" in aspect_rule else min(x_scale, y_scale)
+    x_shift, y_shift = width - box_width * x_scale, height - box_height * y_scale
+    x_shift *= 0 if "xMin" in aspect_rule else 1 if "xMax" in aspect_rule else 0.5
+    y_shift *= 0 if "YMin" in aspect_rule else 1 if "YMax" in aspect_rule else 0.5
+    return np.array([[x_scale, 0, x_shift - x * x_scale], [0, y_scale, y_shift - y * y_scale]])

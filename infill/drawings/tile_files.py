@@ -14,30 +14,31 @@ from infill.paths.tiles.tiling import tile_of, traced
 
 
 def drawn(path: str | os.PathLike[str], *, width: float | None = None) -> Drawn:
-    """Return a drawing as a family of paths.
+    """Read a drawing as a family of paths.
 
     Parameters
     ----------
     path : str or Path
-        .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. What is repeated is the page, where the drawing extends over
-        a quarter of it in one direction at least. Otherwise it is the box around the lines, from where they begin on
-        one side to where they go on from the other; outlines that do not go on get a gap between them.
+        .svg, .dxf, .wkt, .png, .jpg, .jpeg or .bmp. The tile is the page if the drawing extends over at least a quarter
+        of it in one direction. Otherwise it is the box around the lines, such that lines continue from tile to tile;
+        outlines that do not continue get a gap between them.
     width : float, optional
-        Width of the tile, mm; by default as drawn, and a tenth of a millimetre a pixel.
+        Width of the tile, mm; by default as drawn, with 0.1 mm per pixel for pictures.
 
     Raises
     ------
     FormatError
         See `read_drawing`.
     """
-    found = read_drawing(path)
-    drawing = traced(found, Path(path)) if isinstance(found, Picture) else replace(found, page=tile_of(found))
+    content = read_drawing(path)
+    drawing = traced(content, Path(path)) if isinstance(content, Picture) else replace(content, page=tile_of(content))
     if width is not None:
-        drawing = _scaled(drawing, length("width", width))
+        drawing = _scale_to_width(drawing, length("width", width))
     return Drawn(name=Path(path).name, drawing=drawing)
 
 
-def _scaled(drawing: Drawing, width: float) -> Drawing:
+def _scale_to_width(drawing: Drawing, width: float) -> Drawing:
+    """Scale a drawing to a width, and move its page to the origin."""
     assert drawing.page is not None
     x0, y0, x1, y1 = drawing.page
     factor = positive("width", width, "mm") / (x1 - x0)

@@ -1,4 +1,4 @@
-"""Well-known text: one geometry, or one on each line; mm."""
+"""Read well-known text: one geometry, or one on each line; mm."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ AGAIN = "write lines as well-known text, such as LINESTRING (0 0, 10 5)"
 
 
 def read_wkt(path: Path) -> Drawing:
-    """Return the lines and the outlines of areas that a file of well-known text holds; points are left out."""
+    """Read the lines and the outlines of areas in a file of well-known text; points are left out."""
     import shapely
 
     with told_broken(path, advice=AGAIN), np.errstate(invalid="ignore"):
@@ -28,22 +28,22 @@ def read_wkt(path: Path) -> Drawing:
         text = path.read_text(encoding="utf-8-sig").strip()
         _require_bounds(text)
         try:
-            whole = [shapely.from_wkt(text)]
+            geometries = [shapely.from_wkt(text)]
         except shapely.errors.GEOSException:
-            whole = _line_by_line(path, text)
-    parts = shapely.get_parts(whole)
+            geometries = _parse_lines(path, text)
+    parts = shapely.get_parts(geometries)
     while (shapely.get_type_id(parts) > 3).any():  # collections in collections
         parts = shapely.get_parts(parts)
     kinds = shapely.get_type_id(parts)
     areas = np.isin(kinds, [3])
     rings = shapely.get_rings(parts[areas])
-    lines = [shapely.get_coordinates(each) for each in [*parts[np.isin(kinds, [1, 2])], *rings]]
+    lines = [shapely.get_coordinates(line_or_ring) for line_or_ring in [*parts[np.isin(kinds, [1, 2])], *rings]]
     points = int((kinds == 0).sum())
     return checked_drawing(path, lines, left_out={"point": points} if points else {})
 
 
 def _require_bounds(text: str) -> None:
-    """Raise TooComplexError for more points than a drawing may have, or deeper parentheses than a parser survives."""
+    """Raise TooComplexError for too many points, or too deep parentheses for a parser."""
     require_at_most(MOST_POINTS, text.count(","), "points or more")
     brackets = np.frombuffer(text.encode(), dtype=np.uint8)
     brackets = brackets[(brackets == ord("(")) | (brackets == ord(")"))]
@@ -51,7 +51,8 @@ def _require_bounds(text: str) -> None:
     require_at_most(DEEPEST, depth.max(initial=0), "parentheses in one another")
 
 
-def _line_by_line(path: Path, text: str) -> list[Geometry]:
+def _parse_lines(path: Path, text: str) -> list[Geometry]:
+    """Parse one geometry per line."""
     import shapely
 
     try:

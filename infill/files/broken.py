@@ -1,4 +1,4 @@
-"""How all readers report a file that is missing, broken, or holds something other than it should."""
+"""Errors that all readers raise for a file that is missing, broken, or of the wrong content."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from infill.files.excerpts import excerpt
 from infill.volume import AXES, Volume
 
 SMALLER = "cut the volume to the part that matters, or halve its resolution"
-# The errors raised by the libraries we read with when a file holds something other than it should.
+# The errors that libraries raise when a file is broken.
 BROKEN = (
     ValueError,
     LookupError,
@@ -41,7 +41,7 @@ BROKEN = (
     zipfile.BadZipFile,
     ElementTree.ParseError,
 )
-# Of these, the errors our own code raises for such files: values that are not finite numbers, and truncated files.
+# Of these, the errors that this package raises for such files: numbers that are not finite, and truncated files.
 BY_DATA = (ValueError, OverflowError, EOFError, struct.error, zlib.error)
 COLOURS = (2, 3, 4)  # numbers per cell of a picture that is not grey
 
@@ -60,7 +60,7 @@ def readable(path: str | os.PathLike[str], suffixes: Iterable[str], what: str) -
 
 
 def not_empty(path: Path) -> Path:
-    """Return the path of a file with something in it, or raise FormatError: what was cut off by a full disk, say."""
+    """Return the path of a file that is not empty, or raise FormatError; a full disk leaves empty files."""
     if path.is_file() and path.stat().st_size == 0:
         raise FormatError(f"{path} is empty (0 bytes); export or save it again")
     return path
@@ -68,13 +68,13 @@ def not_empty(path: Path) -> Path:
 
 @contextlib.contextmanager
 def told_broken(path: Path, what: str | None = None, advice: str = "save it again") -> Iterator[None]:
-    """Turn a reader's complaint about a broken file into an error of ours; errors in our own code are left as they are.
+    """Turn the exception of a reader about a broken file into a FormatError; errors of this package pass unchanged.
 
     Parameters
     ----------
     path : Path
     what : str, optional
-        What to say about it, such as "is broken".
+        The complaint of the message, such as "is broken".
     advice : str
     """
     try:
@@ -86,13 +86,13 @@ def told_broken(path: Path, what: str | None = None, advice: str = "save it agai
     except BROKEN as error:
         if is_ours(error) and not isinstance(error, BY_DATA):
             raise
-        said = what or f"is broken or not a {path.suffix} file"
-        raise FormatError(f"{path} {said} ({one_line(error)}); {advice}") from error
+        complaint = what or f"is broken or not a {path.suffix} file"
+        raise FormatError(f"{path} {complaint} ({one_line(error)}); {advice}") from error
 
 
 @contextlib.contextmanager
 def told_unreadable(path: Path) -> Iterator[None]:
-    """Turn an error of the operating system, such as a missing permission, into one of ours."""
+    """Turn an error of the operating system, such as a missing permission, into a FormatError."""
     try:
         yield
     except OSError as error:
@@ -101,7 +101,7 @@ def told_unreadable(path: Path) -> Iterator[None]:
 
 
 def is_ours(error: BaseException) -> bool:
-    """Return whether an error was raised by this package, and not by a library that it calls."""
+    """Tell whether this package raised the error itself, and not a library that it calls."""
     names = [frame.f_globals.get("__name__", "") for frame, _ in traceback.walk_tb(error.__traceback__)]
     return bool(names) and names[-1].split(".")[0] == __name__.split(".")[0]
 
@@ -115,7 +115,7 @@ def one_line(error: Exception) -> str:
 
 
 def checked_volume(path: Path, values: NDArray[Any], *, varied: bool = True, **place: Any) -> Volume:  # noqa: ANN401
-    """Return the checked volume with values [x, y, z]; all may be the same only where they need not be varied."""
+    """Check values [x, y, z] and return them as a volume; `varied` demands at least two different values."""
     if values.dtype.kind == "c":
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     if values.dtype.kind not in "biuf":

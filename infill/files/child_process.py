@@ -1,8 +1,8 @@
-"""Run a reader that is not ours in a process of its own, with limits, and take over the arrays that it returns.
+"""Run the reader of a foreign library in a child process, with limits, and take over the arrays that it returns.
 
-A library in C++ may end its process where a file is broken; in a child, that is one line of ours. The child loads what
-the reader needs and nothing else. Arrays come back by a file in memory, or else on disk, that has no name and so is
-never left behind; they are mapped, not copied. What the libraries print comes back as text.
+A library in C++ may crash on a broken file; in a child, the crash becomes an error of one line. The child loads only
+the modules that the reader needs. Arrays come back through a file in memory, or else on disk, that has no name and
+so is never left behind; they are mapped, not copied. The output of the libraries comes back as text.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ from infill.machine import GIB, available_memory
 
 SECONDS = 600.0  # for one file: the slowest network drive fills memory in that time
 BASE = GIB  # bytes of address space for the interpreter and its libraries
-MOST_LINES = 20  # of what the libraries print
+MOST_LINES = 20  # of the output of libraries
 LONGEST_LINE = 300
-PLACE = re.compile(r"^(WARNING|ERROR): In .*, line \d+$")  # where in its source a library stands; of no use here
+PLACE = re.compile(r"^(WARNING|ERROR): In .*, line \d+$")  # a place in the source of a library
 ADDRESS = re.compile(r" ?\(0x[0-9a-f]+\)")
 TRACE = "Traceback (most recent call last)"
 LENGTH = 8  # bytes, at the end, that say how long the text before them is
@@ -57,14 +57,14 @@ BOOT = (
 
 @dataclass(frozen=True, kw_only=True)
 class Reply:
-    """What a reader returned.
+    """The result of a reader.
 
     Parameters
     ----------
     data : dict
         Numbers, texts, lists and dicts.
     arrays : dict of str to array
-        They may be changed.
+        They are writable.
     said : tuple of str
         Lines that the libraries printed, each once.
     """
@@ -81,7 +81,7 @@ def read_in_child(
     seconds: float = SECONDS,
     memory: int | None = None,
 ) -> Reply:
-    """Run a reader in a child process, and return what it returned.
+    """Run a reader in a child process and return its result.
 
     Parameters
     ----------
@@ -89,13 +89,13 @@ def read_in_child(
         Module and function, such as "infill.imaging.medical:unpack_frames". It takes the arguments and returns (data,
         arrays): a dict that JSON can hold, and a dict of NumPy arrays.
     *arguments
-        What JSON can hold.
+        Any values that JSON can hold.
     path : Path
         The file that is read, for messages.
     seconds : float
-        How long it may take.
+        Time limit.
     memory : int, optional
-        Bytes that it may use beside its libraries; if left out, what is available. Windows has no such limit.
+        Bytes that it may use beside its libraries; if left out, the available memory. Windows has no such limit.
 
     Raises
     ------
@@ -106,10 +106,10 @@ def read_in_child(
 
     Notes
     -----
-    Where there is no interpreter to start, as in a frozen application, the reader runs in this process.
+    Without an interpreter to start, as in a frozen application, the reader runs in this process.
     """
     if getattr(sys, "frozen", False) or not sys.executable:
-        data, arrays = _function(reader)(*arguments)
+        data, arrays = _import_function(reader)(*arguments)
         return Reply(data=data, arrays=arrays)
     allowed = memory if memory is not None else available_memory()
     request = {
@@ -122,18 +122,18 @@ def read_in_child(
     }
     with _result_file() as (file, name):
         request["result"] = name
-        code, printed = _run(json.dumps(request), seconds, path, () if isinstance(name, str) else (name,))
-        answer = _answer(file)
+        code, printed = _run_child(json.dumps(request), seconds, path, () if isinstance(name, str) else (name,))
+        answer = _read_answer(file)
         if answer is None:
-            raise _crashed(path, code, printed)
+            raise _crash_error(path, code, printed)
         if "error" in answer:
-            raise _error(path, **answer["error"])
-        return Reply(data=answer["data"], arrays=_arrays(file, answer["arrays"]), said=_lines(printed))
+            raise _child_error(path, **answer["error"])
+        return Reply(data=answer["data"], arrays=_map_arrays(file, answer["arrays"]), said=_output_lines(printed))
 
 
-def _run(request: str, seconds: float, path: Path, files: tuple[int, ...]) -> tuple[int, str]:
-    """Run the child to its end; return its exit status and what it printed. It does not outlive this call."""
-    with subprocess.Popen(  # noqa: S603 - this interpreter, and a text of ours
+def _run_child(request: str, seconds: float, path: Path, files: tuple[int, ...]) -> tuple[int, str]:
+    """Run the child to its end; return its exit status and its output. It does not outlive this call."""
+    with subprocess.Popen(  # noqa: S603 - this interpreter, and a constant text
         [sys.executable, "-P", "-c", BOOT],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -168,8 +168,8 @@ def _result_file() -> Iterator[tuple[IO[bytes], int | str]]:
             yield file, file.name
 
 
-def _answer(file: IO[bytes]) -> dict[str, Any] | None:
-    """Return what the child wrote at the end, or None if it did not come to that."""
+def _read_answer(file: IO[bytes]) -> dict[str, Any] | None:
+    """Return the answer that the child wrote at the end of the file, or None if it did not come to that."""
     size = os.fstat(file.fileno()).st_size
     if size < LENGTH:
         return None
@@ -179,43 +179,45 @@ def _answer(file: IO[bytes]) -> dict[str, Any] | None:
         return None
     file.seek(size - LENGTH - length)
     try:
-        found = json.loads(file.read(length))
+        answer = json.loads(file.read(length))
     except ValueError:
         return None
-    return found if isinstance(found, dict) else None
+    return answer if isinstance(answer, dict) else None
 
 
-def _arrays(file: IO[bytes], described: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
-    if not described:
+def _map_arrays(file: IO[bytes], entries: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """Map the arrays of the result file into memory, by name."""
+    if not entries:
         return {}
-    held: Any
+    buffer: Any
     if NAMELESS:
-        held = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY)
+        buffer = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_COPY)
     else:
         file.seek(0)
-        held = bytearray(file.read())
+        buffer = bytearray(file.read())
     return {
-        name: np.ndarray(tuple(each["shape"]), dtype=each["dtype"], buffer=held, offset=each["at"])
-        for name, each in described.items()
+        name: np.ndarray(tuple(entry["shape"]), dtype=entry["dtype"], buffer=buffer, offset=entry["at"])
+        for name, entry in entries.items()
     }
 
 
-def _lines(printed: str) -> tuple[str, ...]:
-    """Return what was printed, line by line, each once, without places in the source of a library."""
+def _output_lines(printed: str) -> tuple[str, ...]:
+    """Split the output of the child into lines, each once, without places in the source of a library."""
     lines = (ADDRESS.sub("", line.strip())[:LONGEST_LINE] for line in printed.splitlines())
     return tuple(dict.fromkeys(line for line in lines if line and not PLACE.match(line)))[:MOST_LINES]
 
 
-def _error(path: Path, kind: str, text: str, *, ours: bool) -> InfillError:
+def _child_error(path: Path, kind: str, text: str, *, ours: bool) -> InfillError:
+    """Return the error that corresponds to the one in the child."""
     if ours:
-        found = getattr(errors, kind, FormatError)
-        return found(text)
+        error_class = getattr(errors, kind, FormatError)
+        return error_class(text)
     if kind == "MemoryError" or "bad_alloc" in text or "allocate memory" in text:
         return MemoryLimitError(f"{path} needs more memory than there is; check it, or give a smaller one")
     return FormatError(f"cannot read {path} ({text}); check the file, or save it again")
 
 
-def _crashed(path: Path, code: int, printed: str) -> InfillError:
+def _crash_error(path: Path, code: int, printed: str) -> InfillError:
     """Return the error for a child that ended without an answer."""
     if "MemoryError" in printed or "bad_alloc" in printed:
         return MemoryLimitError(f"{path} needs more memory than there is; check it, or give a smaller one")
@@ -230,23 +232,23 @@ def _crashed(path: Path, code: int, printed: str) -> InfillError:
 
 
 def serve(request: dict[str, Any]) -> None:
-    """Run the reader that was asked for, and write what it returns to the file of the result."""
-    _limit(request)
+    """Run the requested reader and write its result to the result file."""
+    _set_limits(request)
     answer: dict[str, Any] = {}
     arrays: dict[str, NDArray[Any]] = {}
     try:
-        answer["data"], arrays = _function(request["reader"])(*request["arguments"])
+        answer["data"], arrays = _import_function(request["reader"])(*request["arguments"])
     except (InfillError, MemoryError, OSError, *BROKEN) as error:
         arrays = {}
-        said = str(error) if isinstance(error, InfillError) else _said(error)
-        answer = {"error": {"kind": type(error).__name__, "text": said, "ours": isinstance(error, InfillError)}}
+        message = str(error) if isinstance(error, InfillError) else _error_message(error)
+        answer = {"error": {"kind": type(error).__name__, "text": message, "ours": isinstance(error, InfillError)}}
     with open(request["result"], "r+b") as file:
-        answer["arrays"] = {name: _write(file, values) for name, values in arrays.items()}
+        answer["arrays"] = {name: _append_array(file, values) for name, values in arrays.items()}
         text = json.dumps(answer).encode()
         file.write(text + len(text).to_bytes(LENGTH, "little"))
 
 
-def _limit(request: dict[str, Any]) -> None:
+def _set_limits(request: dict[str, Any]) -> None:
     """Set the limits that this system has, and end with the parent."""
     if sys.platform == "linux":
         ctypes.CDLL(None).prctl(KILL_ON_DEATH, signal.SIGKILL)
@@ -256,34 +258,35 @@ def _limit(request: dict[str, Any]) -> None:
         import resource
     except ImportError:  # Windows
         return
-    for name, most in (
+    for name, limit in (
         (resource.RLIMIT_CORE, 0),
         (resource.RLIMIT_CPU, int(request["seconds"]) + 1),
         (resource.RLIMIT_AS, request["memory"]),
     ):
-        if most is not None:
+        if limit is not None:
             hard = resource.getrlimit(name)[1]
             with contextlib.suppress(ValueError, OSError):  # macOS knows some of them by name only
-                resource.setrlimit(name, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+                resource.setrlimit(name, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
 
 
-def _write(file: IO[bytes], values: NDArray[Any]) -> dict[str, Any]:
-    """Append an array to a file; return where it is."""
-    at = file.seek(0, os.SEEK_END)
-    file.write(b"\0" * (-at % ALIGNED))
-    at += -at % ALIGNED
-    plain = np.ascontiguousarray(values)
-    file.write(plain.reshape(-1).view(np.uint8).data if plain.size else b"")
-    return {"shape": plain.shape, "dtype": plain.dtype.str, "at": at}
+def _append_array(file: IO[bytes], values: NDArray[Any]) -> dict[str, Any]:
+    """Append an array to a file; return its shape, type and position."""
+    position = file.seek(0, os.SEEK_END)
+    file.write(b"\0" * (-position % ALIGNED))
+    position += -position % ALIGNED
+    contiguous = np.ascontiguousarray(values)
+    file.write(contiguous.reshape(-1).view(np.uint8).data if contiguous.size else b"")
+    return {"shape": contiguous.shape, "dtype": contiguous.dtype.str, "at": position}
 
 
-def _function(reader: str) -> Any:  # noqa: ANN401
+def _import_function(reader: str) -> Any:  # noqa: ANN401
+    """Import the function that `module:name` refers to."""
     module, _, name = reader.partition(":")
     return getattr(importlib.import_module(module), name)
 
 
-def _said(error: Exception) -> str:
-    """Return what a library says of a file, in one line: the last of its own, without addresses."""
+def _error_message(error: Exception) -> str:
+    """Return the last message of a library about a file, on one line, without addresses."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip() and not line.startswith("Reason:")]
-    last = re.sub(r"^.*ERROR: |\w+\(0x\w+\): ", "", lines[-1]) if lines else type(error).__name__
-    return last[:LONGEST_LINE]
+    message = re.sub(r"^.*ERROR: |\w+\(0x\w+\): ", "", lines[-1]) if lines else type(error).__name__
+    return message[:LONGEST_LINE]

@@ -1,4 +1,4 @@
-"""File names made of any text, so that every file system takes them."""
+"""File names made from any text that every file system accepts."""
 
 from __future__ import annotations
 
@@ -13,43 +13,47 @@ MOST_BYTES = 120  # of a name in UTF-8: a file may have 255 with what stands aro
 
 
 def safe_names(names: Sequence[str], others: Sequence[str]) -> list[str]:
-    """Return a file name for each name, all different even where case or the form of letters does not count.
+    """Return a file name for each name; all differ even where case or the form of letters does not count.
 
     Parameters
     ----------
     names : sequence of str
         Any text.
     others : sequence of str
-        What to call each if nothing of its name is left.
+        Fallback for each name, used if nothing of it remains.
 
     >>> safe_names(["L1/L2: body?", "", "aux", "Rib", "rib", ".."], ["label_1", "label_2"] * 3)
     ['L1_L2_ body_', 'label_2', '_aux', 'Rib', 'rib_2', 'label_2_2']
     """
     taken: set[str] = set()
-    found = []
-    for name, other in zip(names, others, strict=True):
-        safe = _safe(name) or other
-        again = 2
+    file_names = []
+    for name, fallback in zip(names, others, strict=True):
+        safe = _allowed_name(name) or fallback
+        suffix = 2
         unique = safe
-        while _key(unique) in taken:
-            unique = f"{safe}_{again}"
-            again += 1
-        taken.add(_key(unique))
-        found.append(unique)
-    return found
+        while _comparison_key(unique) in taken:
+            unique = f"{safe}_{suffix}"
+            suffix += 1
+        taken.add(_comparison_key(unique))
+        file_names.append(unique)
+    return file_names
 
 
-def _safe(name: str) -> str:
-    """Return a name without what a file system forbids; empty if nothing is left."""
-    seen = "".join(each for each in unicodedata.normalize("NFC", name) if unicodedata.category(each) not in INVISIBLE)
-    seen = " ".join(seen.split())
-    safe = FORBIDDEN.sub("_", seen).lstrip(". -").rstrip(". ")
+def _allowed_name(name: str) -> str:
+    """Return a name without the characters that file systems forbid; empty if nothing remains."""
+    visible = "".join(
+        character
+        for character in unicodedata.normalize("NFC", name)
+        if unicodedata.category(character) not in INVISIBLE
+    )
+    visible = " ".join(visible.split())
+    safe = FORBIDDEN.sub("_", visible).lstrip(". -").rstrip(". ")
     safe = safe.encode()[:MOST_BYTES].decode("utf-8", "ignore").rstrip(". ")
     if not safe.strip("_"):
         return ""
     return f"_{safe}" if RESERVED.fullmatch(safe) else safe
 
 
-def _key(name: str) -> str:
-    """Return what two names have in common that some file system takes for one."""
+def _comparison_key(name: str) -> str:
+    """Return a key that is equal for two names that some file system confuses."""
     return unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", name).casefold())

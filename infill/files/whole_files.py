@@ -1,4 +1,4 @@
-"""Files appear whole or not at all."""
+"""Files that appear complete or not at all."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ REASONS = {
 
 def check_targets(paths: Iterable[str | os.PathLike[str]], *, overwrite: bool) -> None:
     """Raise OutputError if one of `paths` cannot be written to, or two of them are the same file."""
-    taken: set[Path] = set()
+    seen: set[Path] = set()
     for path in paths:
-        place = check_target(path, overwrite=overwrite).resolve()
-        if place in taken:
+        resolved = check_target(path, overwrite=overwrite).resolve()
+        if resolved in seen:
             raise OutputError(f"{path} is named twice; give every output a name of its own")
-        taken.add(place)
+        seen.add(resolved)
 
 
 def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
-    """Return `path`, or raise OutputError if a file cannot be put there; called before the work."""
+    """Return `path`, or raise OutputError if a file cannot be written there; call it before the work."""
     target = Path(path)
     with told(target):
         if target.is_dir():
@@ -44,14 +44,14 @@ def check_target(path: str | os.PathLike[str], *, overwrite: bool) -> Path:
             raise OutputError(f"there is no folder {target.parent}; make it first or write elsewhere")
         if not os.access(target.parent, os.W_OK):
             raise OutputError(f"cannot write {target}: {REASONS[errno.EACCES]}")
-        if os.path.lexists(target) and not overwrite:  # a link that leads nowhere is there as well
+        if os.path.lexists(target) and not overwrite:  # a dangling link counts as existing
             raise OutputError(f"{target} exists; give another name, or --force to overwrite it")
     return target
 
 
 @contextlib.contextmanager
 def told(target: Path) -> Iterator[None]:
-    """Turn what the system reports about a file into an error of ours."""
+    """Turn an error of the operating system about a file into an OutputError."""
     try:
         yield
     except OutputError:
@@ -63,7 +63,7 @@ def told(target: Path) -> Iterator[None]:
 
 @contextlib.contextmanager
 def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[BinaryIO]]:
-    """Yield a file to write to for each path; they replace the paths at the end, once all are written.
+    """Yield a file to write to for each path; they replace the paths together at the end.
 
     If anything fails, or is interrupted, all paths are left as they were.
 
@@ -73,7 +73,7 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
         If a file cannot be written: full disk, missing or read-only folder.
     """
     targets = [Path(path) for path in paths]
-    partials = [_partial(target) for target in targets]
+    partials = [_partial_path(target) for target in targets]
     try:
         with told(targets[0]), contextlib.ExitStack() as stack:
             files: list[BinaryIO] = []
@@ -83,8 +83,8 @@ def whole_files(paths: Sequence[str | os.PathLike[str]]) -> Iterator[list[Binary
             yield files
             for target, file in zip(targets, files, strict=True):
                 with told(target):
-                    file.close()  # the last bytes are written, or fail to be
-        _take_places(
+                    file.close()  # writes the last bytes, or raises
+        _move_to_targets(
             [(partial, target) for partial, target in zip(partials, targets, strict=True) if partial != target]
         )
     finally:
@@ -102,7 +102,7 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
 
 @contextlib.contextmanager
 def scratch(folder: Path | None) -> Iterator[BinaryIO]:
-    """Yield a file without a name, in the folder where the result will be, so that the same disk holds both.
+    """Yield a nameless file in the folder of the result, so that the same disk holds both.
 
     Raises
     ------
@@ -130,14 +130,14 @@ def deliver(
         If one of the files cannot be written; then none of them is.
     """
     paths = list(parts)
-    partials = [_partial(path) for path in paths]
+    partials = [_partial_path(path) for path in paths]
     try:
-        for path, partial in zip(paths, partials, strict=True):  # one after the other: there may be hundreds
+        for path, partial in zip(paths, partials, strict=True):  # one at a time: there may be hundreds
             with told(path), open(partial, "wb" if partial == path else "xb") as file:
                 parts[path](file)
         if then is not None:
             then()
-        _take_places([(partial, path) for partial, path in zip(partials, paths, strict=True) if partial != path])
+        _move_to_targets([(partial, path) for partial, path in zip(partials, paths, strict=True) if partial != path])
     finally:
         for path, partial in zip(paths, partials, strict=True):
             if partial != path:
@@ -145,46 +145,47 @@ def deliver(
     return paths
 
 
-def _take_places(moves: Sequence[tuple[Path, Path]]) -> None:
-    """Put each file in the place of its target; if one of them fails, all targets are restored."""
+def _move_to_targets(moves: Sequence[tuple[Path, Path]]) -> None:
+    """Move each file to its target; if one move fails, restore all targets."""
     with contextlib.ExitStack() as tidy, contextlib.ExitStack() as undo:
         for partial, target in moves:
             with told(target):
                 if len(moves) > 1:
-                    kept = target.with_name(f".{secrets.token_hex(4)}.kept")
-                    tidy.callback(_remove, kept)
-                    undo.callback(_restore, target, kept if _keep(target, kept) else None)
+                    backup = target.with_name(f".{secrets.token_hex(4)}.kept")
+                    tidy.callback(_remove, backup)
+                    undo.callback(_restore, target, backup if _back_up(target, backup) else None)
                 os.replace(partial, target)
         undo.pop_all()  # all are in place
 
 
-def _keep(target: Path, kept: Path) -> bool:
-    """Give what exists at a target a second name; return whether anything does."""
+def _back_up(target: Path, backup: Path) -> bool:
+    """Give the file at a target a second name; return False if there is none."""
     if not target.exists():
         return False
     try:
-        os.link(target, kept)
+        os.link(target, backup)
     except OSError:  # a file system without links
-        shutil.copy2(target, kept)
+        shutil.copy2(target, backup)
     return True
 
 
-def _restore(target: Path, kept: Path | None) -> None:
-    """Put back what was at a target, or nothing."""
+def _restore(target: Path, backup: Path | None) -> None:
+    """Put the backup of a target back, or remove the target if it had none."""
     with contextlib.suppress(OSError):
-        if kept is None:
+        if backup is None:
             target.unlink(missing_ok=True)
         else:
-            os.replace(kept, target)
+            os.replace(backup, target)
 
 
 def _remove(path: Path) -> None:
+    """Remove a file if it exists; ignore errors."""
     with contextlib.suppress(OSError):
         path.unlink(missing_ok=True)
 
 
-def _partial(target: Path) -> Path:
-    """Return the name to write under: next to the target, or the target itself if it is a device."""
+def _partial_path(target: Path) -> Path:
+    """Return the name to write under: a file next to the target, or the target itself if it is a device."""
     if target.exists() and not target.is_file() and not target.is_dir():
         return target
     return target.with_name(f".{secrets.token_hex(4)}.partial")

@@ -1,4 +1,4 @@
-"""Meshes that a Draco encoder packed, by DracoPy where it is installed."""
+"""Decompress meshes of Draco by DracoPy, where it is installed."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 
 def unpack_draco(data: bytes) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
-    """Return the vertices and the triangles of a packed mesh, or None if DracoPy is not installed.
+    """Decompress a mesh; return vertices and triangles, or None if DracoPy is not installed.
 
     Raises
     ------
     ValueError
-        If the data are no packed mesh.
+        If the data hold no mesh.
     """
     try:
         import DracoPy

@@ -19,46 +19,48 @@ from infill.version import __version__
 
 FLOAT, UNSIGNED, VERTICES, INDICES = 5126, 5125, 34962, 34963
 MILLIMETRE = 0.001  # of a metre
-LARGEST = 2**32 - 1  # bytes, which is what the sizes in it can say
+LARGEST = 2**32 - 1  # bytes, the largest size that the format can state
 
 
 def write_glb(surface: Surface, file: BinaryIO) -> None:
-    """Write binary glTF 2.0: a JSON chunk that describes one mesh, and a chunk of its numbers."""
+    """Write one mesh as binary glTF 2.0: a JSON chunk and a chunk of its numbers."""
     write_glb_parts([Part(surface=surface)], file)
 
 
 def write_glb_parts(parts: Sequence[Part], file: BinaryIO) -> None:
-    """Write binary glTF 2.0: a node with a mesh for each part, with its name and its colour.
+    """Write meshes as binary glTF 2.0: a node for each part, with its name and its colour.
 
     Raises
     ------
     FormatError
-        If there is more than 4 GiB of it.
+        If the file would exceed 4 GiB.
     """
     sizes = [size for part in parts for size in (12 * len(part.surface.vertices), 12 * len(part.surface.faces))]
-    described = _described(parts, sizes)
-    text = json.dumps(described, separators=(",", ":")).encode()
+    description = _describe(parts, sizes)
+    text = json.dumps(description, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
-    whole = 12 + 8 + len(text) + 8 + sum(sizes)
-    if whole > LARGEST:
-        raise FormatError(f"a .glb holds at most 4 GiB and this has {whole / 2**30:.1f}; write .3mf, or simplify it")
-    file.write(struct.pack("<4sII", b"glTF", 2, whole))
+    file_size = 12 + 8 + len(text) + 8 + sum(sizes)
+    if file_size > LARGEST:
+        raise FormatError(
+            f"a .glb holds at most 4 GiB and this has {file_size / 2**30:.1f}; write .3mf, or simplify it"
+        )
+    file.write(struct.pack("<4sII", b"glTF", 2, file_size))
     file.write(struct.pack("<I4s", len(text), b"JSON") + text)
     file.write(struct.pack("<I4s", sum(sizes), b"BIN\0"))
     for part in parts:
         file.write(part.surface.vertices.astype("<f4").tobytes() + part.surface.faces.astype("<u4").tobytes())
 
 
-def _described(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:
+def _describe(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:
     """Return the JSON chunk: two accessors and two buffer views for each part."""
     coloured = [(number, part.colour) for number, part in enumerate(parts) if part.colour is not None]
-    material = {number: place for place, (number, _) in enumerate(coloured)}
+    material = {number: index for index, (number, _) in enumerate(coloured)}
     names = [{"name": name} if (name := plain(part.name)) else {} for part in parts]
     nodes, meshes, accessors = [], [], []
     for number, part in enumerate(parts):
         vertices = part.surface.vertices.astype("<f4")
-        look = {"material": material[number]} if number in material else {}
-        primitive = {"attributes": {"POSITION": 2 * number}, "indices": 2 * number + 1, **look}
+        appearance = {"material": material[number]} if number in material else {}
+        primitive = {"attributes": {"POSITION": 2 * number}, "indices": 2 * number + 1, **appearance}
         nodes.append({"mesh": number, "scale": [MILLIMETRE] * 3, **names[number]})
         meshes.append({"primitives": [primitive], **names[number]})
         accessors += [
@@ -101,6 +103,6 @@ def _described(parts: Sequence[Part], sizes: Sequence[int]) -> dict[str, Any]:
 
 
 def _material(name: dict[str, str], colour: Colour) -> dict[str, Any]:
-    """Return a material of one colour, which glTF wants as linear light: IEC 61966-2-1."""
-    linear = [each / 12.92 if each <= 0.04045 else ((each + 0.055) / 1.055) ** 2.4 for each in colour]
+    """Return a material of one colour in linear light, as glTF stores it: IEC 61966-2-1."""
+    linear = [channel / 12.92 if channel <= 0.04045 else ((channel + 0.055) / 1.055) ** 2.4 for channel in colour]
     return {**name, "pbrMetallicRoughness": {"baseColorFactor": [*linear, 1.0], "metallicFactor": 0.0}}

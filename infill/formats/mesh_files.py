@@ -1,4 +1,4 @@
-"""`save` and `read_mesh`: a mesh to a file and back, the format by its suffix."""
+"""`save` and `read_mesh`: write a mesh to a file and read one, in the format of the suffix."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from infill.surface import Surface
 if TYPE_CHECKING:
     import trimesh
 
-FARTHEST = 1e12  # mm, a million kilometres: beyond, a number is broken, and squares of it leave what numbers hold
+FARTHEST = 1e12  # mm, a million kilometres: a larger number is broken, and its squares may overflow
 LOG = logging.getLogger("infill")
 
 
@@ -71,15 +71,15 @@ def writer(path: Path, *, ascii: bool = False, more: tuple[str, ...] = ()) -> Ca
     """Return the function that writes the format of `path`, or raise FormatError listing `more` suffixes too."""
     suffix = path.suffix.lower()
     if suffix not in WRITERS:
-        given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
-        raise FormatError(f"cannot tell a mesh format from {given}; use one of {', '.join((*WRITERS, *more))}")
+        description = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
+        raise FormatError(f"cannot tell a mesh format from {description}; use one of {', '.join((*WRITERS, *more))}")
     if ascii and suffix != ".stl":
         raise FormatError(f"only .stl can be written as text by choice, not {suffix}; leave ascii out")
     return write_stl_ascii if ascii else WRITERS[suffix]
 
 
 def parts_writer(path: Path) -> Callable[[Sequence[Part], BinaryIO], None]:
-    """Return the function that writes several meshes into one file, or raise FormatError if the format holds one."""
+    """Return the function that writes several meshes into one file; raise FormatError if the format holds one."""
     suffix = path.suffix.lower()
     if suffix not in PART_WRITERS:
         writer(path)
@@ -91,7 +91,7 @@ def parts_writer(path: Path) -> Callable[[Sequence[Part], BinaryIO], None]:
 
 
 def read_mesh(path: str | os.PathLike[str]) -> Surface:
-    """Return the triangles of a file.
+    """Read the triangles of a file.
 
     Equal vertices are merged, unless the mesh is closed as it stands: in that case, the file specifies on purpose
     which of two equal vertices a triangle uses. Triangles with two equal corners are kept.
@@ -105,22 +105,22 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     Returns
     -------
     Surface
-        With `notes` on what of a 3MF is left out of it, such as the modifiers of a slicer.
+        With `notes` on omitted parts of a 3MF, such as the modifiers of a slicer.
 
     Raises
     ------
     FormatError
-        If there is no such file, its suffix is unknown, it requires an extension that is not read, or it holds no
+        If the file is missing, its suffix is unknown, it requires an extension that is not read, or it holds no
         triangles or broken ones.
 
     Notes
     -----
-    What is left out is logged as a warning too, to the log "infill".
+    Omissions are logged as warnings too, to the log "infill".
     """
     source = readable(path, READERS, "a mesh format")
     try:
         with told_broken(source, "is broken", "export the mesh again"):
-            vertices, faces, *more = READERS[source.suffix.lower()](source)
+            vertices, faces, *extra = READERS[source.suffix.lower()](source)
     except OSError as error:
         raise FormatError(f"cannot read {source}: {error.strerror or error}; check the file") from error
     if len(faces) == 0:
@@ -136,7 +136,7 @@ def read_mesh(path: str | os.PathLike[str]) -> Surface:
     if faces.min() < 0 or faces.max() >= len(vertices):
         raise FormatError(f"{source} has triangles with corners that do not exist; export the mesh again")
     mesh = closed_or_merged(vertices, faces)
-    notes = tuple(more[0]) if more else ()
+    notes = tuple(extra[0]) if extra else ()
     for note in notes:
         LOG.warning("%s: %s", source, note)
     return replace(mesh, notes=notes) if notes else mesh
@@ -153,7 +153,7 @@ PART_WRITERS: dict[str, Callable[[Sequence[Part], BinaryIO], None]] = {
     ".3mf": write_3mf_parts,
     ".glb": write_glb_parts,
 }
-# Vertices and faces; some add what there is to note of the file.
+# Vertices and faces; some readers add notes.
 Read = (
     tuple[NDArray[np.floating], NDArray[np.integer]] | tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]
 )

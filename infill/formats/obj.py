@@ -17,13 +17,13 @@ from infill.meshes.polygons import CORNERS, split_polygons
 from infill.surface import Surface
 from infill.version import __version__
 
-SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces, which are no polygons
-# A statement of the format, or of a program that adds its own to it: two letters or more.
+SURFACES = {b"surf", b"bzp", b"bsp"}  # smooth surfaces instead of polygons
+# A statement of the format, or an addition of some program: two letters or more.
 STATEMENT = re.compile(rb"[a-z][a-z_]\w*|[goslp]", re.IGNORECASE)
 
 
 def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Return vertices and triangles; polygons are split.
+    """Read vertices and triangles; polygons are split.
 
     Parameters
     ----------
@@ -40,12 +40,12 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     lines = Lines(path=path, original=original, text=without_breaks(without_comments(original)))
     if len(lines) == 0:
         raise FormatError(f"{path} holds no vertices; export the mesh again")
-    one, two, three = (lines.keys(place) for place in range(3))
-    one_letter, two_letters = are_blank(two), are_blank(three)
-    is_vertex = (one == ord("v")) & one_letter
-    is_face = (one == ord("f")) & (one_letter | ((two == ord("o")) & two_letters))
-    of_vertices = (one == ord("v")) & ((two == ord("n")) | (two == ord("t"))) & two_letters
-    _check_statements(lines, np.flatnonzero(~(is_vertex | is_face | of_vertices)))
+    letter1, letter2, letter3 = (lines.keys(place) for place in range(3))
+    has_one_letter, has_two_letters = are_blank(letter2), are_blank(letter3)
+    is_vertex = (letter1 == ord("v")) & has_one_letter
+    is_face = (letter1 == ord("f")) & (has_one_letter | ((letter2 == ord("o")) & has_two_letters))
+    is_vertex_attribute = (letter1 == ord("v")) & ((letter2 == ord("n")) | (letter2 == ord("t"))) & has_two_letters
+    _check_statements(lines, np.flatnonzero(~(is_vertex | is_face | is_vertex_attribute)))
     vertex_rows, face_rows = np.flatnonzero(is_vertex), np.flatnonzero(is_face)
     vertices = _vertices(lines, vertex_rows)
     corners, counts = _corners(lines, vertex_rows, face_rows)
@@ -53,7 +53,7 @@ def read_obj(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
 
 
 def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
-    """Raise FormatError for what would be left out in silence, and for lines that are none of the format."""
+    """Raise FormatError for statements that would be left out silently, and for lines of another format."""
     for number in lines.first[rows].tolist():
         word = lines.word(number)
         if word.lower() in SURFACES:
@@ -67,12 +67,12 @@ def _check_statements(lines: Lines, rows: NDArray[np.int64]) -> None:
 
 
 def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return x, y and z of all vertices, (V, 3); weights and colours are left out."""
+    """Return x, y and z of all vertices, (V, 3), without weights and colours."""
     numbers = lines.words[rows] - 1
     short = np.flatnonzero(numbers < 3)
     if len(short):
-        found = int(numbers[short[0]])
-        raise lines.error(int(lines.first[rows[short[0]]]), f"a vertex of {found} number(s), not three or more")
+        count = int(numbers[short[0]])
+        raise lines.error(int(lines.first[rows[short[0]]]), f"a vertex of {count} number(s), not three or more")
     values = lines.numbers(rows, 1, np.float64).astype(np.float64, copy=False)
     if len(numbers) and (numbers == numbers[0]).all():
         return values.reshape(-1, int(numbers[0]))[:, :3].copy()
@@ -83,18 +83,18 @@ def _vertices(lines: Lines, rows: NDArray[np.int64]) -> NDArray[np.float64]:
 def _corners(
     lines: Lines, vertex_rows: NDArray[np.int64], rows: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the corners of all polygons counted from 0, (C,), and how many each has, (P,)."""
+    """Return the corners of all polygons counted from 0, (C,), and the number of each, (P,)."""
     counts = lines.words[rows] - 1
     short = np.flatnonzero(counts < CORNERS)
     if len(short):
-        there = int(counts[short[0]])
-        raise lines.error(int(lines.first[rows[short[0]]]), f"a face of {there} corner(s), not three or more")
+        count = int(counts[short[0]])
+        raise lines.error(int(lines.first[rows[short[0]]]), f"a face of {count} corner(s), not three or more")
     corners = lines.numbers(rows, 1, np.int64, slashes=True).astype(np.int64, copy=False)
     total = len(vertex_rows)
     if len(corners) and (corners.min() < 1 or corners.max() > total):
         before = np.repeat(np.searchsorted(vertex_rows, rows), counts)
-        found = np.where(corners < 0, corners + before, corners - 1)
-        wrong = np.flatnonzero((corners == 0) | (found < 0) | (found >= total))
+        resolved = np.where(corners < 0, corners + before, corners - 1)
+        wrong = np.flatnonzero((corners == 0) | (resolved < 0) | (resolved >= total))
         if len(wrong):
             row = int(np.searchsorted(np.cumsum(counts), wrong[0], side="right"))
             corner = int(corners[wrong[0]])
@@ -102,7 +102,7 @@ def _corners(
             if corner < 0:
                 reason = f"corner {corner} does not exist: {int(before[wrong[0]])} vertices stand before this line"
             raise lines.error(int(lines.first[rows[row]]), reason)
-        return found, counts
+        return resolved, counts
     return corners - 1, counts
 
 

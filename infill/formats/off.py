@@ -18,12 +18,12 @@ KEYWORD = re.compile(rb"\s*((?:ST)?C?N?4?n?OFF)(?![A-Za-z])", re.IGNORECASE)
 
 
 def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Return vertices and triangles; polygons are split, and normals, colours and texture coordinates left out.
+    """Read vertices and triangles; split polygons, and leave out normals, colours and texture coordinates.
 
     Raises
     ------
     FormatError
-        If it is binary, or the numbers that it announces are not there.
+        If the file is binary, or lacks the numbers that it announces.
     """
     original = path.read_bytes()
     if re.match(rb"\s*\w*OFF[ \t]+BINARY", original, re.IGNORECASE):
@@ -33,10 +33,10 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     keyword = KEYWORD.match(text)
     if keyword and (b"4" in keyword[1] or keyword[1].endswith(b"nOFF")):
         raise FormatError(f"{path} has vertices in more than three dimensions; export it in three")
-    if keyword:  # the counts may stand on its line, and even without a blank between
+    if keyword:  # the counts may follow on its line, even without a blank
         text = b" " * keyword.end() + text[keyword.end() :]
     lines = Lines(path=path, original=original, text=text)
-    announced = 2 if len(lines) and lines.words[0] == 2 else 3  # some programs leave out how many edges there are
+    announced = 2 if len(lines) and lines.words[0] == 2 else 3  # some programs leave out the number of edges
     numbers = [_count(lines, number) for number in range(min(announced, len(lines.begins)))]
     if len(numbers) < 2:
         raise FormatError(f"{path} does not say how many vertices and faces it has; export the mesh again")
@@ -49,6 +49,7 @@ def read_off(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
 
 
 def _count(lines: Lines, number: int) -> int:
+    """Return a count of vertices, faces or edges."""
     word = lines.word(number)
     if not word.isdigit() or len(word) > 12:
         raise lines.error(number, number_complaint(word, whole=True) or f"{word.decode()!r} is no count of anything")
@@ -58,30 +59,33 @@ def _count(lines: Lines, number: int) -> int:
 def _read_lines(
     lines: Lines, vertex_rows: NDArray[np.int64], face_rows: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Read a vertex or a face from each line; what stands behind its numbers is left out."""
+    """Read one vertex or face per line, and leave out the rest of the line."""
     width = lines.words[vertex_rows]
     short = np.flatnonzero(width < 3)
     if len(short):
-        found = int(width[short[0]])
-        raise lines.error(int(lines.first[vertex_rows[short[0]]]), f"a vertex of {found} number(s), not three or more")
+        count = int(width[short[0]])
+        raise lines.error(int(lines.first[vertex_rows[short[0]]]), f"a vertex of {count} number(s), not three or more")
     values = lines.numbers(vertex_rows, 0, np.float64).astype(np.float64, copy=False)
     begins = np.cumsum(width) - width
     vertices = values[begins[:, None] + np.arange(3)]
     width = lines.words[face_rows]
-    found_faces = lines.numbers(face_rows, 0, np.float64)  # colours may be fractions
+    face_numbers = lines.numbers(face_rows, 0, np.float64)  # colours may be fractions
     begins = np.cumsum(width) - width
-    counts = _whole(lines, face_rows, found_faces[begins])
+    counts = _to_integers(lines, face_rows, face_numbers[begins])
     short = np.flatnonzero((counts < 0) | (counts > width - 1))
     if len(short):
-        said, there = int(counts[short[0]]), int(width[short[0]]) - 1
-        raise lines.error(int(lines.first[face_rows[short[0]]]), f"a face of {said} corners with {there} number(s)")
-    place = np.repeat(begins + 1 - (np.cumsum(counts) - counts), counts)
-    corners = _whole(lines, np.repeat(face_rows, counts), found_faces[place + np.arange(len(place))])
+        stated, available = int(counts[short[0]]), int(width[short[0]]) - 1
+        raise lines.error(
+            int(lines.first[face_rows[short[0]]]), f"a face of {stated} corners with {available} number(s)"
+        )
+    positions = np.repeat(begins + 1 - (np.cumsum(counts) - counts), counts)
+    corners = _to_integers(lines, np.repeat(face_rows, counts), face_numbers[positions + np.arange(len(positions))])
     require_corners(lines.path, corners, len(vertices))
     return vertices, split_polygons(vertices, corners, counts)
 
 
-def _whole(lines: Lines, rows: NDArray[np.int64], values: NDArray[np.generic]) -> NDArray[np.int64]:
+def _to_integers(lines: Lines, rows: NDArray[np.int64], values: NDArray[np.generic]) -> NDArray[np.int64]:
+    """Convert numbers to integers, or raise FormatError."""
     numbers = values.astype(np.float64)
     wrong = np.flatnonzero(~((np.abs(numbers) < 2**53) & (numbers == np.floor(numbers))))
     if len(wrong):
@@ -89,26 +93,26 @@ def _whole(lines: Lines, rows: NDArray[np.int64], values: NDArray[np.generic]) -
     return numbers.astype(np.int64)
 
 
-def _read_words(lines: Lines, head: list[int]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Read a file that is not in lines: three numbers a vertex, and nothing behind the corners of a face."""
-    vertices, faces = head[:2]
-    values = lines.numbers(np.arange(len(lines)), 0, np.float64).astype(np.float64, copy=False)[len(head) :]
+def _read_words(lines: Lines, announced: list[int]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Read a file without lines: three numbers per vertex, and only corners behind the count of a face."""
+    vertices, faces = announced[:2]
+    values = lines.numbers(np.arange(len(lines)), 0, np.float64).astype(np.float64, copy=False)[len(announced) :]
     if len(values) < 3 * vertices + faces:
         raise FormatError(
             f"{lines.path} is cut off: it announces {vertices} vertices and {faces} faces and holds fewer; "
             "export the mesh again"
         )
-    points, left = values[: 3 * vertices].reshape(-1, 3), values[3 * vertices :]
-    place, counts, corners = 0, [], []
+    points, face_numbers = values[: 3 * vertices].reshape(-1, 3), values[3 * vertices :]
+    position, counts, corners = 0, [], []
     for _ in range(faces):
-        count = left[place] if place < len(left) else -1
-        if not 0 <= count <= len(left) - place - 1 or count != int(count):
+        count = face_numbers[position] if position < len(face_numbers) else -1
+        if not 0 <= count <= len(face_numbers) - position - 1 or count != int(count):
             raise FormatError(f"{lines.path} has faces that are cut off or not in lines; export the mesh again")
         counts.append(int(count))
-        corners.append(left[place + 1 : place + 1 + int(count)])
-        place += 1 + int(count)
-    flat = np.concatenate(corners) if corners else np.empty(0)
-    if place != len(left) or not (flat == np.floor(flat)).all():
+        corners.append(face_numbers[position + 1 : position + 1 + int(count)])
+        position += 1 + int(count)
+    all_corners = np.concatenate(corners) if corners else np.empty(0)
+    if position != len(face_numbers) or not (all_corners == np.floor(all_corners)).all():
         raise FormatError(f"{lines.path} has faces that are not in lines; export the mesh again, a face in each line")
-    require_corners(lines.path, flat.astype(np.int64), vertices)
-    return points, split_polygons(points, flat.astype(np.int64), np.array(counts, dtype=np.int64))
+    require_corners(lines.path, all_corners.astype(np.int64), vertices)
+    return points, split_polygons(points, all_corners.astype(np.int64), np.array(counts, dtype=np.int64))

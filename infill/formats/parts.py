@@ -1,4 +1,4 @@
-"""A part of a file that holds several meshes: a surface with a name, and perhaps a colour."""
+"""A part of a file with several meshes: a surface with a name and an optional colour."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Part:
     ----------
     surface : Surface, mm
     name : str
-        Empty if it has none.
+        Empty for none.
     colour : (red, green, blue), optional
         From 0 to 1, sRGB.
     """
@@ -27,12 +27,12 @@ class Part:
 
 
 def hexadecimal(colour: Colour) -> str:
-    """Return a colour as it is written on the web.
+    """Return a colour in the notation of the web.
 
     >>> hexadecimal((1.0, 0.5, 0.0))
     '#FF8000'
     """
-    return "#" + "".join(f"{round(255 * each):02X}" for each in colour)
+    return "#" + "".join(f"{round(255 * channel):02X}" for channel in colour)
 
 
 def plain(name: str) -> str:
@@ -41,4 +41,4 @@ def plain(name: str) -> str:
     >>> plain("a\x01b\u00a0c")
     'ab c'
     """
-    return "".join(each for each in " ".join(name.split()) if each.isprintable())
+    return "".join(character for character in " ".join(name.split()) if character.isprintable())

@@ -1,4 +1,4 @@
-"""Points from a file: text in columns, .npy, and the vertices of a .ply."""
+"""Read points from a file: text in columns, .npy, and the vertices of a .ply."""
 
 from __future__ import annotations
 
@@ -47,15 +47,15 @@ MOST, UNIT = 0.95, 0.01
 
 
 def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
-    """Return the points of a file.
+    """Read the points of a file.
 
     Parameters
     ----------
     path : str or Path
         .xyz, .txt, .pts or .csv: one point per line, in columns separated by blanks, commas or semicolons; a #
-        begins a comment. A line of names may come first and say which columns are x, y and z; otherwise they
-        are the first three. A first line with one number gives the number of points that follow. .npy: an array
-        (N, 3) or wider. .ply: the vertices, text or binary.
+        begins a comment. The first line may name the columns x, y and z; otherwise they are the first three. A first
+        line with a single number gives the number of points. .npy: an array (N, 3) or wider. .ply: the vertices,
+        text or binary.
 
     Returns
     -------
@@ -65,13 +65,13 @@ def read_points(path: str | os.PathLike[str]) -> NDArray[np.float64]:
     Raises
     ------
     FormatError
-        If there is no such file, its suffix is unknown, or it holds no points or broken ones.
+        If the file is missing, its suffix is unknown, or it holds no points or broken ones.
     """
     return read_points_and_normals(path)[0]
 
 
 def read_points_and_normals(path: str | os.PathLike[str]) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
-    """Return the points of a file, (N, 3), and their normals, (N, 3), or None if it has none: see `read_points`.
+    """Read points (N, 3) and normals (N, 3), or None without normals: see `read_points`.
 
     Normals are columns named nx, ny and nz, or those after x, y and z if no column has a name, of length 1.
     """
@@ -97,6 +97,7 @@ def read_points_and_normals(path: str | os.PathLike[str]) -> tuple[NDArray[np.fl
 
 
 def _are_normals(columns: NDArray[np.float64]) -> bool:
+    """Tell whether almost all rows have length 1."""
     if columns.shape[1] < AXES:
         return False
     with np.errstate(over="ignore", invalid="ignore"):
@@ -104,8 +105,8 @@ def _are_normals(columns: NDArray[np.float64]) -> bool:
         return bool((np.abs(lengths - 1) <= UNIT).mean() >= MOST)
 
 
-def _told(path: Path) -> AbstractContextManager[None]:
-    """Turn what NumPy reports about a broken file into an error of ours."""
+def _wrap_errors(path: Path) -> AbstractContextManager[None]:
+    """Turn an exception of NumPy about a broken file into a FormatError."""
     return told_broken(path, "is broken or holds no points", "export them again")
 
 
@@ -113,6 +114,7 @@ def _told(path: Path) -> AbstractContextManager[None]:
 
 
 def _read_text(path: Path) -> NDArray[np.floating]:
+    """Read points as text, with columns of normals if all lines have them."""
     try:
         return _read_columns(path, normals=True)
     except FormatError:  # the first line may have columns that others lack
@@ -120,29 +122,34 @@ def _read_text(path: Path) -> NDArray[np.floating]:
 
 
 def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
-    """Return x, y and z, and the normals or what may be normals, if they are asked for and the first line has them."""
+    """Read x, y and z, and optionally the next columns or the named normals, if the first line has them."""
     # Only comments and names can contain non-ASCII characters; their encoding does not matter.
-    with _told(path), path.open(encoding="utf-8-sig", errors="replace") as file:
+    with _wrap_errors(path), path.open(encoding="utf-8-sig", errors="replace") as file:
         lines = (line for line in file if line.partition("#")[0].strip(" \t\r\n,;"))
-        first = next(lines, "")
-        parted = _parted_by(first)
+        first_line = next(lines, "")
+        separator = _parted_by(first_line)
         columns: tuple[int, ...] = ()
         count = None
-        if len(_fields(first, parted)) == 1 and _is_number(_fields(first, parted)[0]):
-            count = float(first.partition("#")[0])
-            first = next(lines, "")
-            parted = _parted_by(first)
-        elif not all(_is_number(each) for each in _fields(first, parted)[:AXES]):
-            columns = _columns(_fields(first, parted))
-            first = next(lines, "")
-            parted = _parted_by(first)
-        if not first:
+        if len(_split_fields(first_line, separator)) == 1 and _is_number(_split_fields(first_line, separator)[0]):
+            count = float(first_line.partition("#")[0])
+            first_line = next(lines, "")
+            separator = _parted_by(first_line)
+        elif not all(_is_number(field) for field in _split_fields(first_line, separator)[:AXES]):
+            columns = _point_columns(_split_fields(first_line, separator))
+            first_line = next(lines, "")
+            separator = _parted_by(first_line)
+        if not first_line:
             raise FormatError(f"{path} holds no points; export them again")
-        columns = columns or tuple(range(min(2 * AXES, max(AXES, len(_fields(first, parted))))))
+        columns = columns or tuple(range(min(2 * AXES, max(AXES, len(_split_fields(first_line, separator))))))
         if len(columns) < 2 * AXES or not normals:
             columns = columns[:AXES]
         points = np.loadtxt(
-            itertools.chain([first], lines), usecols=columns, ndmin=2, comments="#", delimiter=parted, quotechar='"'
+            itertools.chain([first_line], lines),
+            usecols=columns,
+            ndmin=2,
+            comments="#",
+            delimiter=separator,
+            quotechar='"',
         )
     if count is not None and count != len(points):
         raise FormatError(f"{path} announces {count:g} points and holds {len(points)}; export them again")
@@ -150,15 +157,18 @@ def _read_columns(path: Path, *, normals: bool) -> NDArray[np.floating]:
 
 
 def _parted_by(line: str) -> str | None:
+    """Return the separator of a line; None for blanks."""
     return next((mark for mark in ";," if mark in line.partition("#")[0]), None)
 
 
-def _fields(line: str, parted: str | None) -> list[str]:
+def _split_fields(line: str, separator: str | None) -> list[str]:
+    """Split a line into fields, without its comment."""
     text = line.partition("#")[0].strip()
-    return [each.strip() for each in next(csv.reader([text], delimiter=parted), [])] if parted else text.split()
+    return [field.strip() for field in next(csv.reader([text], delimiter=separator), [])] if separator else text.split()
 
 
 def _is_number(text: str) -> bool:
+    """Tell whether a field is a number."""
     try:
         float(text.strip('"'))
     except ValueError:
@@ -166,24 +176,24 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _columns(names: list[str]) -> tuple[int, ...]:
-    """Return which columns hold x, y and z, then which hold the normals if any do.
+def _point_columns(names: list[str]) -> tuple[int, ...]:
+    """Return the columns of x, y and z, followed by those of the normals if the names have any.
 
-    By whole name, by its first word ("x_mm", "X [mm]"), or x, y and z are the first three.
+    Columns are found by name or by its first word ("x_mm", "X [mm]"); else x, y and z are the first three.
     """
     plain = [name.strip("\"' ").lower() for name in names]
     words = [re.split(r"[\s_(\[/]", name)[0] for name in plain]
-    across = _named(plain, NORMALS)
-    for each in (plain, words):
-        if columns := _named(each, NAMES):
-            return columns + across
-    return tuple(range(AXES)) + across
+    normal_columns = _columns_of(plain, NORMALS)
+    for candidates in (plain, words):
+        if columns := _columns_of(candidates, NAMES):
+            return columns + normal_columns
+    return tuple(range(AXES)) + normal_columns
 
 
-def _named(names: list[str], known: tuple[set[str], ...]) -> tuple[int, ...]:
-    """Return the columns that have names of the known ones, or none unless there is one for each axis."""
-    found = [next((i for i, name in enumerate(names) if name in axis), None) for axis in known]
-    columns = tuple(i for i in found if i is not None)
+def _columns_of(names: list[str], axis_names: tuple[set[str], ...]) -> tuple[int, ...]:
+    """Return the columns with names of each axis, or an empty tuple if an axis is missing."""
+    places = [next((i for i, name in enumerate(names) if name in axis), None) for axis in axis_names]
+    columns = tuple(i for i in places if i is not None)
     return columns if len(columns) == AXES else ()
 
 
@@ -191,7 +201,8 @@ def _named(names: list[str], known: tuple[set[str], ...]) -> tuple[int, ...]:
 
 
 def _read_npy(path: Path) -> NDArray[np.floating]:
-    with _told(path):
+    """Memory-map an array of points."""
+    with _wrap_errors(path):
         points = npy_format.open_memmap(path, mode="r")
     if points.ndim == 2 and points.shape[1] > MOST_COLUMNS:
         raise FormatError(
@@ -204,7 +215,8 @@ def _read_npy(path: Path) -> NDArray[np.floating]:
 
 
 def _read_ply(path: Path) -> NDArray[np.floating]:
-    with _told(path), path.open("rb") as file:
+    """Read the vertices of a PLY file."""
+    with _wrap_errors(path), path.open("rb") as file:
         header, order = _ply_header(path, file)
         for element, count, properties in header:
             if element == "vertex":
@@ -219,6 +231,7 @@ Properties = list[tuple[str, str | None]]  # name and NumPy type; None for a lis
 
 
 def _ply_header(path: Path, file: BinaryIO) -> tuple[list[tuple[str, int, Properties]], str]:
+    """Parse the header; return the elements and the byte order."""
     elements: list[tuple[str, int, Properties]] = []
     order = None
     if file.readline(PLY_HEAD).strip() != b"ply":
@@ -244,24 +257,25 @@ def _ply_header(path: Path, file: BinaryIO) -> tuple[list[tuple[str, int, Proper
 
 
 def _ply_vertices(path: Path, file: BinaryIO, order: str, count: int, properties: Properties) -> NDArray[np.floating]:
+    """Read x, y and z of the vertices, and their normals if the file has them."""
     names = [name for name, _ in properties]
     if not {"x", "y", "z"} <= set(names) or any(kind is None for _, kind in properties):
         raise FormatError(f"{path} has vertices without x, y and z, or with lists; export plain points")
     rows = _ply_rows(file, order, count, properties)
     if len(rows) < count:
         raise FormatError(f"{path} is cut off: it holds {len(rows)} vertices of {count}; export it again")
-    wanted = [*"xyz", *(across for across in ("nx", "ny", "nz") if {"nx", "ny", "nz"} <= set(names))]
-    return np.stack([rows[:, names.index(name)] if not order else rows[name] for name in wanted], axis=1)
+    column_names = [*"xyz", *(normal for normal in ("nx", "ny", "nz") if {"nx", "ny", "nz"} <= set(names))]
+    return np.stack([rows[:, names.index(name)] if not order else rows[name] for name in column_names], axis=1)
 
 
 def _ply_rows(file: BinaryIO, order: str, count: int, properties: Properties) -> NDArray[Any]:
-    """Return the rows of an element: a structured array if binary, columns if text."""
+    """Read the rows of an element: a structured array if binary, columns if text."""
     if count < 0:
         raise ValueError(f"{count} rows")
     if order:
         row = np.dtype([(name, order + kind) for name, kind in properties if kind])
-        left = os.fstat(file.fileno()).st_size - file.tell()
-        data = file.read(min(row.itemsize * count, left))
+        remaining = os.fstat(file.fileno()).st_size - file.tell()
+        data = file.read(min(row.itemsize * count, remaining))
         return np.frombuffer(data[: len(data) // row.itemsize * row.itemsize], dtype=row)
     lines = list(itertools.islice((line for line in file if line.strip()), count))
     return np.loadtxt(lines, ndmin=2, comments=None) if lines else np.empty((0, len(properties)))

@@ -1,4 +1,4 @@
-"""Numbers as rows of text, some at a time."""
+"""Rows of numbers as text, written in pieces."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ AT_ONCE = 100_000  # triangles or vertices formatted at a time: a few tens of MB
 
 
 def write_rows(file: IO[bytes], row: str, values: NDArray[np.generic], add: int = 0) -> None:
-    """Write one formatted row of text per row of `values`."""
+    """Write one formatted line of text per row of `values`."""
     for low in range(0, len(values), AT_ONCE):
-        some = values[low : low + AT_ONCE] + add if add else values[low : low + AT_ONCE]
-        file.write((row * len(some) % tuple(some.ravel().tolist())).encode())
+        piece = values[low : low + AT_ONCE] + add if add else values[low : low + AT_ONCE]
+        file.write((row * len(piece) % tuple(piece.ravel().tolist())).encode())

@@ -1,4 +1,4 @@
-"""STL, binary and text: triangles, each with its own corners, without a unit."""
+"""STL, binary and text: triangles with separate corners, without a unit."""
 
 from __future__ import annotations
 
@@ -32,19 +32,19 @@ VERTEX_WORD = re.compile(rb"[\r\n]\s*vertex\b", re.IGNORECASE)
 
 
 def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]:
-    """Return vertices, three for each triangle, faces, and a note on what follows the last one.
+    """Read vertices, three for each triangle, and faces; return them with a note on trailing bytes.
 
     Raises
     ------
     FormatError
-        If a binary file does not hold what it announces, or text is not in triangles.
+        If a binary file does not hold the announced triangles, or a text has other facets than triangles.
     """
     data = path.read_bytes()
     notes: tuple[str, ...] = ()
     count = int.from_bytes(data[80:HEAD], "little")
-    whole = HEAD + count * RECORD.itemsize
-    if count and len(data) >= whole and (len(data) == whole or not wide_encoding(data)):
-        notes = _check_rest(path, count, data[whole:])
+    size = HEAD + count * RECORD.itemsize
+    if count and len(data) >= size and (len(data) == size or not wide_encoding(data)):
+        notes = _check_rest(path, count, data[size:])
         corners = np.frombuffer(data, dtype=RECORD, offset=HEAD, count=count)["corners"]
     elif wide_encoding(data) or (
         data.removeprefix(codecs.BOM_UTF8).lstrip()[:5].lower() == b"solid" and b"\0" not in data
@@ -61,17 +61,17 @@ def read_stl(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
 
 
 def _check_rest(path: Path, count: int, rest: bytes) -> tuple[str, ...]:
-    """Return a note on what follows the triangles, or raise FormatError if that is more triangles.
+    """Return a note on the bytes behind the triangles; raise FormatError if those are triangles.
 
     Some programs add bytes of their own.
     """
-    more, left = divmod(len(rest), RECORD.itemsize)
+    extra, remainder = divmod(len(rest), RECORD.itemsize)
     announced = int.from_bytes(rest[80:HEAD], "little")
     if b"facet" in rest or (announced and len(rest) == HEAD + announced * RECORD.itemsize):
         raise FormatError(f"{path} holds a second STL behind its {count} triangles; export each into a file of its own")
-    if more and not left:
+    if extra and not remainder:
         raise FormatError(
-            f"{path} announces {count} triangles and holds {count + more}: part of it would be left out; "
+            f"{path} announces {count} triangles and holds {count + extra}: part of it would be left out; "
             "export the mesh again"
         )
     if not rest.strip(b"\0\t\n\r "):
@@ -80,20 +80,21 @@ def _check_rest(path: Path, count: int, rest: bytes) -> tuple[str, ...]:
 
 
 def _text_corners(path: Path, text: bytes) -> NDArray[np.floating]:
+    """Parse the corners of all triangles in a text, (n, 3, 3)."""
     text = b"\n" + text
-    found = VERTEX.findall(text)
-    broken = FormatError(f"{path} holds a vertex that is not three numbers, or is cut off; export the mesh again")
-    if len(found) != len(VERTEX_WORD.findall(text)) or len(found) % 3:
-        raise broken
+    matches = VERTEX.findall(text)
+    format_error = FormatError(f"{path} holds a vertex that is not three numbers, or is cut off; export the mesh again")
+    if len(matches) != len(VERTEX_WORD.findall(text)) or len(matches) % 3:
+        raise format_error
     loops = len(LOOP_WORD.findall(text))
-    if loops and 3 * loops != len(found):
+    if loops and 3 * loops != len(matches):
         raise FormatError(
-            f"{path} holds {loops} facets and {len(found)} vertices, not three for each; export the mesh again"
+            f"{path} holds {loops} facets and {len(matches)} vertices, not three for each; export the mesh again"
         )
     try:
-        return np.array(found, dtype="S").astype(np.float32).reshape(-1, 3, 3)
+        return np.array(matches, dtype="S").astype(np.float32).reshape(-1, 3, 3)
     except ValueError as error:
-        raise broken from error
+        raise format_error from error
 
 
 def write_stl(surface: Surface, file: BinaryIO) -> None:
@@ -102,7 +103,7 @@ def write_stl(surface: Surface, file: BinaryIO) -> None:
     file.write(f"phasefill {__version__} UNITS=mm{space}".encode().ljust(80))
     file.write(np.uint32(len(surface.faces)).astype("<u4").tobytes())
     compiled = "numba" in sys.modules and len(surface.faces) > AT_ONCE  # else loading it takes longer
-    for normals, corners in _by_kernel(surface) if compiled else _facets(surface):
+    for normals, corners in _compiled_facets(surface) if compiled else _facets(surface):
         record = np.zeros(len(corners), dtype=RECORD)
         record["corners"] = corners
         record["normal"] = normals
@@ -119,15 +120,15 @@ def write_stl_ascii(surface: Surface, file: BinaryIO) -> None:
 
 
 def _facets(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:
-    """Yield the unit normals of the triangles, (n, 3), and their corners, (n, 3, 3), some at a time."""
+    """Yield unit normals (n, 3) and corners (n, 3, 3) of the triangles, in pieces."""
     vertices = surface.vertices.astype(np.float32)
     for low in range(0, len(surface.faces), AT_ONCE):
         corners = vertices[surface.faces[low : low + AT_ONCE]]
         yield _normals(corners), corners
 
 
-def _by_kernel(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:
-    """Yield what `_facets` yields, to the last bit."""
+def _compiled_facets(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[np.float32]]]:
+    """Yield the same as `_facets`, to the last bit, by a compiled kernel."""
     from infill.kernels.facets import write_facets
 
     vertices = surface.vertices.astype(np.float32)
@@ -140,6 +141,7 @@ def _by_kernel(surface: Surface) -> Iterator[tuple[NDArray[np.float32], NDArray[
 
 
 def _normals(corners: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the unit normals of triangles; zero for degenerate ones."""
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(normals, axis=1, keepdims=True)
     unit: NDArray[np.float32] = np.divide(normals, length, out=np.zeros_like(normals), where=length > 0)

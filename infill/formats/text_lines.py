@@ -1,4 +1,4 @@
-"""Text of a file in any of its dialects: encodings, line ends, comments, and the numbers on its lines."""
+"""Text files in all dialects: encodings, line ends, comments, and the numbers on their lines."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ HEAD = 4  # bytes that tell an encoding
 
 
 def plain_text(path: Path) -> bytes:
-    """Read a text file; return it in an encoding that holds ASCII as such, with a line feed after each line.
+    """Read a text file; return it in an ASCII-compatible encoding, with a line feed after each line.
 
     Raises
     ------
     FormatError
-        If it is binary.
+        If the file is binary.
     """
     data = path.read_bytes()
     wide = wide_encoding(data)
@@ -41,7 +41,7 @@ def plain_text(path: Path) -> bytes:
 
 
 def wide_encoding(data: bytes) -> str:
-    """Return the encoding of a text of two or four bytes a character, by its mark or its zeros, or ""."""
+    """Return the encoding of a text with two or four bytes a character, by its mark or zeros, or ""."""
     head = data[:HEAD]
     if head.startswith((codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)):  # the former begins as UTF-16 does
         return "utf-32"
@@ -55,23 +55,24 @@ def wide_encoding(data: bytes) -> str:
 
 
 def without_comments(text: bytes) -> bytes:
-    """Replace comments, from a # to the end of its line, by as many blanks: what follows stays in its place."""
+    """Replace comments, from a # to the end of the line, by blanks of equal length."""
     return COMMENT.sub(_as_blanks, text) if b"#" in text else text
 
 
 def without_breaks(text: bytes) -> bytes:
-    """Replace a backslash at the end of a line, and the line feed after it, by as many blanks."""
+    """Replace a backslash at the end of a line, and the line feed after it, by blanks of equal length."""
     return CONTINUED.sub(_as_blanks, text) if b"\\" in text else text
 
 
-def _as_blanks(found: re.Match[bytes]) -> bytes:
-    return b" " * len(found[0])
+def _as_blanks(match: re.Match[bytes]) -> bytes:
+    """Return blanks for a match."""
+    return b" " * len(match[0])
 
 
 def are_blank(values: NDArray[np.uint8]) -> NDArray[np.bool_]:
-    """Return which bytes separate words: a blank, a tab, and the ends of lines and pages."""
-    found: NDArray[np.bool_] = (values - np.uint8(TAB) <= np.uint8(RETURN - TAB)) | (values == BLANK)
-    return found
+    """Return a mask of the bytes that separate words: a blank, a tab, and the ends of lines and pages."""
+    blank: NDArray[np.bool_] = (values - np.uint8(TAB) <= np.uint8(RETURN - TAB)) | (values == BLANK)
+    return blank
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,7 +84,7 @@ class Lines:
     path : Path
         For messages.
     original, text : bytes
-        As it is in the file, with all of its line ends, and as it is read; of equal length.
+        The content of the file, with all line ends, and the text to parse; of equal length.
     """
 
     path: Path
@@ -97,7 +98,7 @@ class Lines:
 
     @cached_property
     def begins(self) -> Integers:
-        """Where each word begins, (W,)."""
+        """Position of the first byte of each word, (W,)."""
         blank = are_blank(self.bytes_of)
         begins = ~blank
         begins[1:] &= blank[:-1]
@@ -107,11 +108,11 @@ class Lines:
     def _rows(self) -> tuple[Integers, Integers, Integers, Integers]:
         """First word, number of words, first byte and end of each line that holds a word."""
         ends = np.flatnonzero(self.bytes_of == NEWLINE) + 1
-        starts = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
-        first = np.searchsorted(self.begins, starts)
-        words = np.diff(first, append=len(self.begins))
-        kept = words > 0
-        return first[kept], words[kept], starts[kept], ends[kept]
+        line_starts = np.concatenate([[0], ends[:-1]]) if len(ends) else ends
+        first_words = np.searchsorted(self.begins, line_starts)
+        word_counts = np.diff(first_words, append=len(self.begins))
+        has_word = word_counts > 0
+        return first_words[has_word], word_counts[has_word], line_starts[has_word], ends[has_word]
 
     @property
     def first(self) -> Integers:
@@ -120,17 +121,17 @@ class Lines:
 
     @property
     def words(self) -> Integers:
-        """How many words each line has, (L,)."""
+        """Number of words on each line, (L,)."""
         return self._rows[1]
 
     def __len__(self) -> int:
-        """Return how many lines hold a word."""
+        """Return the number of lines with a word."""
         return len(self.words)
 
     def keys(self, place: int) -> NDArray[np.uint8]:
         """Return a byte of the first word of each line, in lower case; see `are_blank`."""
-        found = self.bytes_of[np.minimum(self.begins[self.first] + place, len(self.bytes_of) - 1)]
-        return np.where((found >= ord("A")) & (found <= ord("Z")), found + 32, found).astype(np.uint8)
+        letters = self.bytes_of[np.minimum(self.begins[self.first] + place, len(self.bytes_of) - 1)]
+        return np.where((letters >= ord("A")) & (letters <= ord("Z")), letters + 32, letters).astype(np.uint8)
 
     def word(self, number: int) -> bytes:
         """Return a word."""
@@ -138,20 +139,20 @@ class Lines:
         return self.text[begin : begin + 80].split(None, 1)[0]
 
     def line(self, number: int) -> int:
-        """Return the number of the line in which a word stands, as an editor counts."""
+        """Return the number of the line of a word, as an editor counts."""
         return self.original.count(b"\n", 0, int(self.begins[number])) + 1
 
     def numbers(
         self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool = False
     ) -> NDArray[np.generic]:
-        """Return the numbers on some lines, one line after another, less the first words of each line.
+        """Return the numbers on selected lines, line after line, without the first words of each line.
 
         Parameters
         ----------
         rows : (R,) int64
-            Rising.
+            Ascending.
         skip : int
-            How many words of each line are no numbers: none, or one of at most two letters.
+            Number of leading words to skip on each line: 0, or 1 with at most two letters.
         dtype : type
             float64 or int64.
         slashes : bool
@@ -162,8 +163,8 @@ class Lines:
         FormatError
             If one of the words is not a number; the first one is named with its line.
         """
-        words = int((self.words[rows] - skip).sum())
-        if words == 0:
+        word_count = int((self.words[rows] - skip).sum())
+        if word_count == 0:
             return np.empty(0, dtype=dtype)
         text = self._text_of(rows, skip)
         if slashes and b"/" in text:
@@ -171,24 +172,24 @@ class Lines:
         with warnings.catch_warnings():
             warnings.simplefilter("error", DeprecationWarning)
             try:
-                found: NDArray[np.generic] = np.fromstring(text, dtype=dtype, sep=" ")
+                values: NDArray[np.generic] = np.fromstring(text, dtype=dtype, sep=" ")
             except (DeprecationWarning, ValueError):
-                found = np.empty(0, dtype=dtype)
-        if len(found) != words:
-            raise self._wrong_number(rows, skip, dtype, slashes=slashes)
-        return found
+                values = np.empty(0, dtype=dtype)
+        if len(values) != word_count:
+            raise self._number_error(rows, skip, dtype, slashes=slashes)
+        return values
 
     def _text_of(self, rows: Integers, skip: int) -> bytes:
-        """Return the text of some lines, less their first words."""
-        text = self._less_keywords if skip else self.text
+        """Return the text of selected lines, without their first words."""
+        text = self._text_without_keywords if skip else self.text
         _, _, starts, ends = self._rows
-        breaks = np.flatnonzero(np.diff(rows) > 1)  # lines one after another are taken at once
+        breaks = np.flatnonzero(np.diff(rows) > 1)  # adjacent lines are copied together
         low, high = rows[np.concatenate([[0], breaks + 1])], rows[np.append(breaks, len(rows) - 1)]
         return b"".join([text[a:b] for a, b in zip(starts[low].tolist(), ends[high].tolist(), strict=True)])
 
     @cached_property
-    def _less_keywords(self) -> bytes:
-        """The text with blanks for the first word of each line, if that has one letter or two."""
+    def _text_without_keywords(self) -> bytes:
+        """The text with blanks for the first word of each line, if that has one or two letters."""
         text = self.bytes_of.copy()
         begins = self.begins[self.first]
         text[begins] = BLANK
@@ -196,23 +197,25 @@ class Lines:
         text[after[text[after] != NEWLINE]] = BLANK
         return text.tobytes()
 
-    def _wrong_number(self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool) -> FormatError:
+    def _number_error(self, rows: Integers, skip: int, dtype: type[np.generic], *, slashes: bool) -> FormatError:
         """Return the error about the first word that is not a number."""
-        whole = issubclass(dtype, np.integer)
-        for first, words in zip(self.first[rows].tolist(), self.words[rows].tolist(), strict=True):
-            for number in range(first + skip, first + words):
+        is_integer = issubclass(dtype, np.integer)
+        for first_word, word_count in zip(self.first[rows].tolist(), self.words[rows].tolist(), strict=True):
+            for number in range(first_word + skip, first_word + word_count):
                 word = self.word(number)
-                if complaint := number_complaint(word.partition(b"/")[0] or word if slashes else word, whole=whole):
+                if complaint := number_complaint(
+                    word.partition(b"/")[0] or word if slashes else word, whole=is_integer
+                ):
                     return self.error(number, complaint)
         return self.error(int(self.first[rows[0]]), "a number that cannot be read")
 
     def error(self, number: int, complaint: str, advice: str = "export the mesh again") -> FormatError:
-        """Return the error that says what is wrong with a word, and in which line."""
+        """Return the error about a word, with its line."""
         return FormatError(f"{self.path}, line {self.line(number)}: {complaint}; {advice}")
 
 
 def number_complaint(word: bytes, *, whole: bool = False) -> str:
-    """Return what is wrong with a word that should be a number; empty if nothing is.
+    """Return the defect of a word that should be a number; empty if there is none.
 
     >>> number_complaint(b"1e-3"), number_complaint(b"1,5")
     ('', "'1,5' has a decimal comma, and numbers in such a file have a decimal point")

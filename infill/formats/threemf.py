@@ -1,4 +1,4 @@
-"""Writes 3MF, zipped XML that states its unit: core specification only. `threemf_reading` reads it."""
+"""Write 3MF, zipped XML that states its unit: core specification only. `threemf_reading` reads it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ TYPES = {
     "rels": "application/vnd.openxmlformats-package.relationships+xml",
     "model": "application/vnd.ms-package.3dmanufacturing-3dmodel+xml",
 }
-SETTINGS = "Metadata/phasefill.toml"  # what we attach: the options that make it again
+SETTINGS = "Metadata/phasefill.toml"  # the attached options, which make the model again
 APPLICATION = f"phasefill-{__version__}"
 
 
@@ -43,7 +43,7 @@ class Attached:
     media : str
         The content type of its suffix.
     relation : str
-        What it is to the package, as a relationship has it; empty for none.
+        Type of its relationship to the package; empty for none.
     """
 
     name: str
@@ -53,7 +53,7 @@ class Attached:
 
 
 def attached_settings(path: Path) -> str:
-    """Return the options that made what is in a 3MF, or raise FormatError if it has none of ours."""
+    """Return the options in a 3MF that made its content, or raise FormatError if it has none."""
     with opened(path) as package:
         if part_key(SETTINGS) in parts_of_package(package):
             return unpacked(package, SETTINGS).decode()
@@ -61,12 +61,12 @@ def attached_settings(path: Path) -> str:
 
 
 def write_3mf(surface: Surface, file: BinaryIO) -> None:
-    """Write 3MF, core specification only: one object, in millimetres."""
+    """Write one object in millimetres, by the core specification of 3MF only."""
     write_3mf_parts([Part(surface=surface)], file)
 
 
 def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
-    """Write 3MF, core specification only: an object for each part, with its name and its colour, in millimetres."""
+    """Write an object for each part, with name and colour, in millimetres, by the core specification only."""
     names = [plain(part.name) for part in parts]
     coloured = [number for number, part in enumerate(parts) if part.colour is not None]
 
@@ -75,8 +75,8 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
         into.write(_materials([(names[k], parts[k]) for k in coloured], len(parts) + 1).encode())
         for number, part in enumerate(parts):
             name = f" name={quoted(names[number])}" if names[number] else ""
-            at = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
-            into.write(f'<object id="{number + 1}" type="model"{name}{at}>'.encode())
+            material = f' pid="{len(parts) + 1}" pindex="{coloured.index(number)}"' if number in coloured else ""
+            into.write(f'<object id="{number + 1}" type="model"{name}{material}>'.encode())
             write_mesh(into, part.surface.vertices, part.surface.faces)
             into.write(b"</object>")
         into.write(model_end(range(1, len(parts) + 1)).encode())
@@ -85,10 +85,13 @@ def write_3mf_parts(parts: Sequence[Part], file: BinaryIO) -> None:
 
 
 def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: Sequence[Attached] = ()) -> None:
-    """Write a 3MF whose model a function writes, with other files beside it."""
-    media = {**TYPES, **{each.name.rpartition(".")[2]: each.media for each in attached}}
+    """Write a 3MF with a model by a function, and with attached files."""
+    media = {**TYPES, **{attachment.name.rpartition(".")[2]: attachment.media for attachment in attached}}
     types = "".join(f' <Default Extension="{suffix}" ContentType="{kind}"/>\n' for suffix, kind in media.items())
-    related = [(MODEL, MODEL_RELATION), *((each.name, each.relation) for each in attached if each.relation)]
+    related = [
+        (MODEL, MODEL_RELATION),
+        *((attachment.name, attachment.relation) for attachment in attached if attachment.relation),
+    ]
     relations = "".join(
         f' <Relationship Target="/{name}" Id="rel{number}" Type="{kind}"/>\n'
         for number, (name, kind) in enumerate(related)
@@ -96,36 +99,37 @@ def write_package(file: BinaryIO, model: Callable[[IO[bytes]], None], attached: 
     packaging = "http://schemas.openxmlformats.org/package/2006"
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=4) as package:
         package.writestr(
-            _dated("[Content_Types].xml"), f'{DECLARED}<Types xmlns="{packaging}/content-types">\n{types}</Types>\n'
+            _package_entry("[Content_Types].xml"),
+            f'{DECLARED}<Types xmlns="{packaging}/content-types">\n{types}</Types>\n',
         )
         package.writestr(
-            _dated("_rels/.rels"),
+            _package_entry("_rels/.rels"),
             f'{DECLARED}<Relationships xmlns="{packaging}/relationships">\n{relations}</Relationships>\n',
         )
         with package.open(MODEL, "w", force_zip64=True) as into:
             model(into)
-        for each in attached:
-            package.writestr(_dated(each.name), each.content)
+        for attachment in attached:
+            package.writestr(_package_entry(attachment.name), attachment.content)
 
 
-def _dated(name: str) -> zipfile.ZipInfo:
-    """Return an entry of a package, the same whenever it is written."""
+def _package_entry(name: str) -> zipfile.ZipInfo:
+    """Return an entry of a package with a constant date, so that files are reproducible."""
     entry = zipfile.ZipInfo(name)
     entry.compress_type = zipfile.ZIP_DEFLATED
     return entry
 
 
 def model_head(metadata: Mapping[str, str], namespaces: Mapping[str, str] | None = None) -> str:
-    """Return how a model in millimetres begins, up to its resources."""
+    """Return the beginning of a model in millimetres, up to its resources."""
     spaces = "".join(f' xmlns:{prefix}="{address}"' for prefix, address in (namespaces or {}).items())
-    told = "".join(
+    entries = "".join(
         f' <metadata name="{name}">{html.escape(plain(text))}</metadata>\n' for name, text in metadata.items()
     )
-    return f'{DECLARED}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}"{spaces}>\n{told} <resources>'
+    return f'{DECLARED}<model unit="millimeter" xml:lang="en-US" xmlns="{CORE}"{spaces}>\n{entries} <resources>'
 
 
 def model_end(built: Iterable[int]) -> str:
-    """Return how a model ends that builds objects of these numbers."""
+    """Return the end of a model that builds the objects with the given numbers."""
     items = "".join(f'<item objectid="{number}"/>' for number in built)
     return f"</resources>\n <build>{items}</build>\n</model>\n"
 
@@ -140,7 +144,7 @@ def write_mesh(into: IO[bytes], vertices: NDArray[np.floating], faces: NDArray[n
 
 
 def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
-    """Return the resource that holds the colours of named parts; empty if there are none."""
+    """Return the resource with the colours of named parts; empty if there are none."""
     if not coloured:
         return ""
     bases = "".join(
@@ -152,8 +156,8 @@ def _materials(coloured: Sequence[tuple[str, Part]], number: int) -> str:
 
 
 def quoted(text: str) -> str:
-    """Return a text as the value of an attribute, whose line breaks and tabs stay what they are."""
+    """Return a text as the value of an attribute, which preserves line breaks and tabs."""
     escaped = html.escape(text)
-    for sign in "\n\r\t":
-        escaped = escaped.replace(sign, f"&#{ord(sign)};")
+    for character in "\n\r\t":
+        escaped = escaped.replace(character, f"&#{ord(character)};")
     return f'"{escaped}"'

@@ -1,4 +1,4 @@
-"""Extensions of 3MF: which of them are read, which hold nothing of the shape, and what the others would be."""
+"""Extensions of 3MF: those that are read, those that do not affect the shape, and names of the others."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from infill.files.excerpts import excerpt
 from infill.formats.threemf_package import Model
 
 SEPARATE = re.compile(r"[\s,]+")
-# Namespaces, whatever their year, that change nothing of a shape, or of which all that matters is read.
+# Namespaces of any year that do not change a shape, or whose relevant content is read.
 HARMLESS = re.compile(
     r"http://schemas\.(?:microsoft\.com|3mf\.io)/3dmanufacturing/(?:core|production|materials?|trianglesets)/\d[\d/]*"
     r"|http://schemas\.slic3r\.org/.*|http://schemas\.bambulab\.com/.*|http://software\.ultimaker\.com/.*"
@@ -33,12 +33,12 @@ SHAPES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Extension:
-    """An extension that a reader must know.
+    """An extension that a model requires.
 
     Parameters
     ----------
     prefix : str
-        As the file has it.
+        As in the file.
     namespace : str
         Empty if the file does not declare the prefix.
     """
@@ -48,17 +48,17 @@ class Extension:
 
     @property
     def known(self) -> bool:
-        """Whether it is read, or holds nothing of the shape."""
+        """True if it is read, or does not affect the shape."""
         return is_harmless(self.namespace)
 
     def __str__(self) -> str:
-        """Return how a message names it."""
+        """Return the name of the extension in messages."""
         words = name_of(self.namespace) if self.namespace else "which it does not declare"
         return f"'{excerpt(self.prefix)}' ({words})"
 
 
 def is_harmless(namespace: str) -> bool:
-    """Return whether an extension changes nothing of the shape, or is read.
+    """Tell whether an extension does not affect the shape, or is read.
 
     >>> is_harmless("http://schemas.microsoft.com/3dmanufacturing/production/2015/06")
     True
@@ -67,7 +67,7 @@ def is_harmless(namespace: str) -> bool:
 
 
 def name_of(namespace: str) -> str:
-    """Return what an extension describes, or its namespace.
+    """Return a description of an extension, or its namespace.
 
     >>> name_of("http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02")
     'beam lattices'
@@ -84,19 +84,19 @@ def required(model: Model) -> Iterator[Extension]:
 
 
 def namespace_of(prefix: str, spaces: Mapping[str, str]) -> str:
-    """Return the namespace of a prefix; some programs write the namespace itself in its place."""
+    """Return the namespace of a prefix; some programs write the namespace instead of the prefix."""
     return spaces.get(prefix, prefix if prefix.startswith("http") else "")
 
 
 def check_required(model: Model, name: str) -> None:
-    """Raise FormatError, as the core specification wants, if a model requires an extension that is not read.
+    """Raise FormatError, as the specification demands, if a required extension is not read.
 
     Parameters
     ----------
     name : str
-        Of the file, for the message.
+        Name of the file, for the message.
     """
-    unknown = [each for each in required(model) if not each.known]
+    unknown = [extension for extension in required(model) if not extension.known]
     if unknown:
         raise FormatError(
             f"{name} requires the 3MF extension {' and '.join(map(str, unknown))}, which is not read; "

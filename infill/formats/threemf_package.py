@@ -1,4 +1,4 @@
-"""The package of a 3MF: a zip of XML, opened and parsed within bounds, whoever wrote it."""
+"""The package of a 3MF: a zip of XML, opened and parsed within limits, since anyone may have written it."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from infill.machine import require_memory
 AGAIN = "export the mesh again"
 LARGEST_RATIO, SMALL = 200, 1 << 20  # unpacked to packed; below this many bytes a package counts as this large
 MOST_BYTES = 4 << 30  # of a package, unpacked: a zip of some megabytes may unpack to terabytes
-LARGEST_TEXT = 100 << 20  # of a file that is read at once, unlike models, or not at all, like G-code and pictures
+LARGEST_TEXT = 100 << 20  # of a file, except models, which are read in pieces, and files that are not read
 PIECEWISE = (".model", ".gcode", ".png", ".jpg", ".jpeg", ".md5", ".stl", ".step", ".stp")
 HEADER = 30  # bytes of a zip before the name of a file in it
 ENCRYPTED = 0x1  # among the flags of a file in a zip
@@ -34,18 +34,18 @@ MEMORY = 4  # bytes for each byte of XML: <vertex/> is the shortest of what beco
 MOST_ELEMENTS, DEEPEST = 2_000_000, 100  # besides vertices and triangles
 FARTHEST = 1e15  # in the unit of the file: products of such numbers are finite
 KEYSTORE = "secure/keystore.xml"
-# Encodings that are text: Python has others, which unpack or run through tables of their own.
+# Encodings of text: Python has others, which decompress or translate.
 ENCODINGS = re.compile(
     r"utf-?(8|16|16le|16be|16-le|16-be)|(us-)?ascii|iso-?8859-\d+|latin-?1|windows-125\d|cp125\d|koi8-r"
 )
 DECLARED_ENCODING = re.compile(rb"<\?xml[^>]*?encoding\s*=\s*[\"']([^\"'>]*)")
-# Namespaces whose elements are kept with all that is in them; of others, the element alone.
+# Namespaces whose elements are stored with their content; of others, only the element.
 KEPT_NAMESPACES = ("http://schemas.slic3r.org/", "http://software.ultimaker.com/")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mesh:
-    """The mesh of an object, as its file has it.
+    """The mesh of an object, as in its file.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Mesh:
 
     @cached_property
     def fault(self) -> str:
-        """What is wrong with it, or an empty string."""
+        """Defect of the mesh, or an empty string."""
         if not (np.abs(self.vertices) <= FARTHEST).all():  # NaN is neither
             return f"coordinates that are not numbers up to {FARTHEST:g}"
         if len(self.faces) and (self.faces.min() < 0 or self.faces.max() >= len(self.vertices)):
@@ -69,7 +69,7 @@ class Mesh:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Model:
-    """A parsed file of a package.
+    """A parsed model file of a package.
 
     Parameters
     ----------
@@ -98,16 +98,16 @@ class Model:
 
     @property
     def items(self) -> Iterator[ElementTree.Element]:
-        """What it builds."""
+        """Items of the build."""
         return self.below(self.root, "build/item")
 
     def mesh_of(self, each: ElementTree.Element) -> tuple[ElementTree.Element, Mesh] | None:
-        """Return the element of the mesh of an object, and the mesh; None if it has none."""
-        found = each.find(f"{self.core}mesh")
-        return None if found is None else (found, self.meshes[found])
+        """Return the element of the mesh of an object, and the mesh; None without a mesh."""
+        element = each.find(f"{self.core}mesh")
+        return None if element is None else (element, self.meshes[element])
 
     def foreign(self, element: ElementTree.Element) -> Iterator[tuple[str, str]]:
-        """Yield namespace and name of elements in an element that are those of extensions."""
+        """Yield namespace and name of the child elements of extensions."""
         for child in element:
             space, _, name = child.tag[1:].rpartition("}")
             if child.tag[:1] == "{" and f"{{{space}}}" != self.core:
@@ -116,7 +116,7 @@ class Model:
 
 @contextlib.contextmanager
 def opened(path: Path) -> Iterator[zipfile.ZipFile]:
-    """Open a package, or raise FormatError, also for what goes wrong while it is read."""
+    """Open a package; raise FormatError for errors, also those that occur while it is read."""
     try:
         file = path.open("rb")
     except OSError as error:
@@ -133,33 +133,35 @@ def opened(path: Path) -> Iterator[zipfile.ZipFile]:
 
 
 def _check_entries(package: zipfile.ZipFile, path: Path) -> None:
-    """Raise FormatError unless a zip holds what a 3MF may, in a size that memory should be asked for."""
-    entries = sorted(package.infolist(), key=lambda each: each.header_offset)
-    packed, whole = path.stat().st_size, sum(each.file_size for each in entries)
-    if whole > min(MOST_BYTES, LARGEST_RATIO * max(packed, SMALL)):
-        raise FormatError(f"{path} would unpack to {whole / 1e6:,.0f} MB, and it has {packed / 1e6:,.1f} MB; {AGAIN}")
-    seen: set[str] = set()
+    """Raise FormatError unless a zip has the entries of a 3MF, within the limits of size."""
+    entries = sorted(package.infolist(), key=lambda entry: entry.header_offset)
+    packed_size, unpacked_size = path.stat().st_size, sum(entry.file_size for entry in entries)
+    if unpacked_size > min(MOST_BYTES, LARGEST_RATIO * max(packed_size, SMALL)):
+        raise FormatError(
+            f"{path} would unpack to {unpacked_size / 1e6:,.0f} MB, and it has {packed_size / 1e6:,.1f} MB; {AGAIN}"
+        )
+    keys: set[str] = set()
     end = 0
-    for each in entries:
-        name = excerpt(each.filename)
-        if (key := part_key(each.filename)) in seen:  # readers do not agree on which of them counts
+    for entry in entries:
+        name = excerpt(entry.filename)
+        if (key := part_key(entry.filename)) in keys:  # readers disagree on which of them counts
             raise FormatError(f"{path} holds {name} twice; {AGAIN}")
-        seen.add(key)
-        if each.flag_bits & ENCRYPTED:
+        keys.add(key)
+        if entry.flag_bits & ENCRYPTED:
             raise FormatError(f"{path} is encrypted; unpack it with its password and zip it without one")
-        if each.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise FormatError(
-                f"{path} is compressed by method {each.compress_type}, and 3MF knows only deflate; {AGAIN}"
+                f"{path} is compressed by method {entry.compress_type}, and 3MF knows only deflate; {AGAIN}"
             )
-        if each.file_size > LARGEST_TEXT and not name.lower().endswith(PIECEWISE):
-            raise FormatError(f"{path} holds {name} of {each.file_size / 1e6:,.0f} MB, too much for settings; {AGAIN}")
-        if each.header_offset < end:
+        if entry.file_size > LARGEST_TEXT and not name.lower().endswith(PIECEWISE):
+            raise FormatError(f"{path} holds {name} of {entry.file_size / 1e6:,.0f} MB, too much for settings; {AGAIN}")
+        if entry.header_offset < end:
             raise FormatError(f"{path} holds files that overlap, {name} among them; {AGAIN}")
-        end = each.header_offset + HEADER + len(each.orig_filename) + each.compress_size
+        end = entry.header_offset + HEADER + len(entry.orig_filename) + entry.compress_size
 
 
 def part_key(name: str) -> str:
-    """Return by what a file of a package is known: parts are the same whatever the case of their letters.
+    """Return the key of a file in a package, without regard to the case of letters.
 
     >>> part_key("/3D/My%20Part.model")
     '3d/my part.model'
@@ -169,21 +171,21 @@ def part_key(name: str) -> str:
 
 def parts_of_package(package: zipfile.ZipFile) -> dict[str, zipfile.ZipInfo]:
     """Return the files of a package by their keys."""
-    return {part_key(each.filename): each for each in package.infolist()}
+    return {part_key(entry.filename): entry for entry in package.infolist()}
 
 
 def unpacked(package: zipfile.ZipFile, name: str) -> bytes:
-    """Return a file of a package that has it; `opened` has checked how much that may be."""
+    """Read a file of a package; `opened` has checked its size."""
     return package.read(parts_of_package(package)[part_key(name)])
 
 
 def read_model(package: zipfile.ZipFile, info: zipfile.ZipInfo, path: Path) -> Model:
-    """Return a model of a package; raise FormatError for numbers that are none, ValueError if it is no XML."""
+    """Parse a model of a package; raise FormatError for invalid numbers, ValueError for other text than XML."""
     require_memory(MEMORY * info.file_size, None, f"{path} is large: simplify the mesh, or split it")
     with package.open(info) as file:
         pieces = iter(lambda: file.read(PIECE), b"")
         try:
-            return _parsed(pieces, path)
+            return _parse(pieces, path)
         except ValueError as error:
             if not isinstance(error, InfillError) and KEYSTORE in parts_of_package(package):
                 raise FormatError(
@@ -193,15 +195,16 @@ def read_model(package: zipfile.ZipFile, info: zipfile.ZipInfo, path: Path) -> M
 
 
 def parsed_xml(text: bytes, path: Path | None = None) -> ElementTree.Element:
-    """Return the root of a document, or raise ValueError: the specification allows no document type definitions.
+    """Parse a document and return its root, or raise ValueError; document type definitions are forbidden.
 
-    The standard parser fetches nothing from outside; what it returns is only counted and multiplied.
+    The standard parser fetches nothing from outside, and its output is only counted and multiplied.
     """
-    return _parsed([text], Path() if path is None else path).root
+    return _parse([text], Path() if path is None else path).root
 
 
-def _parsed(pieces: Iterable[bytes], path: Path) -> Model:
-    target = _Target(path)
+def _parse(pieces: Iterable[bytes], path: Path) -> Model:
+    """Parse the pieces of a document as a model."""
+    target = _ModelBuilder(path)
     parser = ElementTree.XMLParser(target=target)  # noqa: S314 - see `parsed_xml`
     begun = False
     try:
@@ -220,17 +223,17 @@ def _parsed(pieces: Iterable[bytes], path: Path) -> Model:
 
 
 def _check_encoding(text: bytes) -> None:
-    """Raise ValueError for a document that declares, in any encoding, one other than those of texts."""
-    found = DECLARED_ENCODING.search(text[: max(0, text.find(b">"))].replace(b"\0", b""))
-    if found is None:
+    """Raise ValueError if a document declares an encoding other than those of texts."""
+    declaration = DECLARED_ENCODING.search(text[: max(0, text.find(b">"))].replace(b"\0", b""))
+    if declaration is None:
         return
-    name = found[1].decode("ascii", "replace")
+    name = declaration[1].decode("ascii", "replace")
     if not ENCODINGS.fullmatch(name.strip().lower()):
         raise ValueError(f"its encoding is {excerpt(name)}, and 3MF knows UTF-8 and UTF-16")
 
 
-class _Target:
-    """Builds a tree without vertices and triangles, which it keeps as numbers; no document may define what it means.
+class _ModelBuilder:
+    """Builder of a tree without vertices and triangles, which it stores as numbers; it refuses document types.
 
     Parameters
     ----------
@@ -248,10 +251,10 @@ class _Target:
         self._vertex = self._triangle = self._name_of_mesh = ""
         self._points, self._corners = array("d"), array("q")
         self._count = self._depth = 0
-        self._skipped = 0  # how deep in an element of which only itself is kept
+        self._skipped = 0  # depth within an element that is stored without its content
 
     def doctype(self, name: str, public: str | None, system: str | None) -> None:  # noqa: ARG002 - of the parser
-        """Refuse it."""
+        """Raise ValueError: document types are refused."""
         raise ValueError(f"it defines a document type, {excerpt(name)}")
 
     def start_ns(self, prefix: str, uri: str) -> None:
@@ -260,7 +263,7 @@ class _Target:
             self.spaces[prefix or ""] = uri
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
-        """Keep an element, or its numbers."""
+        """Store an element, or its numbers."""
         if self._mesh is not None and not self._skipped:
             if tag == self._vertex:
                 self._row(self._points, ("x", "y", "z"), attributes, float)
@@ -293,12 +296,13 @@ class _Target:
         attributes: dict[str, str],
         kind: type[float] | type[int],
     ) -> None:
-        one, two, three = names
+        """Append the three numbers of a vertex or a triangle."""
+        key1, key2, key3 = names
         try:
-            numbers.extend((kind(attributes[one]), kind(attributes[two]), kind(attributes[three])))
+            numbers.extend((kind(attributes[key1]), kind(attributes[key2]), kind(attributes[key3])))
         except (KeyError, ValueError, OverflowError):
-            said = ", ".join(excerpt(attributes.get(name, "")) or "nothing" for name in names)
-            raise FormatError(f"{self._path} holds a number that is not one, among {said}; {AGAIN}") from None
+            row_text = ", ".join(excerpt(attributes.get(name, "")) or "nothing" for name in names)
+            raise FormatError(f"{self._path} holds a number that is not one, among {row_text}; {AGAIN}") from None
 
     def end(self, tag: str) -> None:
         """Close an element."""
@@ -318,7 +322,7 @@ class _Target:
             self._mesh = None
 
     def data(self, text: str) -> None:
-        """Keep a text, but not what is between vertices."""
+        """Store a text, except between vertices."""
         if self._mesh is None and not self._skipped:
             self._tree.data(text)
 

@@ -1,4 +1,4 @@
-"""`read_3mf`: the parts that a 3MF builds, and notes on what is left out of it or taken off."""
+"""`read_3mf`: read the parts that a 3MF builds, with notes on omissions and negative volumes."""
 
 from __future__ import annotations
 
@@ -50,11 +50,11 @@ UNITS = {"micron": 1e-3, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "f
 IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
 MODEL = "3D/3dmodel.model"
 RELATIONS = "_rels/.rels"
-MOST_PLACED = 100_000  # objects: components of components may say any number in a few lines
+MOST_PLACED = 100_000  # objects: nested components can request any number in a few lines
 MOST_PLACED_ROWS = 100_000_000  # triangles and vertices
 MOST_NESTED = 20  # components in one another
 MOST_NOTES = 20
-PRUSA_CONFIGS = re.compile(r"metadata/[^/]*_model\.config")  # of PrusaSlicer, and of what was made of it
+PRUSA_CONFIGS = re.compile(r"metadata/[^/]*_model\.config")  # of PrusaSlicer and its forks
 
 Key = tuple[str, str]  # a file of the package, and the number of an object in it
 Transform = NDArray[np.float64]
@@ -62,7 +62,7 @@ Transform = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Placed:
-    """A volume where it is built.
+    """A volume in its place in the build.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class Placed:
     role : {"part", "negative"}
     name : str
     scope : int
-        Negative volumes are taken off parts of the same scope that come before them.
+        Negative volumes are subtracted from earlier parts of the same scope.
     """
 
     surface: Surface
@@ -82,7 +82,7 @@ class Placed:
 
 @dataclass(kw_only=True, eq=False)
 class _Reading:
-    """A package that is read: its models, each parsed once it is needed, and what there is to note."""
+    """A package that is read: its models, each parsed when first needed, and the notes."""
 
     path: Path
     package: zipfile.ZipFile
@@ -98,7 +98,7 @@ class _Reading:
 
     @cached_property
     def main(self) -> str:
-        """The model that is built."""
+        """File name of the model that is built."""
         start = start_part(self.package)
         if start in self.parts:
             return start
@@ -106,6 +106,7 @@ class _Reading:
         return next((name for name in names if next(self.model(name).items, None) is not None), "")
 
     def model(self, part: str) -> Model:
+        """Return a model, parsed and checked."""
         if part not in self.models:
             with told_broken(self.path, "is not a 3MF file", AGAIN):
                 model = read_model(self.package, self.parts[part], self.path)
@@ -118,55 +119,56 @@ class _Reading:
         if part not in self.parts:
             return None
         if part not in self.objects:
-            found: dict[str, ElementTree.Element] = {}
-            for each in self.model(part).objects:
-                key = object_key(each.get("id"))
-                if key in found:
+            objects_of_part: dict[str, ElementTree.Element] = {}
+            for element in self.model(part).objects:
+                key = object_key(element.get("id"))
+                if key in objects_of_part:
                     raise FormatError(f"{self.path} holds two objects {excerpt(key)}; {AGAIN}")
-                found[key] = each
-            self.objects[part] = found
+                objects_of_part[key] = element
+            self.objects[part] = objects_of_part
         return self.objects[part].get(number)
 
     @cached_property
     def prusa(self) -> dict[str, list[Volume]]:
-        """Volumes by object, as PrusaSlicer and its relatives say."""
-        found: dict[str, list[Volume]] = {}
+        """Volumes by object in the settings of PrusaSlicer and its relatives."""
+        volumes: dict[str, list[Volume]] = {}
         for name in sorted(self.parts):
             if PRUSA_CONFIGS.fullmatch(name):
                 with told_broken(self.path, f"has a broken {excerpt(name)}", AGAIN):
-                    found = {**prusa_volumes(parsed_xml(self.package.read(self.parts[name]), self.path)), **found}
-        return found
+                    volumes = {**prusa_volumes(parsed_xml(self.package.read(self.parts[name]), self.path)), **volumes}
+        return volumes
 
     @cached_property
     def bambu(self) -> dict[str, dict[str, tuple[str, str]]]:
-        """Roles of parts by object, as Bambu Studio and OrcaSlicer say."""
+        """Roles of parts by object in the settings of Bambu Studio and OrcaSlicer."""
         if part_key(BAMBU_CONFIG) not in self.parts:
             return {}
         with told_broken(self.path, f"has a broken {BAMBU_CONFIG}", AGAIN):
             return bambu_parts(parsed_xml(unpacked(self.package, BAMBU_CONFIG), self.path))
 
     def told_role(self, chain: tuple[Key, ...]) -> tuple[str, str]:
-        """Return role and name of an object within what is built, as Bambu Studio and OrcaSlicer say.
+        """Return role and name of an object in the build by Bambu Studio and OrcaSlicer.
 
-        They write every object that is no part with the type "other", so of a negative volume the role counts.
+        They write every object except parts with the type "other", so for a negative volume the role counts.
         """
         (top_part, top), (_, number) = chain[0], chain[-1]
         return self.bambu.get(top, {}).get(number, (PART, "")) if top_part == self.main else (PART, "")
 
     def note(self, text: str) -> None:
+        """Add a note, once."""
         self.notes[text] = None
 
     def reference(self, element: ElementTree.Element, part: str) -> Key:
-        """Return the object that an item or a component refers to; the production extension has other files."""
+        """Return the object that an item or a component refers to; the production extension allows other files."""
         path = next((value for key, value in element.items() if key.endswith("}path")), None)
         return (part if path is None else part_key(path)), object_key(element.get("objectid"))
 
     def placed(self, key: Key, outer: Transform, above: tuple[Key, ...] = ()) -> Iterator[Placed]:
-        """Yield the volumes of an object and of its components, by depth."""
+        """Yield the volumes of an object and of its components, depth first."""
         part, number = key
         self.placements += 1
-        each, name = self.find(part, number), f"object {excerpt(number)}"
-        if each is None:
+        element, name = self.find(part, number), f"object {excerpt(number)}"
+        if element is None:
             raise FormatError(f"{self.path} refers to an {name} that it does not hold; {AGAIN}")
         if key in above:
             raise FormatError(f"{self.path} refers to an {name} that holds itself; {AGAIN}")
@@ -175,37 +177,37 @@ class _Reading:
         if self.placements > MOST_PLACED:
             raise FormatError(f"{self.path} places its objects more than {MOST_PLACED:,} times; {AGAIN}")
         model, chain = self.model(part), (*above, key)
-        own, unit = model.root.get("unit"), self.model(self.main).root.get("unit", "millimeter")
-        if own is not None and own != unit:  # programs differ in which of them counts
-            self.note(f"{excerpt(part)} is in {excerpt(own)}, and read in {unit}, as what is built says")
-        if (said := each.get("name")) and excerpt(said):
-            name = f"{name} '{excerpt(said)}'"
-        if not is_part_type(each.get("type")) and self.told_role(chain)[0] != NEGATIVE:
-            self.note(f"{name} is of type '{excerpt(each.get('type', ''))}', no part: it is left out")
+        model_unit, build_unit = model.root.get("unit"), self.model(self.main).root.get("unit", "millimeter")
+        if model_unit is not None and model_unit != build_unit:  # programs disagree on which of them counts
+            self.note(f"{excerpt(part)} is in {excerpt(model_unit)}, and read in {build_unit}, as what is built says")
+        if (element_name := element.get("name")) and excerpt(element_name):
+            name = f"{name} '{excerpt(element_name)}'"
+        if not is_part_type(element.get("type")) and self.told_role(chain)[0] != NEGATIVE:
+            self.note(f"{name} is of type '{excerpt(element.get('type', ''))}', no part: it is left out")
             return
-        if (role := cura_role(settings_of(each, model.core, model.spaces))) != PART:
+        if (role := cura_role(settings_of(element, model.core, model.spaces))) != PART:
             self.note(f"{name} is a {role}, no part: it is left out")
             return
-        self._note_extensions(model, each, name)
-        if model.mesh_of(each) is not None:
-            yield from self._volumes(model, each, name, chain, outer)
-        for component in model.below(each, "components/component"):
+        self._note_extensions(model, element, name)
+        if model.mesh_of(element) is not None:
+            yield from self._volumes(model, element, name, chain, outer)
+        for component in model.below(element, "components/component"):
             inner = _transform(component.get("transform", IDENTITY))
-            yield from self.placed(self.reference(component, part), _joined(inner, outer), chain)
+            yield from self.placed(self.reference(component, part), _compose(inner, outer), chain)
 
     def _volumes(
-        self, model: Model, each: ElementTree.Element, name: str, chain: tuple[Key, ...], outer: Transform
+        self, model: Model, item: ElementTree.Element, name: str, chain: tuple[Key, ...], outer: Transform
     ) -> Iterator[Placed]:
         """Yield the volumes of the mesh of an object."""
         part, number = chain[-1]
-        element, mesh = model.mesh_of(each) or (each, None)
+        element, mesh = model.mesh_of(item) or (item, None)
         assert mesh is not None
         if mesh.fault:
             raise FormatError(f"{self.path} has {mesh.fault}; {AGAIN}")
-        self._count(len(mesh.faces) + len(mesh.vertices))
-        role, said = self.told_role(chain)
-        if said and excerpt(said):
-            name = f"object {excerpt(number)} '{excerpt(said)}'"
+        self._count_rows(len(mesh.faces) + len(mesh.vertices))
+        role, role_name = self.told_role(chain)
+        if role_name and excerpt(role_name):
+            name = f"object {excerpt(number)} '{excerpt(role_name)}'"
         if role not in (PART, NEGATIVE):
             self.note(f"{name} is a {role}, no part: it is left out")
             return
@@ -221,76 +223,76 @@ class _Reading:
             return
         covered = np.zeros(len(faces), dtype=bool)
         for volume in ranges:
-            span = volume.span(len(faces))
-            if span is None:
+            triangle_range = volume.span(len(faces))
+            if triangle_range is None:
                 raise FormatError(
                     f"{self.path} has a volume of triangles {excerpt(volume.first)} to {excerpt(volume.last)} of "
                     f"{name}, which has {len(faces):,} from 0 on; {AGAIN}"
                 )
-            covered[slice(*span)] = True
-            self._count(span[1] - span[0])
-            called = f"volume '{excerpt(volume.name)}'" if excerpt(volume.name) else "a volume"
-            called = f"{called} of {name}"
+            covered[slice(*triangle_range)] = True
+            self._count_rows(triangle_range[1] - triangle_range[0])
+            label = f"volume '{excerpt(volume.name)}'" if excerpt(volume.name) else "a volume"
+            label = f"{label} of {name}"
             if volume.role in (PART, NEGATIVE):
-                used, corners = np.unique(faces[slice(*span)], return_inverse=True)
-                surface = Surface(vertices=vertices[used], faces=corners.reshape(-1, 3))
-                yield Placed(surface=surface, role=volume.role, name=called, scope=scope)
+                vertex_indices, corners = np.unique(faces[slice(*triangle_range)], return_inverse=True)
+                surface = Surface(vertices=vertices[vertex_indices], faces=corners.reshape(-1, 3))
+                yield Placed(surface=surface, role=volume.role, name=label, scope=scope)
             else:
-                self.note(f"{called} is a {volume.role}, no part: it is left out")
+                self.note(f"{label} is a {volume.role}, no part: it is left out")
         if not covered.all():
             self.note(f"{int((~covered).sum()):,} triangle(s) of {name} are in none of its volumes: they are left out")
 
-    def _count(self, rows: int) -> None:
+    def _count_rows(self, rows: int) -> None:
         """Count triangles and vertices that are placed, or raise FormatError."""
         self.rows += rows
         if self.rows > MOST_PLACED_ROWS:
             raise FormatError(f"{self.path} places more than {MOST_PLACED_ROWS:,} triangles and vertices; {AGAIN}")
 
-    def _note_extensions(self, model: Model, each: ElementTree.Element, name: str) -> None:
-        """Note what describes the shape of an object in a way that is not read."""
-        found = model.mesh_of(each)
-        for element in (each, *(() if found is None else (found[0],))):
+    def _note_extensions(self, model: Model, item: ElementTree.Element, name: str) -> None:
+        """Add a note on each extension that describes the shape of an object and is not read."""
+        mesh_element = model.mesh_of(item)
+        for element in (item, *(() if mesh_element is None else (mesh_element[0],))):
             for namespace, _ in model.foreign(element):
                 if not is_harmless(namespace):
                     self.note(f"{name} has {name_of(namespace)}, which are not read: they are left out")
-        if any(key.endswith("}meshresolution") and value == "lowres" for key, value in each.items()):
+        if any(key.endswith("}meshresolution") and value == "lowres" for key, value in item.items()):
             self.note(f"{name} has a mesh of low resolution beside its slices, which are left out")
 
     def without_negatives(self, volumes: Sequence[Placed]) -> Iterator[Surface]:
-        """Yield the parts of what is built, without the negative volumes that come after them."""
-        negatives = [number for number, each in enumerate(volumes) if each.role == NEGATIVE]
+        """Yield the parts of the build, minus the negative volumes that follow them."""
+        negatives = [number for number, volume in enumerate(volumes) if volume.role == NEGATIVE]
         if not negatives:
-            yield from (each.surface for each in volumes)
+            yield from (volume.surface for volume in volumes)
             return
-        low, high = zip(*(each.surface.bounds for each in volumes), strict=True)
-        used = set()
+        low, high = zip(*(volume.surface.bounds for volume in volumes), strict=True)
+        used_cutters = set()
         for number, part in enumerate(volumes):
             if part.role != PART:
                 continue
             cutters = [
-                other
-                for other in negatives
-                if other > number
-                and volumes[other].scope in (0, part.scope)
-                and (low[other] < high[number]).all()
-                and (low[number] < high[other]).all()
+                cutter
+                for cutter in negatives
+                if cutter > number
+                and volumes[cutter].scope in (0, part.scope)
+                and (low[cutter] < high[number]).all()
+                and (low[number] < high[cutter]).all()
             ]
-            used.update(cutters)
+            used_cutters.update(cutters)
             if not cutters:
                 yield part.surface
                 continue
-            done = without(_outward(part.surface), [_outward(volumes[other].surface) for other in cutters])
-            if done is None:
+            remainder = without(_outward(part.surface), [_outward(volumes[cutter].surface) for cutter in cutters])
+            if remainder is None:
                 raise FormatError(
                     f"{self.path} takes the negative {volumes[cutters[0]].name} off {part.name}, and one of them is "
                     "not closed; mend them in the slicer, or export the part as an STL without it"
                 )
-            if len(done.faces):
-                yield done
-        for number, each in enumerate(volumes):
-            if each.role == NEGATIVE:
-                what = "it is taken off" if number in used else "it meets no part before it"
-                self.note(f"{each.name} is a negative volume: {what}")
+            if len(remainder.faces):
+                yield remainder
+        for number, volume in enumerate(volumes):
+            if volume.role == NEGATIVE:
+                outcome = "it is taken off" if number in used_cutters else "it meets no part before it"
+                self.note(f"{volume.name} is a negative volume: {outcome}")
 
 
 def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tuple[str, ...]]:
@@ -308,7 +310,7 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
     vertices : (V, 3) float, mm
     faces : (F, 3) int
     notes : tuple of str
-        What is left out, or taken off.
+        Omissions and subtracted volumes.
 
     Raises
     ------
@@ -341,39 +343,39 @@ def read_3mf(path: Path) -> tuple[NDArray[np.floating], NDArray[np.integer], tup
                     f"{path} holds no part: {'; '.join(notes[:3])}; make it a part in the slicer, or export an STL"
                 )
             return np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), ()
-        starts = np.cumsum([0, *(len(each.vertices) for each in surfaces[:-1])])
-        vertices = np.concatenate([each.vertices for each in surfaces]) * UNITS[unit]
-        faces = np.concatenate([each.faces + start for each, start in zip(surfaces, starts, strict=True)])
+        starts = np.cumsum([0, *(len(surface.vertices) for surface in surfaces[:-1])])
+        vertices = np.concatenate([surface.vertices for surface in surfaces]) * UNITS[unit]
+        faces = np.concatenate([surface.faces + start for surface, start in zip(surfaces, starts, strict=True)])
     return vertices, faces, notes
 
 
 def _outward(surface: Surface) -> Surface:
-    """Return a volume that faces outwards, as slicers turn those that do not."""
-    found = closed_or_merged(surface.vertices, surface.faces)
-    return found if found.volume >= 0 else replace(found, faces=found.faces[:, ::-1])
+    """Return a volume that faces outwards; slicers reverse inverted volumes in the same way."""
+    closed = closed_or_merged(surface.vertices, surface.faces)
+    return closed if closed.volume >= 0 else replace(closed, faces=closed.faces[:, ::-1])
 
 
 def start_part(package: zipfile.ZipFile) -> str:
-    """Return the part that the package says to start with, or an empty string."""
+    """Return the file name of the model that the package declares as its start, or an empty string."""
     if part_key(RELATIONS) not in parts_of_package(package):
         return ""
     relations = parsed_xml(unpacked(package, RELATIONS))
-    targets = [each.get("Target", "") for each in relations if each.get("Type", "").endswith("/3dmodel")]
+    targets = [relation.get("Target", "") for relation in relations if relation.get("Type", "").endswith("/3dmodel")]
     return part_key(targets[0]) if targets else ""
 
 
 def _transform(text: str) -> Transform:
-    """Return the 4 x 3 matrix of a 3MF transform: points are rows, multiplied from the left."""
-    return _within(np.array([float(number) for number in text.split()]).reshape(4, 3))
+    """Parse the 4 x 3 matrix of a transform: points are rows, multiplied from the left."""
+    return _require_finite(np.array([float(number) for number in text.split()]).reshape(4, 3))
 
 
-def _joined(inner: Transform, outer: Transform) -> Transform:
-    """Return the transform that places by an inner one and then by an outer one."""
-    return _within(np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]]))
+def _compose(inner: Transform, outer: Transform) -> Transform:
+    """Return the transform that applies an inner one and then an outer one."""
+    return _require_finite(np.concatenate([inner[:3] @ outer[:3], inner[3:] @ outer[:3] + outer[3]]))
 
 
-def _within(transform: Transform) -> Transform:
-    """Return a transform, or raise ValueError unless its numbers are finite and of a size that products stay so."""
+def _require_finite(transform: Transform) -> Transform:
+    """Return a transform, or raise ValueError if its numbers are not finite or so large that products overflow."""
     if not (np.abs(transform) <= FARTHEST).all():  # NaN is neither
         raise ValueError(f"a transform has numbers beyond {FARTHEST:g}")
     return transform

@@ -1,7 +1,7 @@
-"""What is a part in a 3MF and what is not: types of objects, and the settings in which slicers say it.
+"""Roles of volumes in a 3MF by object types and the settings of slicers: which are parts and which are not.
 
 PrusaSlicer, SuperSlicer     ranges of triangles in Metadata/Slic3r_PE_model.config, by object
-Bambu Studio, OrcaSlicer     components of what is built, in Metadata/model_settings.config
+Bambu Studio, OrcaSlicer     components of the build, in Metadata/model_settings.config
 Slic3r                       ranges of triangles beside the mesh
 Cura                         settings of objects
 """
@@ -40,12 +40,12 @@ LONGEST_ID = 18  # digits of a number of an object
 
 @dataclass(frozen=True, kw_only=True)
 class Volume:
-    """Triangles of a mesh that have a role.
+    """A range of triangles of a mesh with a role.
 
     Parameters
     ----------
     first, last : str
-        As the file has them: from 0 on, both included.
+        As in the file: counted from 0, both inclusive.
     role : str
     name : str
     """
@@ -56,17 +56,17 @@ class Volume:
     name: str
 
     def span(self, count: int) -> tuple[int, int] | None:
-        """Return the first triangle and that behind the last; None if a mesh of so many has no such triangles.
+        """Return the first triangle and the one behind the last; None if a mesh with `count` triangles lacks them.
 
         >>> Volume(first="0", last="11", role="part", name="").span(12)
         (0, 12)
         """
-        first, last = whole_number(self.first), whole_number(self.last)
-        return (first, last + 1) if 0 <= first <= last < count else None
+        first_index, last_index = whole_number(self.first), whole_number(self.last)
+        return (first_index, last_index + 1) if 0 <= first_index <= last_index < count else None
 
 
 def whole_number(text: str | None) -> int:
-    """Return the number of a text of digits, or -1.
+    """Convert a text of digits to a number; return -1 for other texts.
 
     >>> whole_number("12"), whole_number("-3"), whole_number("9" * 5000)
     (12, -1, -1)
@@ -76,23 +76,23 @@ def whole_number(text: str | None) -> int:
 
 
 def object_key(text: str | None) -> str:
-    """Return by what number an object is known: 01 is 1.
+    """Return the normalised number of an object: 01 becomes 1.
 
     >>> object_key(" 01"), object_key("a")
     ('1', 'a')
     """
-    plain = (text or "").strip()
-    number = whole_number(plain)
-    return plain if number < 0 else str(number)
+    stripped = (text or "").strip()
+    number = whole_number(stripped)
+    return stripped if number < 0 else str(number)
 
 
 def rows_of(element: ElementTree.Element) -> dict[str, str]:
-    """Return the rows of a file of settings, by key."""
-    return {each.get("key", ""): each.get("value", "") for each in element.findall("metadata")}
+    """Return the entries of a settings file, by key."""
+    return {entry.get("key", ""): entry.get("value", "") for entry in element.findall("metadata")}
 
 
 def prusa_role(volume: ElementTree.Element) -> str:
-    """Return the role of a volume as PrusaSlicer reads it: the last row that says one counts.
+    """Return the role of a volume as PrusaSlicer reads it: the last entry with a role counts.
 
     >>> prusa_role(ElementTree.fromstring('<volume><metadata key="modifier" value="1"/></volume>'))
     'modifier'
@@ -102,57 +102,57 @@ def prusa_role(volume: ElementTree.Element) -> str:
         key, value = row.get("key"), row.get("value", "")
         if key == "modifier" and value == "1":
             role = PRUSA_ROLES["ParameterModifier"]
-        elif key == "volume_type":  # "1" is how the first versions said it; what is unknown is a part
+        elif key == "volume_type":  # first versions wrote "1"; an unknown value is a part
             role = PRUSA_ROLES["ParameterModifier"] if value == "1" else PRUSA_ROLES.get(value, PART)
     return role
 
 
 def prusa_volumes(config: ElementTree.Element) -> dict[str, list[Volume]]:
-    """Return the volumes of objects by their numbers; raise ValueError if it tells of one object twice."""
-    found: dict[str, list[Volume]] = {}
-    for each in config.findall("object"):
-        key = object_key(each.get("id"))
-        if key in found:
+    """Return the volumes of objects by object number; raise ValueError if an object occurs twice."""
+    volumes_of: dict[str, list[Volume]] = {}
+    for item in config.findall("object"):
+        key = object_key(item.get("id"))
+        if key in volumes_of:
             raise ValueError(f"it tells of object {key} twice")
-        found[key] = [
+        volumes_of[key] = [
             Volume(
                 first=volume.get("firstid", ""),
                 last=volume.get("lastid", ""),
                 role=prusa_role(volume),
                 name=rows_of(volume).get("name", ""),
             )
-            for volume in each.findall("volume")
+            for volume in item.findall("volume")
         ]
-    return found
+    return volumes_of
 
 
 def slic3r_volumes(mesh: ElementTree.Element) -> list[Volume]:
-    """Return the volumes of a mesh that Slic3r wrote."""
+    """Return the volumes that Slic3r added to a mesh."""
     return [
         Volume(
-            first=each.get("ts", ""),
-            last=each.get("te", ""),
-            role=PRUSA_ROLES["ParameterModifier"] if each.get("modifier") == "1" else PART,
+            first=volume.get("ts", ""),
+            last=volume.get("te", ""),
+            role=PRUSA_ROLES["ParameterModifier"] if volume.get("modifier") == "1" else PART,
             name="",
         )
         for volumes in mesh
         if volumes.tag.endswith("}volumes") and "slic3r.org" in volumes.tag
-        for each in volumes
-        if each.tag.endswith("}volume")
+        for volume in volumes
+        if volume.tag.endswith("}volume")
     ]
 
 
 def bambu_parts(config: ElementTree.Element) -> dict[str, dict[str, tuple[str, str]]]:
-    """Return role and name of the parts of what is built, by the numbers of both."""
+    """Return role and name of the parts of the build, by object and part number."""
     return {
-        object_key(each.get("id")): {
+        object_key(item.get("id")): {
             object_key(part.get("id")): (
                 BAMBU_ROLES.get(part.get("subtype", "normal_part"), PART),
                 rows_of(part).get("name", ""),
             )
-            for part in each.findall("part")
+            for part in item.findall("part")
         }
-        for each in config.findall("object")
+        for item in config.findall("object")
     }
 
 
@@ -165,27 +165,28 @@ def cura_role(settings: Mapping[str, str]) -> str:
 
 
 def settings_of(element: ElementTree.Element, core: str, spaces: Mapping[str, str]) -> dict[str, str]:
-    """Return the settings of an object by full name: ``{namespace}key``, or ``prefix:key`` if nobody declares it."""
-    found = {}
+    """Return the settings of an object by ``{namespace}key``, or ``prefix:key`` for an undeclared prefix."""
+    settings = {}
     for name, value in _named_values(element, core):
         prefix, _, key = name.rpartition(":")
-        found[f"{{{spaces[prefix]}}}{key}" if prefix and prefix in spaces else name] = value
-    return found
+        settings[f"{{{spaces[prefix]}}}{key}" if prefix and prefix in spaces else name] = value
+    return settings
 
 
 def _named_values(element: ElementTree.Element, core: str) -> Iterator[tuple[str, str]]:
-    for each in element.iterfind(f"{core}metadatagroup/{core}metadata"):
-        yield each.get("name", ""), each.text or ""
-    inside = f"{{{CURA_NAMESPACE}}}"
-    for each in element.iterfind(f"{inside}settings/{inside}setting"):  # as the first versions had it
-        yield f"cura:{each.get('key', '')}", each.text or ""
+    """Yield the names and values of the settings of an object."""
+    for entry in element.iterfind(f"{core}metadatagroup/{core}metadata"):
+        yield entry.get("name", ""), entry.text or ""
+    namespace = f"{{{CURA_NAMESPACE}}}"
+    for entry in element.iterfind(f"{namespace}settings/{namespace}setting"):  # of the first versions
+        yield f"cura:{entry.get('key', '')}", entry.text or ""
 
 
 def is_part_type(kind: str | None) -> bool:
-    """Return whether objects of a type are parts: "model" and none; the others are supports, surfaces and aids."""
+    """Tell whether an object type is a part: "model" or missing; others are supports, surfaces and aids."""
     return (kind or "model").strip().lower() == "model"
 
 
 def is_unprinted(printable: str | None) -> bool:
-    """Return whether an item of the build is not to be printed, as slicers say it."""
+    """Tell whether slicers exclude an item of the build from printing."""
     return (printable or "").strip().lower() in ("0", "false")

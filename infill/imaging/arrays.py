@@ -17,62 +17,65 @@ from infill.imaging.packed import NOTHING, PADDING
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-PLACE = {"spacing", "spacing_zyx_mm", "origin", "direction", "space"}  # what an .npz may hold besides its values
+PLACE = {"spacing", "spacing_zyx_mm", "origin", "direction", "space"}  # optional members of an .npz besides its values
 
 
 def read_npy(path: Path) -> Volume:
-    """Return an array [x, y, z], memory-mapped rather than loaded."""
+    """Memory-map an array [x, y, z]."""
     with told_broken(path):
         values = npy_format.open_memmap(path, mode="r")
-        more = path.stat().st_size - values.offset - values.nbytes
-        if more > PADDING:
-            raise FormatError(f"{path} holds {more} bytes more than its header announces; save one array in it")
+        surplus = path.stat().st_size - values.offset - values.nbytes
+        if surplus > PADDING:
+            raise FormatError(f"{path} holds {surplus} bytes more than its header announces; save one array in it")
         with path.open("rb") as file:
-            file.seek(-more, os.SEEK_END)
-            if file.read(more).strip(NOTHING):
-                raise FormatError(f"{path} holds {more} bytes more than its header announces; save one array in it")
+            file.seek(-surplus, os.SEEK_END)
+            if file.read(surplus).strip(NOTHING):
+                raise FormatError(f"{path} holds {surplus} bytes more than its header announces; save one array in it")
     return checked_volume(path, values)
 
 
 def read_npz(path: Path, name: str | None = None) -> Volume:
-    """Return the only array with three axes, or the one with the given name, placed in space if the file says where."""
+    """Read the only array with three axes, or the named one, with its place in space if the file has one."""
     with told_broken(path), zipfile.ZipFile(path) as archive:
         members = {member.filename.removesuffix(".npy"): member for member in archive.infolist()}
         volumes = [key for key, member in members.items() if _axes(archive, member) >= AXES and key not in PLACE]
         if name is not None and name not in members:
             raise FormatError(f"{path} holds no array {name!r}; it holds {', '.join(members) or 'none'}")
         if name is None and len(volumes) != 1:
-            found = f"{len(volumes)} arrays with three axes ({', '.join(volumes)})" if volumes else "no volume"
+            content = f"{len(volumes)} arrays with three axes ({', '.join(volumes)})" if volumes else "no volume"
             advice = f"choose one: --array {volumes[0]}" if volumes else "save an array [x, y, z]"
-            raise FormatError(f"{path} holds {found}; {advice}")
-        values = _member(archive, members[name or volumes[0]])
-        place = {key: _member(archive, members[key]) for key in PLACE & set(members)}
+            raise FormatError(f"{path} holds {content}; {advice}")
+        values = _read_member(archive, members[name or volumes[0]])
+        place = {key: _read_member(archive, members[key]) for key in PLACE & set(members)}
     if {"spacing", "spacing_zyx_mm"} <= set(place):
         raise FormatError(f"{path} holds both spacing and spacing_zyx_mm; keep the one in the order of the axes")
-    known: dict[str, Any] = {}
+    placement: dict[str, Any] = {}
     if "spacing_zyx_mm" in place:
-        known["spacing"] = tuple(_numbers(path, "spacing_zyx_mm", place["spacing_zyx_mm"], (AXES,))[::-1].tolist())
+        placement["spacing"] = tuple(
+            _check_numbers(path, "spacing_zyx_mm", place["spacing_zyx_mm"], (AXES,))[::-1].tolist()
+        )
         values = values.T
     elif "spacing" in place:
-        each = place["spacing"]
-        known["spacing"] = _numbers(path, "spacing", each, (AXES,) if each.ndim else ()).tolist()
+        spacing = place["spacing"]
+        placement["spacing"] = _check_numbers(path, "spacing", spacing, (AXES,) if spacing.ndim else ()).tolist()
     if "origin" in place:
-        known["origin"] = tuple(_numbers(path, "origin", place["origin"], (AXES,)).tolist())
+        placement["origin"] = tuple(_check_numbers(path, "origin", place["origin"], (AXES,)).tolist())
     if "direction" in place:
-        known["direction"] = _numbers(path, "direction", place["direction"], (AXES, AXES))
+        placement["direction"] = _check_numbers(path, "direction", place["direction"], (AXES, AXES))
     if "space" in place:
-        known["space"] = str(place["space"])
-    return checked_volume(path, values, **known)
+        placement["space"] = str(place["space"])
+    return checked_volume(path, values, **placement)
 
 
-def _numbers(path: Path, name: str, values: NDArray[Any], shape: tuple[int, ...]) -> NDArray[np.float64]:
+def _check_numbers(path: Path, name: str, values: NDArray[Any], shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Check the shape of an array of numbers and return it as float64."""
     if values.dtype.kind not in "iuf" or values.shape != shape:
         raise FormatError(f"{path} has a {name} of shape {values.shape} {values.dtype}; save {shape} numbers")
     return values.astype(np.float64)
 
 
 def _axes(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> int:
-    """Return how many axes an array has, from its header alone."""
+    """Return the number of axes of an array, from its header alone."""
     if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
         raise ValueError(f"{member.filename} is packed in an unusual way")
     with archive.open(member) as file:
@@ -81,17 +84,18 @@ def _axes(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> int:
         return len(header(file)[0])
 
 
-def _member(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> NDArray[Any]:
+def _read_member(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> NDArray[Any]:
+    """Read one array of an archive, and check that nothing follows it."""
     require_memory(member.file_size, None, SMALLER)
     with archive.open(member) as file:
         values = np.asarray(npy_format.read_array(file, allow_pickle=False))  # objects could run code
-        if file.read(1):  # and the checksum is compared where the end is reached
+        if file.read(1):  # zipfile compares the checksum at the end
             raise ValueError(f"{member.filename} holds more than its header announces")
     return values
 
 
 def write_npz(volume: Volume, file: BinaryIO) -> None:
-    """Write a compressed .npz: the values, and where they lie; `origin` is the lower corner of the first cell."""
+    """Write a compressed .npz of the values and their place; `origin` is the lower corner of the first cell."""
     np.savez_compressed(
         file,
         values=volume.values,

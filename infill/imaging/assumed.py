@@ -1,4 +1,4 @@
-"""What a reader of volumes had to assume: told at once, and kept for the report."""
+"""Assumptions of volume readers: logged at once, and collected for the report."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from contextvars import ContextVar
 
 LOG = logging.getLogger("infill")
-_KEPT: ContextVar[list[str] | None] = ContextVar("kept", default=None)
+_COLLECTED: ContextVar[list[str] | None] = ContextVar("kept", default=None)
 
 
 def warn(text: str, *values: object) -> None:
-    """Log a warning, and keep it for the volume that is being read.
+    """Log a warning and collect it for the volume that is being read.
 
     Parameters
     ----------
@@ -21,28 +21,28 @@ def warn(text: str, *values: object) -> None:
     *values : object
     """
     LOG.warning(text, *values)
-    kept = _KEPT.get()
-    if kept is not None:
-        kept.append(text % values if values else text)
+    collected = _COLLECTED.get()
+    if collected is not None:
+        collected.append(text % values if values else text)
 
 
 @contextlib.contextmanager
 def keep_warnings() -> Iterator[list[str]]:
-    """Keep what `warn` is told meanwhile.
+    """Collect the warnings of `warn` within a `with` block.
 
     Yields
     ------
     list of str
-        Which grows.
+        The warnings so far; the list grows.
 
-    >>> with keep_warnings() as kept:
+    >>> with keep_warnings() as collected:
     ...     warn("%s has no unit", "a.nii")
-    >>> kept
+    >>> collected
     ['a.nii has no unit']
     """
-    kept: list[str] = []
-    token = _KEPT.set(kept)
+    collected: list[str] = []
+    token = _COLLECTED.set(collected)
     try:
-        yield kept
+        yield collected
     finally:
-        _KEPT.reset(token)
+        _COLLECTED.reset(token)

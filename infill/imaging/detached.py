@@ -1,4 +1,4 @@
-"""Cells that lie behind a header, or in files beside it: one file or a list, each with an equal share of the cells."""
+"""Cells behind a header or in files beside it: a single file, or a list of files with equal shares of the cells."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ class Part:
     begin : int
         Where the data begin, bytes.
     lines : int
-        How many lines to skip from there.
+        Number of lines to skip from there.
     skip : int
-        How many bytes to skip then; of packed data, once they are unpacked.
+        Number of bytes to skip then; for packed data, after unpacking.
     from_end : bool
-        Whether the cells are the last bytes of the file, whatever stands before them.
+        Whether the cells are the last bytes of the file, regardless of the bytes before them.
     packed_bytes : int, optional
-        How many packed bytes there are; all to the end of the file if left out.
+        Number of packed bytes; all to the end of the file if left out.
     """
 
     path: Path
@@ -53,35 +53,35 @@ class Part:
 
 
 def find_detached(header: Path, name: str) -> Path:
-    """Return the file of a name that a header gives; it lies beside the header, unless the name leads elsewhere."""
-    given = name.strip()
-    # Written on Windows, it may lead through folders of that computer.
-    for each in (given, given.replace("\\", "/"), re.split(r"[\\/]", given)[-1]):
-        if each and "\0" not in each and (found := header.parent / each).is_file():
-            return found
-    raise FormatError(f"{header} keeps its cells in {given[:200]!r}, which is not there; put that file beside it")
+    """Find the data file that a header names: beside the header, unless the name has a folder."""
+    stripped = name.strip()
+    # A name written on Windows may contain folders of that computer.
+    for candidate in (stripped, stripped.replace("\\", "/"), re.split(r"[\\/]", stripped)[-1]):
+        if candidate and "\0" not in candidate and (path := header.parent / candidate).is_file():
+            return path
+    raise FormatError(f"{header} keeps its cells in {stripped[:200]!r}, which is not there; put that file beside it")
 
 
 def number_names(header: Path, pattern: str, low: int, high: int, step: int) -> list[str]:
-    """Return the names that a pattern such as `slice%03d.raw` stands for, from one number to another.
+    """Return the names that a pattern such as `slice%03d.raw` produces for a range of numbers.
 
     >>> number_names(Path("a.nhdr"), "a%02d.raw", 1, 5, 2)
     ['a01.raw', 'a03.raw', 'a05.raw']
     """
-    found = PATTERN.fullmatch(pattern)
+    match = PATTERN.fullmatch(pattern)
     numbers = range(low, high + (1 if step > 0 else -1), step) if step else range(0)
-    if found is None or not 0 < len(numbers) <= MOST_FILES:
+    if match is None or not 0 < len(numbers) <= MOST_FILES:
         raise FormatError(
             f"{header} names its files by {pattern[:80]!r} from {low} to {high} by {step}; list 1 to {MOST_FILES} files"
         )
-    before, width, after = found.groups()
-    return [f"{before}{number:{width or '0'}d}{after}" for number in numbers]
+    prefix, width, suffix = match.groups()
+    return [f"{prefix}{number:{width or '0'}d}{suffix}" for number in numbers]
 
 
 def read_parts(
     header: Path, parts: Sequence[Part], kind: np.dtype[Any], total: int, low: int, high: int, *, encoding: str
 ) -> NDArray[Any]:
-    """Read cells from `low` to before `high` of the `total` that a file announces, and check all of them.
+    """Read cells `low` to `high - 1` of the `total` that a header announces, and check that the files hold them all.
 
     Parameters
     ----------
@@ -96,92 +96,93 @@ def read_parts(
     Raises
     ------
     FormatError
-        If there are fewer or more than announced, or they are damaged.
+        If the files hold fewer or more cells, or damaged ones.
     MemoryLimitError
-        If there is no room for them.
+        If the cells need too much memory.
     """
-    each, rest = divmod(total, len(parts))
-    if rest:
+    share, remainder = divmod(total, len(parts))
+    if remainder:
         raise FormatError(
             f"{header} keeps {total} cells in {len(parts)} files, which cannot be equal shares; check its sizes"
         )
     require_memory((high - low) * kind.itemsize * (1 if len(parts) == 1 else 2), None, SMALLER)
-    found = []
+    pieces = []
     for number, part in enumerate(parts):
-        begin, end = np.clip((low - number * each, high - number * each), 0, each).tolist()
-        found.append(_read_part(header, part, kind, each, begin, end, encoding))
-    return found[0] if len(found) == 1 else np.concatenate(found)
+        begin, end = np.clip((low - number * share, high - number * share), 0, share).tolist()
+        pieces.append(_read_part(header, part, kind, share, begin, end, encoding))
+    return pieces[0] if len(pieces) == 1 else np.concatenate(pieces)
 
 
 def _read_part(
     header: Path, part: Part, kind: np.dtype[Any], total: int, low: int, high: int, encoding: str
 ) -> NDArray[Any]:
+    """Read cells `low` to `high - 1` of one file."""
     size = kind.itemsize
-    # A file beside its header is told along with it.
-    said = str(header) if part.path == header else f"{header}, with its cells in {part.path.name},"
+    # Messages name the header and the file beside it.
+    source = str(header) if part.path == header else f"{header}, with its cells in {part.path.name},"
     with part.path.open("rb") as file:
         file.seek(part.begin)
         for _ in range(part.lines):
             if not file.readline(LONGEST_LINE):
-                raise FormatError(f"{said} ends within the {part.lines} lines to skip; check its header")
+                raise FormatError(f"{source} ends within the {part.lines} lines to skip; check its header")
         if encoding == "text":
             file.seek(part.skip, os.SEEK_CUR)
-            return _read_text(said, file, kind, total)[low:high]
+            return _read_text(source, file, kind, total)[low:high]
         if encoding == "hex":
-            return np.frombuffer(_read_hex(said, file, total * size), dtype=kind)[low:high]
+            return np.frombuffer(_read_hex(source, file, total * size), dtype=kind)[low:high]
         packed = encoding in PACKINGS
         if part.from_end:
-            held = os.fstat(file.fileno()).st_size - file.tell()
-            if held < total * size:
-                raise cut_off(said, held, total * size)
-            if held > total * size:
+            available = os.fstat(file.fileno()).st_size - file.tell()
+            if available < total * size:
+                raise cut_off(source, available, total * size)
+            if available > total * size:
                 warn(
                     "%s holds %d bytes more than its header announces; the last %d are taken for the cells, since what "
                     "stands before them is said to be of any size (-1)",
-                    said,
-                    held - total * size,
+                    source,
+                    available - total * size,
                     total * size,
                 )
             file.seek(-total * size, os.SEEK_END)
         elif not packed:
             file.seek(part.skip, os.SEEK_CUR)
-        before = part.skip if packed else 0
+        lead = part.skip if packed else 0
         cells = read_bytes(
-            said,
+            source,
             file,
             (high - low) * size,
             packing=encoding if packed else "",
             packed_bytes=part.packed_bytes,
-            skip=before + low * size,
-            total=before + total * size,
+            skip=lead + low * size,
+            total=lead + total * size,
         )
     return cells.view(kind)
 
 
-def _read_text(said: str, file: BinaryIO, kind: np.dtype[Any], count: int) -> NDArray[Any]:
-    """Return exactly so many numbers, with any white space, commas too, between them."""
+def _read_text(source: str, file: BinaryIO, kind: np.dtype[Any], count: int) -> NDArray[Any]:
+    """Read exactly `count` numbers, separated by white space or commas."""
     if os.fstat(file.fileno()).st_size - file.tell() < 2 * count - 1:
-        raise cut_off(said, os.fstat(file.fileno()).st_size - file.tell(), 2 * count - 1, "characters")
+        raise cut_off(source, os.fstat(file.fileno()).st_size - file.tell(), 2 * count - 1, "characters")
     require_memory(TEXT_BYTES * (min(AT_ONCE, count) + count), None, SMALLER)
-    found: list[NDArray[Any]] = []
-    held = 0
-    while held <= count and (lines := file.readlines(AT_ONCE)):
-        found.append(numbers_in(b"".join(lines).replace(b",", b" ").split(), kind))
-        held += len(found[-1])
-    if held < count:
-        raise cut_off(said, held, count, "numbers")
-    if held > count:
-        raise FormatError(f"{said} holds more numbers than the {count} that its header announces; check its sizes")
-    return np.concatenate(found)
+    pieces: list[NDArray[Any]] = []
+    count_read = 0
+    while count_read <= count and (lines := file.readlines(AT_ONCE)):
+        pieces.append(numbers_in(b"".join(lines).replace(b",", b" ").split(), kind))
+        count_read += len(pieces[-1])
+    if count_read < count:
+        raise cut_off(source, count_read, count, "numbers")
+    if count_read > count:
+        raise FormatError(f"{source} holds more numbers than the {count} that its header announces; check its sizes")
+    return np.concatenate(pieces)
 
 
-def _read_hex(said: str, file: BinaryIO, count: int) -> bytes:
-    """Return bytes written as two digits each, with any white space between them."""
-    left = os.fstat(file.fileno()).st_size - file.tell()
-    if left < 2 * count:
-        raise cut_off(said, left // 2, count)
-    require_memory(left + 2 * count, None, SMALLER)
-    held = bytes.fromhex(file.read().translate(None, NOTHING).decode("ascii", "replace"))
-    if len(held) != count:
-        raise FormatError(f"{said} holds {len(held)} bytes, and its header announces {count}; check its sizes")
-    return held
+def _read_hex(source: str, file: BinaryIO, count: int) -> bytes:
+    """Read bytes written as two digits each, separated by any white space."""
+    remaining = os.fstat(file.fileno()).st_size - file.tell()
+    if remaining < 2 * count:
+        raise cut_off(source, remaining // 2, count)
+    require_memory(remaining + 2 * count, None, SMALLER)
+    content = bytes.fromhex(file.read().translate(None, NOTHING).decode("ascii", "replace"))
+    if len(content) != count:
+        raise FormatError(f"{source} holds {len(content)} bytes, and its header announces {count}; check its sizes")
+    return content

@@ -1,4 +1,4 @@
-"""DICOM: a file of several frames, or a folder of files, as a volume or as segments; places decide, not the order."""
+"""DICOM: a file of several frames, or a folder of files, as a volume or as segments, ordered by position."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Source:
     Parameters
     ----------
     path : Path
-        The file or the folder that was given, for messages.
+        The file or the folder, for messages.
     images : tuple of Image
     """
 
@@ -40,7 +40,7 @@ class Source:
 
     @property
     def is_segmentation(self) -> bool:
-        """Whether all files are segmentations."""
+        """True if all files are segmentations."""
         return all(image.segments is not None for image in self.images)
 
 
@@ -51,68 +51,69 @@ def read_dicom(
     series: str | None = None,
     spacing: tuple[float, ...] | None = None,
 ) -> Volume:
-    """Return the volume that a file or a series in a folder holds, or one of several.
+    """Read the volume of a file or of a series in a folder, or one of several volumes.
 
     Parameters
     ----------
     path : Path
     frame : int, optional
-        Which of several volumes, counted from 0.
+        Index of the volume, counted from 0, if there are several.
     series : str, optional
         UID of the series, if a folder holds several.
     spacing : (hx, hy, hz), optional
-        Size of a cell, mm, for files that say none.
+        Cell size, mm, for files that do not state it.
 
     Raises
     ------
     FormatError, MemoryLimitError, ParameterError
         See `infill.read_volume`.
     """
-    source = _source(path, series)
+    source = _read_source(path, series)
     if source.is_segmentation:
         return _with_warnings(*segment_volume(path, source.images, frame))
-    frames, warnings = _placed(source, spacing)
-    if len(frames) == 1 or (all(each.count == 1 for each in source.images) and len(source.images) == 1):
+    frames, warnings = _frames_of_source(source, spacing)
+    if len(frames) == 1 or (all(image.count == 1 for image in source.images) and len(source.images) == 1):
         rows, columns = frames[0].shape
         raise FormatError(
             f"{path} is a single slice, {columns} x {rows} x 1 cells; give the folder of all slices, or a volume"
         )
-    found = stacks_of(path, frames)
-    sizes = sorted({len(stack.frames) for stack in found.stacks})
+    volumes = stacks_of(path, frames)
+    sizes = sorted({len(stack.frames) for stack in volumes.stacks})
     counts = f"{sizes[0]}" if len(sizes) == 1 else f"{sizes[0]} to {sizes[-1]}"
-    what = f"holds {len(found.stacks)} volumes of {counts} slices, told apart by {found.apart}"
-    at = chosen(path, frame, len(found.stacks), what=what)
-    if found.apart in (STORED_ORDER, FILES):
-        warnings = (*warnings, f"{path}: frame {at} is told from the others by {found.apart}")
-    stack = found.stacks[at]
+    what = f"holds {len(volumes.stacks)} volumes of {counts} slices, told apart by {volumes.apart}"
+    chosen_index = chosen(path, frame, len(volumes.stacks), what=what)
+    if volumes.apart in (STORED_ORDER, FILES):
+        warnings = (*warnings, f"{path}: frame {chosen_index} is told from the others by {volumes.apart}")
+    stack = volumes.stacks[chosen_index]
     numbers = values_of(source.images, stack.frames)
-    volume = checked_volume(path, numbers.values.T, **_place(stack))
+    volume = checked_volume(path, numbers.values.T, **_placement(stack))
     return _with_warnings(volume, (*warnings, *numbers.warnings))
 
 
 def read_dicom_segments(
     path: Path, *, series: str | None = None
 ) -> tuple[tuple[Volume, ...], tuple[Segment, ...]] | None:
-    """Return the layers of a segmentation and its segments; None if the file or the series is none."""
-    source = _source(path, series)
+    """Read the layers and segments of a segmentation; return None for other files and series."""
+    source = _read_source(path, series)
     if not source.is_segmentation:
         return None
     layers, segments, warnings = segment_layers(path, source.images)
-    return tuple(_with_warnings(layer, warnings, again=k > 0) for k, layer in enumerate(layers)), segments
+    return tuple(_with_warnings(layer, warnings, logged=k > 0) for k, layer in enumerate(layers)), segments
 
 
-def _with_warnings(volume: Volume, warnings: Sequence[str], *, again: bool = False) -> Volume:
-    """Log warnings, and return a volume that carries them to the report."""
-    told = tuple(warnings[:MOST_WARNINGS])
+def _with_warnings(volume: Volume, warnings: Sequence[str], *, logged: bool = False) -> Volume:
+    """Log warnings and return a volume that carries them to the report."""
+    shown = tuple(warnings[:MOST_WARNINGS])
     if len(warnings) > MOST_WARNINGS:
-        told = (*told, f"and {len(warnings) - MOST_WARNINGS} more warnings like these")
-    if not again:
-        for line in told:
+        shown = (*shown, f"and {len(warnings) - MOST_WARNINGS} more warnings like these")
+    if not logged:
+        for line in shown:
             LOG.warning("%s", line)
-    return replace(volume, warnings=told)
+    return replace(volume, warnings=shown)
 
 
-def _place(stack: Stack) -> dict[str, Any]:
+def _placement(stack: Stack) -> dict[str, Any]:
+    """Return the position of a stack as keywords of `Volume`."""
     return {
         "spacing": stack.spacing,
         "origin": stack.origin,
@@ -121,17 +122,17 @@ def _place(stack: Stack) -> dict[str, Any]:
     }
 
 
-def _placed(source: Source, spacing: tuple[float, ...] | None) -> tuple[list[Frame], tuple[str, ...]]:
-    """Return the frames of all files with their places, and what had to be assumed."""
+def _frames_of_source(source: Source, spacing: tuple[float, ...] | None) -> tuple[list[Frame], tuple[str, ...]]:
+    """Return the frames of all files with their positions, and warnings about assumptions."""
     frames: list[Frame] = []
     warnings: list[str] = []
-    single = len(source.images) > 1 and all(image.count == 1 for image in source.images)
+    is_slices = len(source.images) > 1 and all(image.count == 1 for image in source.images)
     for image in source.images:
         require_grey(image)
-        found, said = placed_frames(image, spacing)
-        frames += found
-        warnings += said
-    if single and any(frame.position is None or frame.axes is None for frame in frames):
+        placed, assumptions = placed_frames(image, spacing)
+        frames += placed
+        warnings += assumptions
+    if is_slices and any(frame.position is None or frame.axes is None for frame in frames):
         raise FormatError(f"{source.path} holds slices that do not say where they lie; save the stack as a volume")
     return frames, tuple(warnings)
 
@@ -139,7 +140,8 @@ def _placed(source: Source, spacing: tuple[float, ...] | None) -> tuple[list[Fra
 # --- which files -----------------------------------------------------------------------------------------------
 
 
-def _source(path: Path, series: str | None) -> Source:
+def _read_source(path: Path, series: str | None) -> Source:
+    """Read the headers of a file, or of one series in a folder."""
     if not path.is_dir():
         require_pydicom(path.suffix or "DICOM")
         image = read_image(path)
@@ -147,48 +149,51 @@ def _source(path: Path, series: str | None) -> Source:
             raise FormatError(f"{path} holds no pixels; give a file of several slices, or the folder of all slices")
         return Source(path=path, images=(image,))
     require_pydicom("a DICOM folder")
-    found = _series(path)
-    if not found:
+    series_images = _series_of_folder(path)
+    if not series_images:
         raise FormatError(f"{path} holds no DICOM series and no .tif or .png slices; give the folder with the slices")
-    counts = {uid: sum(image.count for image in images) for uid, images in found.items()}
+    counts = {uid: sum(image.count for image in images) for uid, images in series_images.items()}
     listed = ", ".join(f"{uid} ({count} slices)" for uid, count in counts.items())
-    if series is None and len(found) > 1:
-        raise FormatError(f"{path} holds {len(found)} DICOM series, {listed}; choose one: --series {next(iter(found))}")
-    if series is not None and series not in found:
+    if series is None and len(series_images) > 1:
+        raise FormatError(
+            f"{path} holds {len(series_images)} DICOM series, {listed}; "
+            f"choose one: --series {next(iter(series_images))}"
+        )
+    if series is not None and series not in series_images:
         raise FormatError(f"{path} holds no DICOM series {series!r}; it holds {listed}")
-    images = found[next(iter(found)) if series is None else series]
+    images = series_images[next(iter(series_images)) if series is None else series]
     return Source(path=path, images=tuple(sorted(images, key=lambda image: (image.order, image.path.name))))
 
 
-def _series(folder: Path) -> dict[str, list[Image]]:
+def _series_of_folder(folder: Path) -> dict[str, list[Image]]:
     """Return the images in a folder by the UID of their series.
 
-    Reports, plans and other objects without pixels may lie beside them. A file that cannot be read and is of the same
-    kind as others is one of the slices: without it, a part of the volume would be missing.
+    Reports, plans and other objects without pixels may lie beside them. An unreadable file of the same storage class
+    as the images is an error: it is a slice, and without it a part of the volume would be missing.
     """
-    found: dict[str, list[Image]] = {}
+    images_of: dict[str, list[Image]] = {}
     failed: dict[Path, FormatError | None] = {}
-    for path in sorted(each for each in folder.iterdir() if each.is_file()):
+    for path in sorted(entry for entry in folder.iterdir() if entry.is_file()):
         try:
-            image = _slice(path)
+            image = _read_slice(path)
         except FormatError as error:
             failed[path] = error
             continue
         if image is None:
             failed[path] = None
         else:
-            found.setdefault(image.series, []).append(image)
-    kinds = {storage_class(image.path) for images in found.values() for image in images} - {b""}
-    for path, reason in failed.items():
-        if storage_class(path) in kinds:
+            images_of.setdefault(image.series, []).append(image)
+    storage_classes = {storage_class(image.path) for images in images_of.values() for image in images} - {b""}
+    for path, cause in failed.items():
+        if storage_class(path) in storage_classes:
             raise FormatError(
                 f"{path} is broken or cut off, and its slice would be missing; copy the folder again"
-            ) from reason
-    return dict(sorted(found.items()))
+            ) from cause
+    return dict(sorted(images_of.items()))
 
 
-def _slice(path: Path) -> Image | None:
-    """Return the image in a file of a folder; None for anything else, which may lie there too."""
+def _read_slice(path: Path) -> Image | None:
+    """Return the image in a file of a folder, or None for other files, which may lie there too."""
     if is_dicom(path):
         return read_image(path)
     try:  # some programs leave out the preamble
@@ -198,15 +203,17 @@ def _slice(path: Path) -> Image | None:
     return image if image is not None and image.storage.startswith(UID_ROOT) else None
 
 
-UID_ROOT = "1.2.840.10008."  # of what DICOM itself names
+UID_ROOT = "1.2.840.10008."  # of the UIDs that DICOM defines
 
 
 def storage_class(path: Path) -> bytes:
-    """Return the UID that says what a DICOM file holds, such as CT slices or a report; empty for other files."""
+    """Return the UID of the kind of a DICOM file, such as CT slices or a report; empty for other files."""
     with path.open("rb") as file:
         head = file.read(HEAD)
-    at = head.find(STORAGE_CLASS)
-    if head[128:132] != b"DICM" or at < 0:
+    tag_position = head.find(STORAGE_CLASS)
+    if head[128:132] != b"DICM" or tag_position < 0:
         return b""
-    begin = at + len(STORAGE_CLASS) + 2
-    return head[begin : begin + int.from_bytes(head[begin - 2 : begin], "little")].rstrip(b"\0")
+    value_position = tag_position + len(STORAGE_CLASS) + 2
+    return head[
+        value_position : value_position + int.from_bytes(head[value_position - 2 : value_position], "little")
+    ].rstrip(b"\0")

@@ -1,4 +1,4 @@
-"""What the header of a DICOM file says of its frames, by pydicom (extra `medical`), and where its pixels are.
+"""Headers of DICOM files by pydicom (extra `medical`): places of frames, segments, and the storage of pixels.
 
     functional groups   of each frame or all: Plane Position, Plane Orientation, Pixel Measures, Pixel Value
                         Transformation
@@ -6,8 +6,8 @@
                         Between Slices of nuclear medicine
     Segment Sequence    numbers, names and colours of the segments
 
-Nothing here looks at pixels. Source: DICOM PS3.3, C.7.6.16 (functional groups), C.8.20 (segmentations), C.8.8.3 (dose),
-C.8.4.15 (nuclear medicine).
+Only the last three functions read pixels. Source: DICOM PS3.3, C.7.6.16 (functional groups), C.8.20 (segmentations),
+C.8.8.3 (dose), C.8.4.15 (nuclear medicine).
 """
 
 from __future__ import annotations
@@ -36,19 +36,19 @@ if TYPE_CHECKING:
     from pydicom.dataset import Dataset
 
 PREAMBLE, MAGIC = 128, b"DICM"
-GROUP_LENGTH = 12  # bytes of the element that says how long the rest of the meta information is
+GROUP_LENGTH = 12  # bytes of the element that states the length of the other meta information
 SEGMENTATION, LABEL_MAP = "1.2.840.10008.5.1.4.1.1.66.4", "1.2.840.10008.5.1.4.1.1.66.7"
-PLAIN_STORAGE = "1.2.840.10008.5.1.4.1.1.7.3"  # a multi-frame secondary capture, which says nothing but pixels
+PLAIN_STORAGE = "1.2.840.10008.5.1.4.1.1.7.3"  # a multi-frame secondary capture, which holds only pixels
 DEFLATED, EXPLICIT_LITTLE = "1.2.840.10008.1.2.1.99", "1.2.840.10008.1.2.1"
 PIXEL_TAGS = {0x7FE00008: "f4", 0x7FE00009: "f8", 0x7FE00010: ""}
 LONG_HEADS = {"OB", "OD", "OF", "OL", "OV", "OW", "UN", "SQ", "UC", "UR", "UT", "SV", "UV"}
 UNDEFINED = 0xFFFFFFFF
 MOST_FRAMES = 2**20  # in one file
-TURN = 1e-3  # how far directions of frames may differ and still be the same: files keep few digits
+TURN = 1e-3  # tolerance for directions of frames: files keep few digits
 NEAR = 0.01  # mm: likewise for places
 MOST_DEEP = 4  # sequences within those of a frame
-# Of what a frame may be a frame, in the order in which they are tried to tell volumes at one place apart. Those of the
-# first group say so even where all frames together would lie evenly.
+# Marks that distinguish volumes at the same place, in the order in which they are tried. Those of the first group count
+# even where all frames together would lie in even steps.
 VOLUME_MARKS = (
     "StackID",
     "TemporalPositionIndex",
@@ -88,9 +88,9 @@ OTHER_MARKS = (
 )
 MARKS = frozenset((*VOLUME_MARKS, *OTHER_MARKS))
 VECTORS = ("TimeSlotVector", "PhaseVector", "EnergyWindowVector", "DetectorVector", "RRIntervalVector")
-PROJECTIONS = ("RotationVector", "AngularViewVector")  # what a camera saw from around, not slices
+PROJECTIONS = ("RotationVector", "AngularViewVector")  # views of a camera from around, not slices
 MOMENTS = {0x00181063: "FrameTime", 0x00181065: "FrameTimeVector"}
-# Dimensions that say where a frame lies in its volume.
+# Dimensions that give the position of a frame in its volume.
 IN_SPACE = {
     "ImagePositionPatient",
     "ImagePositionVolume",
@@ -106,28 +106,28 @@ Mark = tuple[float | str, ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Frame:
-    """One frame of a file: where it lies, and of what it is a frame.
+    """One frame of a file: its place, and marks of the volume to which it belongs.
 
     Parameters
     ----------
     path : Path
     number : int
-        In its file, counted from 0.
+        Index in its file, counted from 0.
     shape : (rows, columns)
     position : (x, y, z), optional
         Centre of the first pixel, mm.
     axes : 6 floats, optional
         Direction along a row, and down a column.
     pixel : (down, along), optional
-        Distance of rows, and of columns, mm.
+        Distance of rows, and distance of columns, mm.
     between, thickness : float, optional
-        Distance of frames, and their thickness, mm, as stated.
+        Stated distance and thickness of frames, mm.
     slope, intercept : float
-        What makes values of the numbers that are stored.
+        Scale from stored numbers to values.
     marks : mapping of str to tuple
-        What tells its volume from others at the same place, such as an echo time.
+        Marks that distinguish volumes at the same place, such as an echo time.
     segment : int, optional
-        Number of the segment that it is a slice of.
+        Number of its segment.
     space : str
         "LPS" in the space of the patient, else empty.
     """
@@ -149,22 +149,22 @@ class Frame:
 
 @dataclass(frozen=True, kw_only=True)
 class Pixels:
-    """How the numbers of a file are stored.
+    """Storage of the numbers of a file.
 
     Parameters
     ----------
     begin, length : int
-        Where they are, bytes; the length is None for frames that are packed one by one.
+        Their position and length, bytes; the length is None for frames that are compressed one by one.
     real : str
         "f4" or "f8" for floating-point numbers, else empty.
     allocated, stored, high : int
-        Bits of a cell, bits that are used, and the highest of those.
+        Bits of a cell, used bits, and the highest used bit.
     signed, little, words : bool
         Whether numbers may be negative, have their low byte first, and were written as 16-bit words.
     deflated : bool
-        Whether all of the file is packed.
+        Whether the file is compressed as a whole.
     syntax : str
-        UID of how it is written.
+        UID of the transfer syntax.
     """
 
     begin: int
@@ -182,13 +182,13 @@ class Pixels:
 
 @dataclass(frozen=True, kw_only=True)
 class Segments:
-    """What a segmentation says of its segments.
+    """Segments of a segmentation.
 
     Parameters
     ----------
     kind : {"BINARY", "FRACTIONAL", "LABELMAP"}
     highest : int
-        What is stored for a cell that lies wholly in a segment, if fractions are.
+        Stored number of a cell that lies completely in a segment, for fractions.
     known : tuple of Segment
         Numbers, names and colours.
     """
@@ -200,31 +200,31 @@ class Segments:
 
 @dataclass(frozen=True, kw_only=True)
 class Image:
-    """What the header of a file says.
+    """The header of a file.
 
     Parameters
     ----------
     path : Path
     storage : str
-        UID of what it is, such as CT slices.
+        UID of the storage class, such as CT slices.
     series : str
     count : int
-        How many frames it holds.
+        Number of frames.
     photometric : str
-        What a number means: MONOCHROME2, RGB, ...
+        Meaning of the numbers: MONOCHROME2, RGB, ...
     frames : tuple of Frame
-        None for colours.
+        Empty for colours.
     pixels : Pixels
     order : (str, int, int)
-        Sorts the files of a series.
+        Sort key of the files of a series.
     unplaced : str
-        Why no place is stated for the frames; empty if one is.
+        Reason why the frames have no place; empty if they have.
     stacked : bool
-        Whether frames without a place may be taken to lie behind each other in the order of the file.
+        Whether frames without a place may lie behind each other in the order of the file.
     start : (x, y, z), optional
-        Where the first of those lies.
+        Position of the first of those.
     padding : (low, high), optional
-        Stored numbers that stand for no pixel.
+        Stored numbers that mark missing pixels.
     table : (first, values), optional
         Modality LUT: the values of the stored numbers from `first` on.
     segments : Segments, optional
@@ -255,20 +255,20 @@ def require_pydicom(what: str) -> None:
 
 
 def is_dicom(path: Path) -> bool:
-    """Return whether a file begins as DICOM files do."""
+    """Tell whether a file begins with the mark of DICOM."""
     with path.open("rb") as file:
         return file.read(PREAMBLE + len(MAGIC))[PREAMBLE:] == MAGIC
 
 
 def read_image(path: Path) -> Image | None:
-    """Return what the header of a DICOM file says; None if it holds no pixels, as a report or a plan.
+    """Read the header of a DICOM file; return None for files without pixels, such as reports or plans.
 
     Raises
     ------
     FormatError
         If the file is broken, cut off or not DICOM.
     """
-    with _complaints(path):
+    with _wrap_pydicom_errors(path):
         header, pixels = _header(path)
         if pixels is None or header.get("Rows") is None:
             return None
@@ -276,31 +276,31 @@ def read_image(path: Path) -> Image | None:
 
 
 @contextlib.contextmanager
-def _complaints(path: Path) -> Iterator[None]:
-    """Turn what pydicom complains of in a file into an error of ours."""
+def _wrap_pydicom_errors(path: Path) -> Iterator[None]:
+    """Turn an exception of pydicom about a file into a FormatError."""
     from pydicom.errors import BytesLengthException, InvalidDicomError
 
     try:
-        # What it warns of are elements that do not matter here: those that do are checked.
+        # Its warnings concern elements that do not matter here: those that matter are checked.
         with warnings.catch_warnings(), told_broken(path, "is broken or cut off", "copy or save it again"):
             warnings.simplefilter("ignore")
             yield
     except (BytesLengthException, InvalidDicomError, OSError) as error:
-        if isinstance(error, OSError) and error.errno is not None:  # of the file system, not of what is in the file
+        if isinstance(error, OSError) and error.errno is not None:  # of the file system, not of the content
             raise
         raise FormatError(f"{path} is broken or not DICOM ({one_line(error)}); copy or save it again") from error
 
 
 def _header(path: Path) -> tuple[Dataset, Pixels | None]:
-    """Return the elements before the pixels, and where those are."""
+    """Return the elements before the pixels, and the storage of the pixels."""
     from pydicom.filereader import read_dataset, read_partial
     from pydicom.uid import ImplicitVRLittleEndian
 
-    found: list[tuple[int, str | None, int]] = []
+    pixel_elements: list[tuple[int, str | None, int]] = []
 
     def at_pixels(tag: int, vr: str | None, length: int) -> bool:
         if tag in PIXEL_TAGS:
-            found.append((int(tag), vr, length))
+            pixel_elements.append((int(tag), vr, length))
         return tag in PIXEL_TAGS
 
     with path.open("rb") as plain:
@@ -308,7 +308,7 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
         file: BinaryIO = plain
         deflated = syntax == DEFLATED
         if deflated:
-            file = io.BytesIO(_inflated(path))
+            file = io.BytesIO(_inflate(path))
             header: Dataset = read_dataset(file, is_implicit_VR=False, is_little_endian=True, stop_when=at_pixels)
             implicit, little = False, True
         else:
@@ -317,22 +317,22 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
             little = header.original_encoding[1] is not False
             syntax = str(header.file_meta.get("TransferSyntaxUID", ""))
             implicit = implicit or syntax == ImplicitVRLittleEndian
-        if not found:
+        if not pixel_elements:
             return header, None
-        tag, vr, length = found[-1]
+        tag, vr, length = pixel_elements[-1]
         begin = file.tell() + (8 if implicit or vr not in LONG_HEADS else 12)
-        held = file.seek(0, os.SEEK_END) - begin
+        available = file.seek(0, os.SEEK_END) - begin
     real = PIXEL_TAGS[tag]
-    allocated = _whole(header, "BitsAllocated", 16) if not real else 8 * int(real[1])
-    stored = _whole(header, "BitsStored", allocated) if not real else allocated
+    allocated = _whole_number(header, "BitsAllocated", 16) if not real else 8 * int(real[1])
+    stored = _whole_number(header, "BitsStored", allocated) if not real else allocated
     return header, Pixels(
         begin=begin,
-        length=None if length == UNDEFINED else min(length, held),
+        length=None if length == UNDEFINED else min(length, available),
         real=real,
         allocated=allocated,
         stored=stored,
-        high=_whole(header, "HighBit", stored - 1) if not real else allocated - 1,
-        signed=_whole(header, "PixelRepresentation", 0) == 1,
+        high=_whole_number(header, "HighBit", stored - 1) if not real else allocated - 1,
+        signed=_whole_number(header, "PixelRepresentation", 0) == 1,
         little=little,
         words=vr != "OB",
         deflated=deflated,
@@ -341,21 +341,21 @@ def _header(path: Path) -> tuple[Dataset, Pixels | None]:
 
 
 def _syntax(path: Path) -> str:
-    """Return the UID of how a file is written; empty if it does not say."""
+    """Return the UID of the transfer syntax of a file; empty if it states none."""
     from pydicom.filereader import read_file_meta_info
 
     return str(read_file_meta_info(path).get("TransferSyntaxUID", "")) if is_dicom(path) else ""
 
 
-def _inflated(path: Path) -> bytes:
-    """Return the elements of a file that is packed as a whole."""
-    held = path.read_bytes()
+def _inflate(path: Path) -> bytes:
+    """Decompress the elements of a deflated file."""
+    content = path.read_bytes()
     begin = PREAMBLE + len(MAGIC)
-    begin += GROUP_LENGTH + int.from_bytes(held[begin + 8 : begin + GROUP_LENGTH], "little")
+    begin += GROUP_LENGTH + int.from_bytes(content[begin + 8 : begin + GROUP_LENGTH], "little")
     unpacker = zlib.decompressobj(-zlib.MAX_WBITS)
     free = available_memory()
     allowed = 2**34 if free is None else free // 4
-    unpacked = unpacker.decompress(held[begin:], allowed)
+    unpacked = unpacker.decompress(content[begin:], allowed)
     if len(unpacked) >= allowed:
         require_memory(5 * allowed, None, SMALLER)
     return unpacked
@@ -364,13 +364,14 @@ def _inflated(path: Path) -> bytes:
 # --- single elements -------------------------------------------------------------------------------------------
 
 
-def _whole(header: Dataset, name: str, otherwise: int) -> int:
-    """Return a whole number, or another one if the element is missing or empty."""
+def _whole_number(header: Dataset, name: str, otherwise: int) -> int:
+    """Return a whole number, or `otherwise` if the element is missing or empty."""
     value = header.get(name)
     return otherwise if value is None or value == "" else _integer(name, value)
 
 
 def _integer(name: str, value: Any) -> int:  # noqa: ANN401 - what pydicom makes of an element
+    """Convert a value of pydicom to int, or raise ValueError."""
     try:
         return int(value)
     except (TypeError, ValueError, OverflowError) as error:
@@ -384,21 +385,22 @@ def _numbers(header: Dataset | None, name: str, count: int | None = None) -> tup
         return None
     words = [value] if isinstance(value, str | int | float) else value
     try:
-        numbers = tuple(float(each) for each in words)
+        numbers = tuple(float(word) for word in words)
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{name} is {printable(value)!r}") from error
-    if (count is not None and len(numbers) != count) or not all(math.isfinite(each) for each in numbers):
+    if (count is not None and len(numbers) != count) or not all(math.isfinite(number) for number in numbers):
         raise ValueError(f"{name} is {printable(value)!r}")
     return numbers
 
 
 def _number(header: Dataset | None, name: str) -> float | None:
-    found = _numbers(header, name, 1)
-    return None if found is None else found[0]
+    """Return the finite number of an element; None if it is missing or empty."""
+    numbers = _numbers(header, name, 1)
+    return None if numbers is None else numbers[0]
 
 
 def _items(header: Dataset | None, name: str) -> list[Dataset]:
-    """Return the items of a sequence, none if it is missing."""
+    """Return the items of a sequence; an empty list if it is missing."""
     from pydicom.sequence import Sequence
 
     value = None if header is None else header.get(name)
@@ -409,36 +411,38 @@ def _items(header: Dataset | None, name: str) -> list[Dataset]:
     return list(value)
 
 
-def _first(header: Dataset | None, name: str) -> Dataset | None:
+def _first_item(header: Dataset | None, name: str) -> Dataset | None:
+    """Return the first item of a sequence, or None."""
     items = _items(header, name)
     return items[0] if items else None
 
 
 def printable(value: object) -> str:
-    r"""Return a text on one line, without what a terminal would obey, cut if it is long.
+    r"""Return a text on one line, without control characters, truncated if it is long.
 
     >>> printable("a\x1b[31m  b")
     'a[31m b'
     """
     words = " ".join(str(value).split())
-    seen = "".join(each for each in words if not unicodedata.category(each).startswith("C"))
-    return seen if len(seen) <= 64 else f"{seen[:64]}…"
+    visible = "".join(character for character in words if not unicodedata.category(character).startswith("C"))
+    return visible if len(visible) <= 64 else f"{visible[:64]}…"
 
 
-def _mark(value: Any) -> Mark:  # noqa: ANN401 - what pydicom makes of an element
-    """Return a value that can be compared and sorted."""
+def _mark_of(value: Any) -> Mark:  # noqa: ANN401 - what pydicom makes of an element
+    """Convert a value to a tuple that can be compared and sorted."""
     words = [value] if isinstance(value, str | int | float) or not hasattr(value, "__iter__") else list(value)
-    return tuple(float(each) if isinstance(each, int | float) else printable(each) for each in words)
+    return tuple(float(word) if isinstance(word, int | float) else printable(word) for word in words)
 
 
 # --- the whole header ------------------------------------------------------------------------------------------
 
 
 def _image(path: Path, header: Dataset, pixels: Pixels) -> Image:
+    """Collect the header of a file with pixels."""
     storage = printable(header.get("SOPClassUID", ""))
-    rows, columns = _whole(header, "Rows", 0), _whole(header, "Columns", 0)
-    samples = _whole(header, "SamplesPerPixel", 1)
-    count = _whole(header, "NumberOfFrames", 1)
+    rows, columns = _whole_number(header, "Rows", 0), _whole_number(header, "Columns", 0)
+    samples = _whole_number(header, "SamplesPerPixel", 1)
+    count = _whole_number(header, "NumberOfFrames", 1)
     if rows < 1 or columns < 1 or count < 1 or samples < 1:
         raise ValueError(f"{count} frames of {columns} x {rows} pixels")
     photometric = printable(header.get("PhotometricInterpretation", ""))
@@ -452,8 +456,8 @@ def _image(path: Path, header: Dataset, pixels: Pixels) -> Image:
         pixels=pixels,
         order=(
             printable(header.get("ConcatenationUID", "")),
-            _whole(header, "InConcatenationNumber", 0),
-            _whole(header, "InstanceNumber", 0),
+            _whole_number(header, "InConcatenationNumber", 0),
+            _whole_number(header, "InstanceNumber", 0),
         ),
     )
     if samples > 1 or (photometric == "PALETTE COLOR" and storage != LABEL_MAP):
@@ -466,16 +470,16 @@ def _image(path: Path, header: Dataset, pixels: Pixels) -> Image:
             "frames": frames,
             "unplaced": unplaced,
             "stacked": stacked,
-            "start": _start(header),
+            "start": _first_position(header),
             "padding": _padding(header, pixels),
-            "table": _table(header, pixels),
+            "table": _modality_table(header, pixels),
             "segments": _segments(header, storage),
         }
     )
 
 
 def _check_pixels(pixels: Pixels, count: int, cells: int) -> None:
-    """Raise ValueError if fewer numbers are there than the header says, or none as it says."""
+    """Raise ValueError if the bit depths are inconsistent, or the file holds fewer numbers than it announces."""
     if pixels.allocated not in (1, 8, 16, 32, 64) or not 1 <= pixels.stored <= pixels.high + 1 <= pixels.allocated:
         raise ValueError(f"{pixels.stored} bits up to bit {pixels.high} of {pixels.allocated}")
     if count > MOST_FRAMES:
@@ -486,49 +490,49 @@ def _check_pixels(pixels: Pixels, count: int, cells: int) -> None:
 
 
 def _frames(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> tuple[tuple[Frame, ...], str, bool]:
-    """Return the frames of a file, why no place is stated for them, and whether they lie in their order."""
-    each = _items(header, "PerFrameFunctionalGroupsSequence")
-    shared = _first(header, "SharedFunctionalGroupsSequence")
-    if each or shared is not None:
-        if each and len(each) != count:
-            raise ValueError(f"{count} frames, and {len(each)} are described")
+    """Return the frames of a file, the reason why they have no place, and whether their order is their place."""
+    per_frame = _items(header, "PerFrameFunctionalGroupsSequence")
+    shared = _first_item(header, "SharedFunctionalGroupsSequence")
+    if per_frame or shared is not None:
+        if per_frame and len(per_frame) != count:
+            raise ValueError(f"{count} frames, and {len(per_frame)} are described")
         dimensions = _dimensions(header)
         common: dict[str, Mark] = {}
         if shared is not None:
-            _collect(shared, common)
-        items: list[Dataset | None] = [*each] if each else [None] * count
+            _collect_marks(shared, common)
+        items: list[Dataset | None] = [*per_frame] if per_frame else [None] * count
         frames = tuple(
-            _grouped(path, header, shared, item, k, shape, dimensions, common) for k, item in enumerate(items)
+            _frame_of_groups(path, header, shared, item, k, shape, dimensions, common) for k, item in enumerate(items)
         )
     else:
-        frames = _ungrouped(path, header, count, shape)
+        frames = _frames_of_top_level(path, header, count, shape)
     if all(frame.position is not None for frame in frames):
         return frames, "", False
     if any(frame.position is not None for frame in frames):
         return frames, "does not say where some of its frames lie", False
     pointers = header.get("FrameIncrementPointer")
     pointed = [pointers] if isinstance(pointers, int) else list(pointers or ())
-    if any(tag in MOMENTS for tag in pointed) or _whole(header, "NumberOfTemporalPositions", 1) > 1:
+    if any(tag in MOMENTS for tag in pointed) or _whole_number(header, "NumberOfTemporalPositions", 1) > 1:
         return frames, "holds frames of moments, not of slices", False
     if any(header.get(name) is not None for name in PROJECTIONS):
         return frames, "holds frames of directions of a camera, not of slices", False
-    marked = {tuple(sorted(frame.marks.items())) for frame in frames}
-    return frames, "does not say where its frames lie", len(marked) == 1
+    mark_sets = {tuple(sorted(frame.marks.items())) for frame in frames}
+    return frames, "does not say where its frames lie", len(mark_sets) == 1
 
 
 def _dimensions(header: Dataset) -> list[str]:
-    """Return the names of the dimensions that frames are counted along; empty for those in space."""
+    """Return the names of the dimensions that index frames; empty strings for those in space."""
     from pydicom.datadict import keyword_for_tag
 
-    found = []
+    dimensions = []
     for number, item in enumerate(_items(header, "DimensionIndexSequence")):
         pointer, group = item.get("DimensionIndexPointer"), item.get("FunctionalGroupPointer")
         names = {keyword_for_tag(tag) for tag in (pointer, group) if isinstance(tag, int)}
-        found.append("" if names & IN_SPACE else keyword_for_tag(pointer or 0) or f"dimension {number + 1}")
-    return found
+        dimensions.append("" if names & IN_SPACE else keyword_for_tag(pointer or 0) or f"dimension {number + 1}")
+    return dimensions
 
 
-def _grouped(
+def _frame_of_groups(
     path: Path,
     header: Dataset,
     shared: Dataset | None,
@@ -538,11 +542,11 @@ def _grouped(
     dimensions: list[str],
     common: Mapping[str, Mark],
 ) -> Frame:
-    """Return a frame that functional groups describe, its own or those of all; `common` are the marks of all."""
+    """Build a frame from its own and shared functional groups; `common` are the marks of all frames."""
 
     def macro(name: str) -> Dataset | None:
-        found = _first(item, name)
-        return _first(shared, name) if found is None else found
+        own_item = _first_item(item, name)
+        return _first_item(shared, name) if own_item is None else own_item
 
     measures, values = macro("PixelMeasuresSequence"), macro("PixelValueTransformationSequence")
     place, plane = macro("PlanePositionSequence"), macro("PlaneOrientationSequence")
@@ -552,15 +556,15 @@ def _grouped(
         place, plane = macro("PlanePositionVolumeSequence"), macro("PlaneOrientationVolumeSequence")
         position, axes = _numbers(place, "ImagePositionVolume", 3), _numbers(plane, "ImageOrientationVolume", 6)
         space = "" if position is not None else space
-    if position is None and _whole(header, "NumberOfFrames", 1) == 1:
+    if position is None and _whole_number(header, "NumberOfFrames", 1) == 1:
         position = _numbers(header, "ImagePositionPatient", 3)
     marks: dict[str, Mark] = {}
     if item is not None:
-        _collect(item, marks)
-        index = _numbers(_first(item, "FrameContentSequence"), "DimensionIndexValues") or ()
-        for name, at in zip(dimensions, index, strict=False):
+        _collect_marks(item, marks)
+        index = _numbers(_first_item(item, "FrameContentSequence"), "DimensionIndexValues") or ()
+        for name, index_value in zip(dimensions, index, strict=False):
             if name:
-                marks.setdefault(name, (at,))
+                marks.setdefault(name, (index_value,))
     segment = _number(macro("SegmentIdentificationSequence"), "ReferencedSegmentNumber")
     slope, intercept = _scaling(header if values is None else values)
     return Frame(
@@ -580,39 +584,40 @@ def _grouped(
     )
 
 
-def _collect(item: Dataset, marks: dict[str, Mark], deep: int = 0) -> None:
-    """Add the marks of a frame, wherever among its groups they stand."""
+def _collect_marks(item: Dataset, marks: dict[str, Mark], deep: int = 0) -> None:
+    """Add the marks of a frame, at any depth of its groups."""
     for element in item:
         if element.VR == "SQ":
             if deep < MOST_DEEP:
                 for inner in element.value:
-                    _collect(inner, marks, deep + 1)
+                    _collect_marks(inner, marks, deep + 1)
         elif element.keyword in MARKS and element.value not in (None, ""):
-            marks.setdefault(element.keyword, _mark(element.value))
+            marks.setdefault(element.keyword, _mark_of(element.value))
 
 
 def _scaling(header: Dataset) -> tuple[float, float]:
+    """Return slope and intercept of the values."""
     slope, intercept = _number(header, "RescaleSlope"), _number(header, "RescaleIntercept")
     if slope == 0:
         raise ValueError("RescaleSlope is 0")
     return 1.0 if slope is None else slope, 0.0 if intercept is None else intercept
 
 
-def _ungrouped(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> tuple[Frame, ...]:
-    """Return frames that the top level describes: one alone, or several that lie behind each other."""
+def _frames_of_top_level(path: Path, header: Dataset, count: int, shape: tuple[int, int]) -> tuple[Frame, ...]:
+    """Build frames from the top level: a single one, or several that lie behind each other."""
     dose = _number(header, "DoseGridScaling")
     slope, intercept = _scaling(header) if dose is None else (dose, 0.0)
-    detector = _first(header, "DetectorInformationSequence")
+    detector = _first_item(header, "DetectorInformationSequence")
     axes = _numbers(header, "ImageOrientationPatient", 6) or _numbers(detector, "ImageOrientationPatient", 6)
-    position = _start(header)
+    position = _first_position(header)
     between = _number(header, "SpacingBetweenSlices")
     marks: dict[str, Mark] = {}
     if count == 1:
         for name in MARKS:
             value = header.get(name)
             if value not in (None, ""):
-                marks[name] = _mark(value)
-    first = Frame(
+                marks[name] = _mark_of(value)
+    single = Frame(
         path=path,
         number=0,
         shape=shape,
@@ -626,29 +631,29 @@ def _ungrouped(path: Path, header: Dataset, count: int, shape: tuple[int, int]) 
         marks=marks,
     )
     if count == 1:
-        return (first,)
-    along = _offsets(header, count, position, axes, between)
+        return (single,)
+    offsets = _offsets(header, count, position, axes, between)
     vectors = {name: _numbers(header, name, count) for name in VECTORS}
-    varied = {name: each for name, each in vectors.items() if each is not None and len(set(each)) > 1}
+    varying = {name: vector for name, vector in vectors.items() if vector is not None and len(set(vector)) > 1}
     normal = None if axes is None else np.cross(axes[:3], axes[3:])
     return tuple(
         Frame(
             **{
-                **vars(first),
+                **vars(single),
                 "number": k,
                 "position": None
-                if along is None or position is None or normal is None
-                else tuple((np.array(position) + along[k] * normal).tolist()),
-                "marks": {name: (each[k],) for name, each in varied.items()},
+                if offsets is None or position is None or normal is None
+                else tuple((np.array(position) + offsets[k] * normal).tolist()),
+                "marks": {name: (vector[k],) for name, vector in varying.items()},
             }
         )
         for k in range(count)
     )
 
 
-def _start(header: Dataset) -> tuple[float, ...] | None:
-    """Return where the first frame lies, if the top level says so, or the first detector."""
-    detector = _first(header, "DetectorInformationSequence")
+def _first_position(header: Dataset) -> tuple[float, ...] | None:
+    """Return the place of the first frame by the top level or the first detector, or None."""
+    detector = _first_item(header, "DetectorInformationSequence")
     return _numbers(header, "ImagePositionPatient", 3) or _numbers(detector, "ImagePositionPatient", 3)
 
 
@@ -659,23 +664,23 @@ def _offsets(
     axes: tuple[float, ...] | None,
     between: float | None,
 ) -> tuple[float, ...] | None:
-    """Return how far behind the first frame each lies, mm, for files that say so in a vector; else None."""
-    dose = _numbers(header, "GridFrameOffsetVector", count)
-    if dose is not None:
-        if dose[0] == 0 or position is None or axes is None:
-            return dose
-        # From the origin instead of from the first frame, which is allowed for frames across the z axis alone.
-        turned = axes[0] * axes[4] - axes[1] * axes[3]
-        across = abs(abs(turned) - 1) < TURN and abs(dose[0] - position[2]) < NEAR
-        return tuple((each - position[2]) * turned for each in dose) if across else None
+    """Return the distance of each frame behind the first, mm, by a vector in the file; else None."""
+    offsets = _numbers(header, "GridFrameOffsetVector", count)
+    if offsets is not None:
+        if offsets[0] == 0 or position is None or axes is None:
+            return offsets
+        # Offsets from the origin instead of from the first frame, which are allowed only for frames across the z axis.
+        z_component = axes[0] * axes[4] - axes[1] * axes[3]
+        is_axial = abs(abs(z_component) - 1) < TURN and abs(offsets[0] - position[2]) < NEAR
+        return tuple((offset - position[2]) * z_component for offset in offsets) if is_axial else None
     slices = _numbers(header, "SliceVector", count)
     if slices is not None and between:
-        return tuple((each - 1) * between for each in slices)
+        return tuple((number - 1) * between for number in slices)
     return None
 
 
 def _padding(header: Dataset, pixels: Pixels) -> tuple[float, float] | None:
-    """Return the range of stored numbers that stand for no pixel."""
+    """Return the range of stored numbers that mark missing pixels."""
     low = _stored_number(header, "PixelPaddingValue", pixels)
     if low is None:
         return None
@@ -684,7 +689,7 @@ def _padding(header: Dataset, pixels: Pixels) -> tuple[float, float] | None:
 
 
 def _stored_number(header: Dataset, name: str, pixels: Pixels) -> float | None:
-    """Return a number as the pixels hold it: the same bits are another number where those are signed."""
+    """Return a number as the pixels hold it: signed pixels read the same bits as another number."""
     value: Any = header.get(name)
     if value is None or value == "":
         return None
@@ -696,16 +701,16 @@ def _stored_number(header: Dataset, name: str, pixels: Pixels) -> float | None:
     return float(number if pixels.signed or number >= 0 else number + 2**pixels.allocated)
 
 
-def _table(header: Dataset, pixels: Pixels) -> tuple[int, NDArray[np.float64]] | None:
-    """Return the Modality LUT: first number that it maps, and the values of that one and those after it."""
-    item = _first(header, "ModalityLUTSequence")
+def _modality_table(header: Dataset, pixels: Pixels) -> tuple[int, NDArray[np.float64]] | None:
+    """Return the Modality LUT: the first number that it maps, and the values from that number on."""
+    item = _first_item(header, "ModalityLUTSequence")
     if item is None:
         return None
-    described = _numbers(item, "LUTDescriptor", 3)
+    descriptor = _numbers(item, "LUTDescriptor", 3)
     data: Any = item.get("LUTData")
-    if described is None or data is None:
+    if descriptor is None or data is None:
         raise ValueError("ModalityLUTSequence holds no table")
-    length, first, bits = (int(each) for each in described)
+    length, first_number, bits = (int(entry) for entry in descriptor)
     length = length if length > 0 else length + 2**16
     if isinstance(data, bytes):
         kind = "u1" if bits <= 8 and len(data) < 2 * length else "u2"
@@ -714,28 +719,31 @@ def _table(header: Dataset, pixels: Pixels) -> tuple[int, NDArray[np.float64]] |
         values = np.array(_numbers(item, "LUTData"))[:length]
     if len(values) < length:
         raise ValueError(f"ModalityLUTSequence holds {len(values)} of {length} values")
-    return first, values.astype(np.float64)
+    return first_number, values.astype(np.float64)
 
 
 # --- segments --------------------------------------------------------------------------------------------------
 
 
 def _segments(header: Dataset, storage: str) -> Segments | None:
+    """Return the segments of a segmentation; None for other files."""
     if storage not in (SEGMENTATION, LABEL_MAP):
         return None
     kind = printable(header.get("SegmentationType", "")) or "BINARY"
     kind = "LABELMAP" if storage == LABEL_MAP else kind
-    known = []
+    segments = []
     for item in _items(header, "SegmentSequence"):
-        number = _whole(item, "SegmentNumber", 0)
+        number = _whole_number(item, "SegmentNumber", 0)
         name = printable(item.get("SegmentLabel") or item.get("SegmentDescription") or "")
         colour = _numbers(item, "RecommendedDisplayCIELabValue", 3)
-        known.append(Segment(value=number, name=name, colour=None if colour is None else _srgb(colour)))
-    return Segments(kind=kind, highest=max(1, _whole(header, "MaximumFractionalValue", 255)), known=tuple(known))
+        segments.append(Segment(value=number, name=name, colour=None if colour is None else _srgb(colour)))
+    return Segments(
+        kind=kind, highest=max(1, _whole_number(header, "MaximumFractionalValue", 255)), known=tuple(segments)
+    )
 
 
 def _srgb(lab: tuple[float, ...]) -> Colour:
-    """Return a colour as red, green and blue from 0 to 1.
+    """Convert a stored CIELab colour to red, green and blue from 0 to 1.
 
     Notes
     -----
@@ -760,36 +768,35 @@ def _srgb(lab: tuple[float, ...]) -> Colour:
 
 
 def plain_bytes(image: Image) -> memoryview:
-    """Return the bytes of frames that are not packed one by one."""
+    """Read the bytes of frames that are not compressed one by one."""
     pixels = image.pixels
     assert pixels.length is not None
-    with _complaints(image.path):
+    with _wrap_pydicom_errors(image.path):
         if pixels.deflated:
-            return memoryview(_inflated(image.path))[pixels.begin : pixels.begin + pixels.length]
+            return memoryview(_inflate(image.path))[pixels.begin : pixels.begin + pixels.length]
         with image.path.open("rb") as file:
             file.seek(pixels.begin)
             return memoryview(file.read(pixels.length))
 
 
 def write_packed_frames(images: Sequence[Image], target: Path) -> None:
-    """Write the frames of files that are packed one by one, and alike, into a file that says nothing else of them.
+    """Write the compressed frames of similar files into one file without any further information.
 
-    So the values that a reader unpacks are those that are stored, in the order in which they are stored, and it is
-    called once for all slices of a folder.
+    So a reader decompresses the stored values in their order, and it is called once for all slices of a folder.
     """
     from pydicom import Dataset, dcmwrite
     from pydicom.dataset import FileMetaDataset
     from pydicom.encaps import encapsulate
 
-    first = images[0]
+    template = images[0]
     packed = [frame for image in images for frame in _packed_frames(image)]
-    plain, pixels = Dataset(), first.pixels
-    with _complaints(first.path):
+    plain, pixels = Dataset(), template.pixels
+    with _wrap_pydicom_errors(template.path):
         plain.file_meta = FileMetaDataset()
         plain.file_meta.TransferSyntaxUID = pixels.syntax  # type: ignore[assignment]
         plain.file_meta.MediaStorageSOPClassUID = plain.SOPClassUID = PLAIN_STORAGE  # type: ignore[assignment]
         plain.file_meta.MediaStorageSOPInstanceUID = plain.SOPInstanceUID = "2.25.1"  # type: ignore[assignment]
-        plain.Rows, plain.Columns = first.frames[0].shape
+        plain.Rows, plain.Columns = template.frames[0].shape
         plain.NumberOfFrames = len(packed)
         plain.SamplesPerPixel, plain.PhotometricInterpretation = 1, "MONOCHROME2"
         plain.BitsAllocated, plain.BitsStored, plain.HighBit = pixels.allocated, pixels.stored, pixels.high
@@ -801,9 +808,10 @@ def write_packed_frames(images: Sequence[Image], target: Path) -> None:
 
 
 def _packed_frames(image: Image) -> list[bytes]:
+    """Return the compressed frames of a file."""
     from pydicom.encaps import generate_frames
 
-    with _complaints(image.path), image.path.open("rb") as file:
+    with _wrap_pydicom_errors(image.path), image.path.open("rb") as file:
         file.seek(image.pixels.begin)
         packed = list(generate_frames(file, number_of_frames=image.count))
         if len(packed) != image.count:

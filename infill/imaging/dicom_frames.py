@@ -1,7 +1,7 @@
-"""Which frames of DICOM files make a volume together, and where it lies: their places decide, not their order.
+"""Volumes of DICOM frames: stacks in even steps, found by the places of the frames and not by their order.
 
-Frames make a volume if they lie behind each other in even steps, within UNEVEN of a step, along the normal of all of
-them. Where several lie at one place, what else the files say of each, such as an echo time, tells volumes apart.
+Frames make a volume if they lie behind each other in even steps, within UNEVEN of a step, along their common normal.
+Where several lie at one place, other marks in the files, such as an echo time, distinguish the volumes.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from infill.errors import FormatError
 from infill.imaging.dicom_files import OTHER_MARKS, TURN, VOLUME_MARKS, Frame, Image, Mark
 from infill.volume import AXES
 
-UNEVEN = 0.05  # of a step: how far frames may deviate from even steps
-ALIKE = 1e-3  # of the size of a pixel: how far those of frames may differ
-MOST_MARKS = 16  # of which pairs are tried
+UNEVEN = 0.05  # of a step: tolerance of frames against even steps
+ALIKE = 1e-3  # of the size of a pixel: tolerance between frames
+MOST_MARKS = 16  # marks that are tried in pairs
 TOLD = 6  # names in a message
 STORED_ORDER = "their order in the file alone"
 FILES = "the files that they come from"
@@ -33,7 +33,7 @@ class Stack:
     Parameters
     ----------
     frames : tuple of Frame
-        In the order of their places, along the third column of `direction`.
+        Sorted by place, along the third column of `direction`.
     spacing : (hx, hy, hz)
         mm
     centre : (x, y, z)
@@ -56,12 +56,12 @@ class Stack:
 
 @dataclass(frozen=True, kw_only=True)
 class Uneven:
-    """Why frames make no volume.
+    """The reason why frames make no volume.
 
     Parameters
     ----------
     off : float
-        How far they lie from even steps, in steps.
+        Largest deviation from even steps, in steps.
     why : str
     doubled : bool
         Whether several lie at one place.
@@ -74,13 +74,13 @@ class Uneven:
 
 @dataclass(frozen=True, kw_only=True)
 class Stacks:
-    """The volumes that frames make.
+    """The volumes of a set of frames.
 
     Parameters
     ----------
     stacks : tuple of Stack
     apart : str
-        What tells them apart; empty for one.
+        Marks that distinguish them; empty for a single volume.
     """
 
     stacks: tuple[Stack, ...]
@@ -89,92 +89,92 @@ class Stacks:
 
 @dataclass(frozen=True, kw_only=True)
 class Plane:
-    """What all frames of a stack have in common: directions, and size of a pixel."""
+    """Common plane of the frames of a stack: directions, and size of a pixel."""
 
     direction: NDArray[np.float64]
     pixel: tuple[float, float]  # along a row, down a column
 
 
 def placed_frames(image: Image, spacing: tuple[float, ...] | None) -> tuple[tuple[Frame, ...], tuple[str, ...]]:
-    """Return the frames of a file, each with its place, and what had to be assumed for that.
+    """Give every frame of a file a place; return the frames, and warnings about assumptions.
 
     Parameters
     ----------
     image : Image
     spacing : (hx, hy, hz), optional
-        Size of a cell, mm, where the file says none.
+        Cell size, mm, where the file states none.
 
     Raises
     ------
     FormatError
-        If nothing says where the frames lie.
+        If the place of the frames is unknown.
     """
     path, frames = image.path, image.frames
-    first = frames[0]
-    if first.pixel is None and spacing is not None:
-        frames = tuple(replace(each, pixel=each.pixel or (spacing[1], spacing[0])) for each in frames)
-    if any(each.pixel is None for each in frames):
+    template = frames[0]
+    if template.pixel is None and spacing is not None:
+        frames = tuple(replace(frame, pixel=frame.pixel or (spacing[1], spacing[0])) for frame in frames)
+    if any(frame.pixel is None for frame in frames):
         raise FormatError(f"{path} does not say how large its pixels are; give the size of a cell: --spacing X,Y,Z")
     if not image.unplaced or len(frames) == 1:
         return frames, ()
-    step = first.between or (None if spacing is None else spacing[2])
+    step = template.between or (None if spacing is None else spacing[2])
     if not image.stacked:
         raise FormatError(f"{path} {image.unplaced}; save the volume that it came from, as .nrrd or .nii.gz")
     if step is None:
-        thick = "" if first.thickness is None else f", only how thick they are ({first.thickness:g} mm)"
+        thick = "" if template.thickness is None else f", only how thick they are ({template.thickness:g} mm)"
         raise FormatError(
             f"{path} {image.unplaced} or how far apart{thick}; if they are the slices of a volume, in their order, "
             "give the size of a cell: --spacing X,Y,Z"
         )
-    axes = first.axes or (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
-    known = image.start is not None and first.axes is not None
+    axes = template.axes or (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+    is_located = image.start is not None and template.axes is not None
     start, normal = np.array(image.start or (0.0, 0.0, 0.0)), np.cross(axes[:AXES], axes[AXES:])
-    found = tuple(
+    placed = tuple(
         replace(
-            each,
-            position=tuple((start + each.number * step * normal).tolist()),
+            frame,
+            position=tuple((start + frame.number * step * normal).tolist()),
             axes=axes,
-            space="LPS" if known else "",
+            space="LPS" if is_located else "",
         )
-        for each in frames
+        for frame in frames
     )
-    where = "" if known else ", so the part may be mirrored and lies at the origin"
-    return found, (f"{path} {image.unplaced}: they are taken as slices {abs(step):g} mm apart in their order{where}",)
+    caveat = "" if is_located else ", so the part may be mirrored and lies at the origin"
+    return placed, (f"{path} {image.unplaced}: they are taken as slices {abs(step):g} mm apart in their order{caveat}",)
 
 
 def stacks_of(path: Path, frames: Sequence[Frame]) -> Stacks:
-    """Return the volumes that frames make, all of them in one or several.
+    """Divide frames into volumes.
 
     Raises
     ------
     FormatError
-        If they make none, or some are left over.
+        If they make no volume, or some frames remain.
     """
-    groups = _of_one_plane(frames)
+    groups = _group_by_plane(frames)
     if len(groups) > 1:
-        found = [even_stack(each) for each in groups]
-        stacks = tuple(each for each in found if isinstance(each, Stack))
-        if len(stacks) < len(found):
-            counts = ", ".join(str(len(each)) for each in groups[:TOLD]) + (", …" if len(groups) > TOLD else "")
+        candidates = [even_stack(group) for group in groups]
+        stacks = tuple(stack for stack in candidates if isinstance(stack, Stack))
+        if len(stacks) < len(candidates):
+            counts = ", ".join(str(len(group)) for group in groups[:TOLD]) + (", …" if len(groups) > TOLD else "")
             raise FormatError(
                 f"{path} holds slices of {len(groups)} orientations, sizes or coordinate systems ({counts}), which "
                 "make no volume; keep those of one volume"
             )
         return Stacks(stacks=stacks, apart="their orientation or size")
-    alone = even_stack(frames)
-    if isinstance(alone, Stack):
-        return _split(frames, VOLUME_MARKS) or Stacks(stacks=(alone,))
-    apart = _told_apart(frames) if alone.doubled else _split(frames, VOLUME_MARKS[:1])
-    if apart is None:
+    single = even_stack(frames)
+    if isinstance(single, Stack):
+        return _split_by_first_mark(frames, VOLUME_MARKS) or Stacks(stacks=(single,))
+    volumes = _split_at_places(frames) if single.doubled else _split_by_first_mark(frames, VOLUME_MARKS[:1])
+    if volumes is None:
         raise FormatError(
-            f"{path} has slices up to {alone.off:.2g} of a slice away from even steps (missing, doubled, or a tilted "
-            f"scanner): {alone.why}; resample the series to even slices first"
+            f"{path} has slices up to {single.off:.2g} of a slice away from even steps (missing, doubled, or a tilted "
+            f"scanner): {single.why}; resample the series to even slices first"
         )
-    return apart
+    return volumes
 
 
-def _of_one_plane(frames: Sequence[Frame]) -> list[list[Frame]]:
-    """Return frames in groups of one orientation, shape, size of pixels and coordinate system."""
+def _group_by_plane(frames: Sequence[Frame]) -> list[list[Frame]]:
+    """Group frames by orientation, shape, pixel size and coordinate system."""
     groups: list[list[Frame]] = []
     for frame in frames:
         for group in groups:
@@ -186,45 +186,48 @@ def _of_one_plane(frames: Sequence[Frame]) -> list[list[Frame]]:
     return groups
 
 
-def _is_alike(one: Frame, other: Frame) -> bool:
-    if one.shape != other.shape or one.space != other.space:
+def _is_alike(frame: Frame, reference: Frame) -> bool:
+    """Tell whether two frames share orientation, shape, pixel size and coordinate system."""
+    if frame.shape != reference.shape or frame.space != reference.space:
         return False
-    if one.axes is None or other.axes is None or one.pixel is None or other.pixel is None:
-        return one.axes == other.axes and one.pixel == other.pixel
-    turned = max(abs(a - b) for a, b in zip(one.axes, other.axes, strict=True))
-    return turned <= TURN and all(abs(a - b) <= ALIKE * abs(a) for a, b in zip(one.pixel, other.pixel, strict=True))
+    if frame.axes is None or reference.axes is None or frame.pixel is None or reference.pixel is None:
+        return frame.axes == reference.axes and frame.pixel == reference.pixel
+    turned = max(abs(a - b) for a, b in zip(frame.axes, reference.axes, strict=True))
+    return turned <= TURN and all(
+        abs(a - b) <= ALIKE * abs(a) for a, b in zip(frame.pixel, reference.pixel, strict=True)
+    )
 
 
-def _split(frames: Sequence[Frame], names: Sequence[str]) -> Stacks | None:
-    """Return the volumes that marks make though all frames may lie evenly: none of them of a single frame."""
+def _split_by_first_mark(frames: Sequence[Frame], names: Sequence[str]) -> Stacks | None:
+    """Divide frames by the first mark that makes volumes of several frames each, even if all frames lie evenly."""
     for name in names:
-        found = _apart(frames, (name,))
-        if found is not None:
-            return found
+        volumes = _split_by_marks(frames, (name,))
+        if volumes is not None:
+            return volumes
     return None
 
 
-def _told_apart(frames: Sequence[Frame]) -> Stacks | None:
-    """Return the volumes of frames of which several lie at one place; None if nothing tells them apart."""
-    marked = {name for frame in frames for name in frame.marks}
-    known = [name for name in (*VOLUME_MARKS, *OTHER_MARKS) if name in marked]
-    names = [*known, *sorted(marked - set(known))]
-    varied = [name for name in names if len({frame.marks.get(name) for frame in frames}) > 1]
-    tried = [*combinations(varied, 1), *combinations(varied[:MOST_MARKS], 2), tuple(varied)]
-    for each in tried:
-        found = _apart(frames, each) if each else None
-        if found is not None:
-            return found
+def _split_at_places(frames: Sequence[Frame]) -> Stacks | None:
+    """Divide frames of which several lie at one place into volumes; return None if no mark does."""
+    mark_names = {name for frame in frames for name in frame.marks}
+    known_names = [name for name in (*VOLUME_MARKS, *OTHER_MARKS) if name in mark_names]
+    names = [*known_names, *sorted(mark_names - set(known_names))]
+    varying = [name for name in names if len({frame.marks.get(name) for frame in frames}) > 1]
+    combinations_tried = [*combinations(varying, 1), *combinations(varying[:MOST_MARKS], 2), tuple(varying)]
+    for marks_tried in combinations_tried:
+        volumes = _split_by_marks(frames, marks_tried) if marks_tried else None
+        if volumes is not None:
+            return volumes
     by_file: dict[Path, list[Frame]] = {}
     for frame in frames:
         by_file.setdefault(frame.path, []).append(frame)
     if len(by_file) > 1:
         return _even_groups([*by_file.values()], FILES)
-    return _even_groups(_repeated(frames), STORED_ORDER)
+    return _even_groups(_group_repetitions(frames), STORED_ORDER)
 
 
-def _apart(frames: Sequence[Frame], names: tuple[str, ...]) -> Stacks | None:
-    """Return the volumes that frames with the same marks make; None if there is but one, or any group makes none."""
+def _split_by_marks(frames: Sequence[Frame], names: tuple[str, ...]) -> Stacks | None:
+    """Divide frames by marks; return None if that gives a single volume, or a group that is none."""
     groups: dict[tuple[Mark, ...], list[Frame]] = {}
     for frame in frames:
         groups.setdefault(tuple(frame.marks.get(name, ()) for name in names), []).append(frame)
@@ -234,6 +237,7 @@ def _apart(frames: Sequence[Frame], names: tuple[str, ...]) -> Stacks | None:
 
 
 def _even_groups(groups: Sequence[Sequence[Frame]], apart: str) -> Stacks | None:
+    """Stack every group, or return None if there is only one group or a group is uneven."""
     if len(groups) < 2:
         return None
     stacks = []
@@ -245,8 +249,8 @@ def _even_groups(groups: Sequence[Sequence[Frame]], apart: str) -> Stacks | None
     return Stacks(stacks=tuple(stacks), apart=apart)
 
 
-def _repeated(frames: Sequence[Frame]) -> list[list[Frame]]:
-    """Return the k-th frames of every place, for a file that goes through the places again and again in one order."""
+def _group_repetitions(frames: Sequence[Frame]) -> list[list[Frame]]:
+    """Group the k-th frames of every place, for a file that repeats the places in one order."""
     count = next((k for k in range(1, len(frames)) if _is_same_place(frames[0], frames[k])), len(frames))
     if len(frames) % count:
         return []
@@ -255,26 +259,27 @@ def _repeated(frames: Sequence[Frame]) -> list[list[Frame]]:
         groups = [list(frames[k::count]) for k in range(count)]
     else:
         groups = [list(frames[k : k + count]) for k in range(0, len(frames), count)]
-    same = len(frames) % count == 0 and all(
+    is_regular = len(frames) % count == 0 and all(
         len(group) == len(groups[0]) and all(_is_same_place(a, b) for a, b in zip(groups[0], group, strict=True))
         for group in groups
     )
-    return groups if same else []
+    return groups if is_regular else []
 
 
-def _is_same_place(one: Frame, other: Frame) -> bool:
-    if one.position is None or other.position is None:
+def _is_same_place(frame: Frame, reference: Frame) -> bool:
+    """Tell whether two frames lie at the same place."""
+    if frame.position is None or reference.position is None:
         return False
-    return bool(np.linalg.norm(np.subtract(one.position, other.position)) <= UNEVEN * max(one.pixel or (1.0,)))
+    return bool(np.linalg.norm(np.subtract(frame.position, reference.position)) <= UNEVEN * max(frame.pixel or (1.0,)))
 
 
 def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
-    """Return frames of one plane in the order of their places, or why they make no volume.
+    """Sort frames of one plane by place and stack them; return the reason if they make no volume.
 
     Notes
     -----
-    First place and step are those of the least squares, so that a place that is rounded to few digits, even the first
-    or last, changes neither much.
+    First place and step are a least-squares fit, so that rounding one place to few digits, even the first or last,
+    changes neither much.
     """
     if len(frames) < 2:
         return Uneven(off=1.0, why="one frame alone")
@@ -294,10 +299,14 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
         return Uneven(off=1.0, why="all lie at one place", doubled=True)
     middle = places.mean(axis=0)
     even = middle + np.outer(count * step, normal)
-    off = float(np.linalg.norm(places[order] - even, axis=1).max() / step)
-    if not off <= UNEVEN:
-        return Uneven(off=off, why=_why(steps, along[order]), doubled=bool((steps < UNEVEN * steps.max()).any()))
-    step = rounded(_stated(frames, step, off * step))
+    deviation = float(np.linalg.norm(places[order] - even, axis=1).max() / step)
+    if not deviation <= UNEVEN:
+        return Uneven(
+            off=deviation,
+            why=_describe_unevenness(steps, along[order]),
+            doubled=bool((steps < UNEVEN * steps.max()).any()),
+        )
+    step = rounded(_stated_step(frames, step, deviation * step))
     centre = middle - (len(frames) - 1) / 2 * step * normal
     return Stack(
         frames=tuple(frames[k] for k in order),
@@ -308,7 +317,7 @@ def even_stack(frames: Sequence[Frame]) -> Stack | Uneven:
 
 
 def rounded(length: float) -> float:
-    """Return a length without the last digits, which sums leave behind.
+    """Round a length to 12 digits, which removes the errors of sums.
 
     >>> rounded(3.0000000000000004)
     3.0
@@ -316,32 +325,32 @@ def rounded(length: float) -> float:
     return float(f"{length:.12g}")
 
 
-def _stated(frames: Sequence[Frame], step: float, noise: float) -> float:
-    """Return the step that all frames state, where the places agree with it as well as with each other; mm."""
+def _stated_step(frames: Sequence[Frame], step: float, noise: float) -> float:
+    """Return the step that all frames state if the places agree with it, else `step`; mm."""
     stated = {frame.between for frame in frames}
     between = abs(stated.pop() or 0.0) if len(stated) == 1 else 0.0
     return between if abs(between - step) * (len(frames) - 1) <= 2 * noise else step
 
 
-def _why(steps: NDArray[np.float64], along: NDArray[np.float64]) -> str:
-    """Return what is uneven about frames, in words."""
-    least, most = float(steps.min()), float(steps.max())
-    apart = 1 + int((steps >= UNEVEN * most).sum())
-    if apart <= len(steps):
-        return f"{len(steps) + 1} of them lie at {apart} places, and nothing tells them apart"
-    if most - least <= UNEVEN * most:
+def _describe_unevenness(steps: NDArray[np.float64], along: NDArray[np.float64]) -> str:
+    """Describe the unevenness of frames in words."""
+    smallest, largest = float(steps.min()), float(steps.max())
+    places = 1 + int((steps >= UNEVEN * largest).sum())
+    if places <= len(steps):
+        return f"{len(steps) + 1} of them lie at {places} places, and nothing tells them apart"
+    if largest - smallest <= UNEVEN * largest:
         return "each is shifted sideways against the one before"
     usual = float(np.median(steps))
-    at = int(np.abs(steps - usual).argmax())
-    return f"the step is {usual:.4g} mm, and {steps[at]:.4g} mm after the one at {along[at]:.4g} mm"
+    outlier = int(np.abs(steps - usual).argmax())
+    return f"the step is {usual:.4g} mm, and {steps[outlier]:.4g} mm after the one at {along[outlier]:.4g} mm"
 
 
 def plane_of(frames: Sequence[Frame]) -> Plane | Uneven:
-    """Return orientation and pixels of frames, or why they have none in common."""
-    first = frames[0]
-    if first.axes is None or first.pixel is None:
+    """Return the common plane of frames, or the reason why they have none."""
+    reference = frames[0]
+    if reference.axes is None or reference.pixel is None:
         return Uneven(off=1.0, why="nothing says how they are turned, or how large pixels are")
-    if not all(_is_alike(first, each) for each in frames):
+    if not all(_is_alike(reference, frame) for frame in frames):
         return Uneven(off=1.0, why="their orientations or sizes differ")
     row, column = np.array([frame.axes for frame in frames]).mean(axis=0).reshape(2, AXES)
     lengths = np.linalg.norm(row), np.linalg.norm(column)

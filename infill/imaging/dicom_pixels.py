@@ -1,4 +1,4 @@
-"""The numbers in the frames of DICOM files: unpacked, scaled frame by frame, padding taken out."""
+"""Numbers of DICOM frames: decompressed, scaled frame by frame, with padding removed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Numbers:
     ----------
     values : (frames, rows, columns) array
     warnings : tuple of str
-        What the reader of packed frames said, and what was left out.
+        Messages of the reader of compressed frames, and notes on omissions.
     """
 
     values: NDArray[Any]
@@ -44,7 +44,7 @@ def require_grey(image: Image) -> None:
 
 
 def stored_numbers(image: Image) -> Numbers:
-    """Return the numbers of all frames as they are stored, in the order of the file.
+    """Return the stored numbers of all frames, in the order of the file.
 
     Raises
     ------
@@ -55,52 +55,54 @@ def stored_numbers(image: Image) -> Numbers:
     require_grey(image)
     pixels, shape = image.pixels, (image.count, *image.frames[0].shape)
     if pixels.length is None:
-        return _unpacked_together([image])[image.path]
+        return _unpack_together([image])[image.path]
     require_memory(2 * math.prod(shape) * max(1, pixels.allocated // 8), None, SMALLER)
-    held = np.frombuffer(plain_bytes(image), dtype=np.uint8)
-    return Numbers(values=_of_bytes(held, pixels, math.prod(shape)).reshape(shape))
+    content = np.frombuffer(plain_bytes(image), dtype=np.uint8)
+    return Numbers(values=_numbers_of_bytes(content, pixels, math.prod(shape)).reshape(shape))
 
 
-def _unpacked_together(images: Sequence[Image]) -> dict[Path, Numbers]:
-    """Return the stored numbers of files whose frames are packed one by one, and in the same way."""
-    first = images[0]
-    path = first.path if len(images) == 1 else first.path.parent
-    shape = (sum(image.count for image in images), *first.frames[0].shape)
-    require_memory(2 * math.prod(shape) * max(1, first.pixels.allocated // 8), None, SMALLER)
+def _unpack_together(images: Sequence[Image]) -> dict[Path, Numbers]:
+    """Decompress files with similar frames in one call; return their stored numbers by path."""
+    template = images[0]
+    path = template.path if len(images) == 1 else template.path.parent
+    shape = (sum(image.count for image in images), *template.frames[0].shape)
+    require_memory(2 * math.prod(shape) * max(1, template.pixels.allocated // 8), None, SMALLER)
     with tempfile.TemporaryDirectory(prefix="infill-") as folder:
         plain = Path(folder) / "frames.dcm"
         write_packed_frames(images, plain)
-        values, said = unpacked_frames(plain, path)
+        values, messages = unpacked_frames(plain, path)
     if values.shape != shape:
         raise FormatError(f"{path} holds frames {values.shape} and says {shape}; save it again")
-    warnings = tuple(f"{path}: {printable(line)} (while unpacking)" for line in said)
-    found, begin = {}, 0
+    warnings = tuple(f"{path}: {printable(line)} (while unpacking)" for line in messages)
+    numbers_of, begin = {}, 0
     for image in images:
-        found[image.path] = Numbers(values=values[begin : begin + image.count], warnings=warnings)
+        numbers_of[image.path] = Numbers(values=values[begin : begin + image.count], warnings=warnings)
         begin += image.count
-    return found
+    return numbers_of
 
 
-def _of_bytes(held: NDArray[np.uint8], pixels: Pixels, count: int) -> NDArray[Any]:
-    """Return the numbers in the bytes of a file: of the bits that are used, with their sign."""
+def _numbers_of_bytes(content: NDArray[np.uint8], pixels: Pixels, count: int) -> NDArray[Any]:
+    """Convert the bytes of a file to numbers: the used bits, with their sign."""
     order = "<" if pixels.little else ">"
     if pixels.allocated <= 8 and not pixels.little and pixels.words:  # bytes were written as words
-        held = held[: len(held) // 2 * 2].reshape(-1, 2)[:, ::-1].reshape(-1)
+        content = content[: len(content) // 2 * 2].reshape(-1, 2)[:, ::-1].reshape(-1)
     if pixels.allocated == 1:
-        return np.unpackbits(held, count=count, bitorder="little")
+        return np.unpackbits(content, count=count, bitorder="little")
     if pixels.real:
-        return np.frombuffer(held, dtype=order + pixels.real, count=count).astype(pixels.real)
+        return np.frombuffer(content, dtype=order + pixels.real, count=count).astype(pixels.real)
     size = pixels.allocated // 8
     kind = np.dtype(f"{'i' if pixels.signed else 'u'}{size}")
-    numbers: NDArray[Any] = np.frombuffer(held, dtype=f"{order}{kind.kind}{size}", count=count).astype(kind, copy=False)
+    numbers: NDArray[Any] = np.frombuffer(content, dtype=f"{order}{kind.kind}{size}", count=count).astype(
+        kind, copy=False
+    )
     if pixels.stored == pixels.allocated:
         return numbers
-    # Bits that are not used may hold anything, such as an overlay: push them out, and the sign in.
+    # Unused bits may hold anything, such as an overlay: shift them out, and the sign in.
     return (numbers << (pixels.allocated - 1 - pixels.high)) >> (pixels.allocated - pixels.stored)
 
 
 def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
-    """Return the values of frames, in their order: the numbers that are stored, each scaled as its frame says.
+    """Return the values of frames, in their order: the stored numbers, each scaled by its frame.
 
     Parameters
     ----------
@@ -110,16 +112,16 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
 
     Notes
     -----
-    Numbers stay whole if all scales are, and become floating-point numbers otherwise. Frames of MONOCHROME1 are not
-    turned into their negative: that is how they are shown, and their values are what is stored. Padding stays where it
-    lies low; in the upper half of the other values it would count as solid, and becomes the least of them.
+    Numbers stay integers if all scales are integers, and become floating-point numbers otherwise. Frames of MONOCHROME1
+    are not inverted: only their display is, and the stored numbers are the values. Low padding stays; padding in the
+    upper half of the other values would count as solid, and becomes the lowest of them.
     """
-    wanted = {frame.path for frame in frames}
-    by_path = {image.path: image for image in images if image.path in wanted}
-    kind = _kind(by_path, frames)
+    paths = {frame.path for frame in frames}
+    by_path = {image.path: image for image in images if image.path in paths}
+    dtype = _smallest_type(by_path, frames)
     rows, columns = frames[0].shape
-    require_memory(len(frames) * rows * columns * kind.itemsize, None, SMALLER)
-    found = np.empty((len(frames), rows, columns), dtype=kind)
+    require_memory(len(frames) * rows * columns * dtype.itemsize, None, SMALLER)
+    values = np.empty((len(frames), rows, columns), dtype=dtype)
     padded: list[tuple[int, NDArray[np.bool_]]] = []
     warnings: list[str] = []
     unpacked: dict[Path, Numbers] = {}
@@ -127,7 +129,7 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
         image = by_path[path]
         if path not in unpacked and image.pixels.length is None:
             require_grey(image)
-            unpacked |= _unpacked_together([each for each in by_path.values() if _is_packed_alike(image, each)])
+            unpacked |= _unpack_together([similar for similar in by_path.values() if _is_packed_alike(image, similar)])
         stored = unpacked.pop(path) if path in unpacked else stored_numbers(image)
         warnings += [line for line in stored.warnings if line not in warnings]
         for k, frame in enumerate(frames):
@@ -138,40 +140,41 @@ def values_of(images: Sequence[Image], frames: Sequence[Frame]) -> Numbers:
                 mask = (numbers >= image.padding[0]) & (numbers <= image.padding[1])
                 if mask.any():
                     padded.append((k, mask))
-            found[k] = _scaled(numbers, image, frame, kind)
-    warnings += _without_padding(found, padded, frames[0].path)
-    return Numbers(values=found, warnings=tuple(warnings))
+            values[k] = _scale(numbers, image, frame, dtype)
+    warnings += _replace_padding(values, padded, frames[0].path)
+    return Numbers(values=values, warnings=tuple(warnings))
 
 
-def _is_packed_alike(one: Image, other: Image) -> bool:
-    """Return whether the frames of two files can be unpacked together."""
-    if not other.frames or one.frames[0].shape != other.frames[0].shape:
+def _is_packed_alike(image: Image, reference: Image) -> bool:
+    """Tell whether the frames of two files can be decompressed together."""
+    if not reference.frames or image.frames[0].shape != reference.frames[0].shape:
         return False
-    return replace(one.pixels, begin=0) == replace(other.pixels, begin=0)
+    return replace(image.pixels, begin=0) == replace(reference.pixels, begin=0)
 
 
-def _scaled(numbers: NDArray[Any], image: Image, frame: Frame, kind: np.dtype[Any]) -> NDArray[Any]:
+def _scale(numbers: NDArray[Any], image: Image, frame: Frame, dtype: np.dtype[Any]) -> NDArray[Any]:
+    """Scale the stored numbers of a frame to values."""
     if image.table is not None:
-        first, table = image.table
-        return table[np.clip(numbers.astype(np.int64) - first, 0, len(table) - 1)]
+        first_number, table = image.table
+        return table[np.clip(numbers.astype(np.int64) - first_number, 0, len(table) - 1)]
     if frame.slope == 1 and frame.intercept == 0:
         return numbers
-    if kind.kind != "f":
+    if dtype.kind != "f":
         return numbers.astype(np.int64) * int(frame.slope) + int(frame.intercept)
     return numbers * np.float64(frame.slope) + np.float64(frame.intercept)
 
 
-def _kind(images: dict[Path, Image], frames: Sequence[Frame]) -> np.dtype[Any]:
+def _smallest_type(images: dict[Path, Image], frames: Sequence[Frame]) -> np.dtype[Any]:
     """Return the smallest type that holds the values of all frames."""
-    used = [images[path] for path in dict.fromkeys(frame.path for frame in frames)]
-    if any(image.pixels.real == "f8" for image in used):
+    used_images = [images[path] for path in dict.fromkeys(frame.path for frame in frames)]
+    if any(image.pixels.real == "f8" for image in used_images):
         return np.dtype(np.float64)
     scales = {(images[frame.path].path, frame.slope, frame.intercept) for frame in frames}
-    whole = all(slope == int(slope) and intercept == int(intercept) for _, slope, intercept in scales)
-    whole = whole and all(image.table is None or (image.table[1] % 1 == 0).all() for image in used)
-    if not whole or any(image.pixels.real for image in used):
-        fine = all(image.pixels.allocated <= EXACT_BITS or image.pixels.real == "f4" for image in used)
-        return np.dtype(np.float32 if fine else np.float64)
+    is_whole = all(slope == int(slope) and intercept == int(intercept) for _, slope, intercept in scales)
+    is_whole = is_whole and all(image.table is None or (image.table[1] % 1 == 0).all() for image in used_images)
+    if not is_whole or any(image.pixels.real for image in used_images):
+        is_exact = all(image.pixels.allocated <= EXACT_BITS or image.pixels.real == "f4" for image in used_images)
+        return np.dtype(np.float32 if is_exact else np.float64)
     ends: list[int] = []
     for path, slope, intercept in scales:
         image = images[path]
@@ -181,24 +184,24 @@ def _kind(images: dict[Path, Image], frames: Sequence[Frame]) -> np.dtype[Any]:
         bits = image.pixels.stored
         low, high = (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) if image.pixels.signed else (0, 2**bits - 1)
         ends += [low * int(slope) + int(intercept), high * int(slope) + int(intercept)]
-    for each in WHOLE:
-        if np.iinfo(each).min <= min(ends) and max(ends) <= np.iinfo(each).max:
-            return np.dtype(each)
+    for dtype in WHOLE:
+        if np.iinfo(dtype).min <= min(ends) and max(ends) <= np.iinfo(dtype).max:
+            return np.dtype(dtype)
     return np.dtype(np.float64)
 
 
-def _without_padding(values: NDArray[Any], padded: list[tuple[int, NDArray[np.bool_]]], path: Path) -> tuple[str, ...]:
-    """Set padding to the least of the other values, if it lies in their upper half; return what there is to say."""
+def _replace_padding(values: NDArray[Any], padded: list[tuple[int, NDArray[np.bool_]]], path: Path) -> tuple[str, ...]:
+    """Set padding in the upper half of the values to the lowest value; return a warning if that changed cells."""
     if not padded:
         return ()
     masks = dict(padded)
-    others = [values[k][~masks[k]] if k in masks else values[k] for k in range(len(values))]
-    ends = [(float(each.min()), float(each.max())) for each in others if each.size]
+    real_values = [values[k][~masks[k]] if k in masks else values[k] for k in range(len(values))]
+    extremes = [(float(array.min()), float(array.max())) for array in real_values if array.size]
     highest = max(float(values[k][mask].max()) for k, mask in padded)
-    least = min((low for low, _ in ends), default=highest)
-    if 2 * highest <= least + max((high for _, high in ends), default=highest):
+    lowest = min((low for low, _ in extremes), default=highest)
+    if 2 * highest <= lowest + max((high for _, high in extremes), default=highest):
         return ()
     count = sum(int(mask.sum()) for _, mask in padded)
     for k, mask in padded:
-        values[k][mask] = least
-    return (f"{path}: {count} cells hold a value for no pixel (up to {highest:g}); they are taken as {least:g}",)
+        values[k][mask] = lowest
+    return (f"{path}: {count} cells hold a value for no pixel (up to {highest:g}); they are taken as {lowest:g}",)

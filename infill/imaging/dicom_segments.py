@@ -1,4 +1,4 @@
-"""DICOM segmentations: every frame is a slice of one segment, or of all of them; frames without a cell are left out.
+"""DICOM segmentations: every frame is a slice of one or all segments; files omit empty frames.
 
 Source: DICOM PS3.3, A.51 and C.8.20.2 (BINARY, FRACTIONAL), A.90 (LABELMAP).
 """
@@ -23,17 +23,17 @@ from infill.imaging.label_tables import Segment
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-AROUND = 2  # empty slices on both sides: frames that are left out hold nothing
+AROUND = 2  # empty slices on both sides: omitted frames are empty
 
 
 @dataclass(frozen=True, kw_only=True)
 class Grid:
-    """Where the slices of a segmentation lie.
+    """Position of the slices of a segmentation.
 
     Parameters
     ----------
     slices : tuple of int
-        Which slice each frame is.
+        Slice number of each frame.
     count : int
     spacing, origin : (3,) float
         mm
@@ -57,9 +57,9 @@ class Grid:
 def segment_layers(
     path: Path, images: Sequence[Image]
 ) -> tuple[tuple[Volume, ...], tuple[Segment, ...], tuple[str, ...]]:
-    """Return volumes of segment numbers, the segments, and what there is to warn of.
+    """Return volumes of segment numbers, the segments, and warnings.
 
-    Segments that overlap lie in volumes of their own, and so do those of different files.
+    Overlapping segments lie in separate volumes, and so do those of different files.
 
     Raises
     ------
@@ -71,46 +71,52 @@ def segment_layers(
     segments: list[Segment] = []
     warnings: list[str] = []
     for image in images:
-        known = _segments(image)
-        grid, said = _grid(image)
+        segment_info = _require_segments(image)
+        grid, grid_warnings = _grid(image)
         numbers = stored_numbers(image)
-        warnings += [*said, *numbers.warnings]
-        if known.kind == "FRACTIONAL" and ((numbers.values > 0) & (numbers.values < known.highest)).any():
+        warnings += [*grid_warnings, *numbers.warnings]
+        if segment_info.kind == "FRACTIONAL" and ((numbers.values > 0) & (numbers.values < segment_info.highest)).any():
             warnings.append(f"{image.path} holds shares of cells; cells that lie at least half in a segment are taken")
-        where: dict[int, int] = {}
-        if known.kind == "LABELMAP":
+        layer_of: dict[int, int] = {}
+        if segment_info.kind == "LABELMAP":
             arrays = [_label_map(image, grid, numbers.values)]
         else:
-            arrays, where = _layers(image, grid, numbers.values, known)
-        segments += [replace(each, layer=len(layers) + where.get(each.value, 0)) for each in known.known if each.value]
-        layers += [grid.volume(path, each) for each in arrays]
+            arrays, layer_of = _stack_segments(image, grid, numbers.values, segment_info)
+        segments += [
+            replace(segment, layer=len(layers) + layer_of.get(segment.value, 0))
+            for segment in segment_info.known
+            if segment.value
+        ]
+        layers += [grid.volume(path, array) for array in arrays]
     return tuple(layers), tuple(segments), tuple(warnings)
 
 
 def segment_volume(path: Path, images: Sequence[Image], frame: int | None) -> tuple[Volume, tuple[str, ...]]:
-    """Return one layer of segment numbers, or how much of each cell lies in the only segment, and what to warn of."""
-    first = _segments(images[0])
-    numbers = {each.segment for each in images[0].frames}
-    if len(images) == 1 and first.kind == "FRACTIONAL" and len(numbers) == 1:
+    """Return a layer of segment numbers, or the share of each cell in the only segment, and warnings."""
+    segment_info = _require_segments(images[0])
+    numbers = {slice_frame.segment for slice_frame in images[0].frames}
+    if len(images) == 1 and segment_info.kind == "FRACTIONAL" and len(numbers) == 1:
         chosen(path, frame, 1, what="")
         grid, warnings = _grid(images[0])
         stored = stored_numbers(images[0])
         shares = np.zeros((grid.count, *images[0].frames[0].shape), dtype=np.float32)
         _check_single(images[0], grid)
-        for at, page in zip(grid.slices, stored.values, strict=True):
-            shares[at] = page / np.float32(first.highest)
+        for slice_index, page in zip(grid.slices, stored.values, strict=True):
+            shares[slice_index] = page / np.float32(segment_info.highest)
         return grid.volume(path, shares, varied=True), (*warnings, *stored.warnings)
     layers, _, warnings = segment_layers(path, images)
     what = f"holds {len(layers)} layers of segments; write all with {{label}} in the name of the output"
     layer = layers[chosen(path, frame, len(layers), what=what)]
-    return checked_volume(path, np.asarray(layer.values), **_place_of(layer)), warnings
+    return checked_volume(path, np.asarray(layer.values), **_placement(layer)), warnings
 
 
-def _place_of(volume: Volume) -> dict[str, Any]:
+def _placement(volume: Volume) -> dict[str, Any]:
+    """Return the position of a volume as keywords."""
     return {name: getattr(volume, name) for name in ("spacing", "origin", "direction", "space")}
 
 
-def _segments(image: Image) -> Segments:
+def _require_segments(image: Image) -> Segments:
+    """Return the segments of an image, or raise FormatError for an unknown kind."""
     if image.segments is None or image.segments.kind not in ("BINARY", "FRACTIONAL", "LABELMAP"):
         kind = "no segments" if image.segments is None else f"segments of the type {image.segments.kind!r}"
         raise FormatError(f"{image.path} holds {kind}; save it as BINARY, FRACTIONAL or LABELMAP")
@@ -118,7 +124,7 @@ def _segments(image: Image) -> Segments:
 
 
 def _grid(image: Image) -> tuple[Grid, tuple[str, ...]]:
-    """Return where the frames of a segmentation lie, and what there is to warn of."""
+    """Return the grid of the slices of a segmentation, and warnings."""
     if image.photometric not in ("MONOCHROME2", "PALETTE COLOR", "MONOCHROME1", ""):
         raise FormatError(f"{image.path} holds colours ({image.photometric}); save it as a segmentation")
     if image.unplaced:
@@ -132,44 +138,44 @@ def _grid(image: Image) -> tuple[Grid, tuple[str, ...]]:
     along = places @ plane.direction[:, 2]
     order = np.argsort(along, kind="stable")
     steps = np.diff(along[order])
-    largest = float(steps.max()) if len(steps) else 0.0
-    apart = steps[steps > UNEVEN * largest]
-    if len(apart) == 0:
+    widest = float(steps.max()) if len(steps) else 0.0
+    gaps = steps[steps > UNEVEN * widest]
+    if len(gaps) == 0:
         raise FormatError(f"{image.path} is a single slice; give the segmentation of all slices")
     stated = frames[0].between
-    for step in dict.fromkeys([abs(stated)] if stated else []) | {float(apart.min()): None}:
-        found = _slices(places, order, steps, step, plane)
-        if found is not None:
-            said = _sparse(image, found[0], step) or _thin(image, frames[0], step)
-            return _padded(frames, found, plane), (*warnings, *said)
+    for step in dict.fromkeys([abs(stated)] if stated else []) | {float(gaps.min()): None}:
+        fit = _fit_slices(places, order, steps, step, plane)
+        if fit is not None:
+            hints = _warn_if_sparse(image, fit[0], step) or _warn_if_thin(image, frames[0], step)
+            return _padded_grid(frames, fit, plane), (*warnings, *hints)
     raise FormatError(
-        f"{image.path} has slices away from even steps of {stated or float(apart.min()):.4g} mm (the steps are "
-        f"{float(apart.min()):.4g} to {largest:.4g} mm, or slices are shifted sideways); resample it, or save it as "
+        f"{image.path} has slices away from even steps of {stated or float(gaps.min()):.4g} mm (the steps are "
+        f"{float(gaps.min()):.4g} to {widest:.4g} mm, or slices are shifted sideways); resample it, or save it as "
         ".seg.nrrd"
     )
 
 
-def _slices(
+def _fit_slices(
     places: NDArray[np.float64], order: NDArray[np.intp], steps: NDArray[np.float64], step: float, plane: Plane
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], float] | None:
-    """Return which slice each frame is, the centre of slice 0 and the step, mm; None if that fits the places badly."""
-    whole = np.rint(steps / step)
-    if (np.abs(steps - whole * step) > UNEVEN * step * np.maximum(whole, 1)).any() or not whole.any():
+    """Return the slice number of each frame, the centre of slice 0 and the step, mm; None if the fit is bad."""
+    gaps = np.rint(steps / step)
+    if (np.abs(steps - gaps * step) > UNEVEN * step * np.maximum(gaps, 1)).any() or not gaps.any():
         return None
-    number = np.empty(len(places), dtype=np.int64)
-    number[order] = np.concatenate([[0], np.cumsum(whole)]).astype(np.int64)
+    slice_number = np.empty(len(places), dtype=np.int64)
+    slice_number[order] = np.concatenate([[0], np.cumsum(gaps)]).astype(np.int64)
     normal = plane.direction[:, 2]
-    spread = number - number.mean()
-    fitted = rounded(spread @ (places @ normal) / (spread @ spread))
-    first = places.mean(axis=0) - number.mean() * fitted * normal
-    off = np.linalg.norm(first + np.outer(number * fitted, normal) - places, axis=1).max()
-    return (number, first, fitted) if off <= UNEVEN * fitted else None
+    centred = slice_number - slice_number.mean()
+    fitted_step = rounded(centred @ (places @ normal) / (centred @ centred))
+    start = places.mean(axis=0) - slice_number.mean() * fitted_step * normal
+    deviation = np.linalg.norm(start + np.outer(slice_number * fitted_step, normal) - places, axis=1).max()
+    return (slice_number, start, fitted_step) if deviation <= UNEVEN * fitted_step else None
 
 
-def _sparse(image: Image, slices: NDArray[np.int64], step: float) -> tuple[str, ...]:
-    """Return a warning if no two frames lie side by side, so that the solid is one slab for each."""
-    apart = np.diff(np.unique(slices))
-    if len(apart) < 2 or apart.min() < 2:
+def _warn_if_sparse(image: Image, slices: NDArray[np.int64], step: float) -> tuple[str, ...]:
+    """Return a warning if no two frames are adjacent, so that the solid is one slab for each."""
+    gaps = np.diff(np.unique(slices))
+    if len(gaps) < 2 or gaps.min() < 2:
         return ()
     return (
         f"{image.path} says that slices are {step:g} mm apart and holds none that lie side by side; those between them "
@@ -177,10 +183,10 @@ def _sparse(image: Image, slices: NDArray[np.int64], step: float) -> tuple[str, 
     )
 
 
-def _thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
-    """Return a warning if nothing says how far apart slices are, and they lie further apart than they are thick.
+def _warn_if_thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
+    """Return a warning if the distance of slices is unknown and larger than their thickness.
 
-    Frames without a cell of a segment are left out of files, so that the even steps of the others may be too long.
+    Files omit frames without cells of a segment, so that the even steps of the others may be too long.
     """
     thick = frame.thickness
     if frame.between or not thick or step <= (1 + UNEVEN) * thick:
@@ -191,10 +197,13 @@ def _thin(image: Image, frame: Frame, step: float) -> tuple[str, ...]:
     )
 
 
-def _padded(frames: Sequence[Frame], found: tuple[NDArray[np.int64], NDArray[np.float64], float], plane: Plane) -> Grid:
-    slices, first, step = found
+def _padded_grid(
+    frames: Sequence[Frame], fit: tuple[NDArray[np.int64], NDArray[np.float64], float], plane: Plane
+) -> Grid:
+    """Build the grid, with empty slices on both sides."""
+    slices, start, step = fit
     spacing = (*plane.pixel, step)
-    corner = first - plane.direction @ (np.array(spacing) * (0.5, 0.5, 0.5 + AROUND))
+    corner = start - plane.direction @ (np.array(spacing) * (0.5, 0.5, 0.5 + AROUND))
     return Grid(
         slices=tuple((slices + AROUND).tolist()),
         count=int(slices.max()) + 1 + 2 * AROUND,
@@ -207,16 +216,17 @@ def _padded(frames: Sequence[Frame], found: tuple[NDArray[np.int64], NDArray[np.
 
 def _check_single(image: Image, grid: Grid) -> None:
     """Raise FormatError if two frames of one segment lie at one place."""
-    taken: set[tuple[int | None, int]] = set()
-    for frame, at in zip(image.frames, grid.slices, strict=True):
-        if (frame.segment, at) in taken:
+    seen: set[tuple[int | None, int]] = set()
+    for frame, slice_index in zip(image.frames, grid.slices, strict=True):
+        if (frame.segment, slice_index) in seen:
             raise FormatError(
                 f"{image.path} holds two frames of segment {frame.segment} at one place; save each volume of it alone"
             )
-        taken.add((frame.segment, at))
+        seen.add((frame.segment, slice_index))
 
 
-def _require_room(image: Image, grid: Grid, kind: type[np.integer[Any]]) -> NDArray[Any]:
+def _allocate(image: Image, grid: Grid, kind: type[np.integer[Any]]) -> NDArray[Any]:
+    """Allocate an array for the slices, or raise MemoryLimitError."""
     shape = (grid.count, *image.frames[0].shape)
     assert len(shape) == AXES
     require_memory(grid.count * shape[1] * shape[2] * np.dtype(kind).itemsize, None, SMALLER)
@@ -224,19 +234,20 @@ def _require_room(image: Image, grid: Grid, kind: type[np.integer[Any]]) -> NDAr
 
 
 def _label_map(image: Image, grid: Grid, stored: NDArray[Any]) -> NDArray[Any]:
-    labels = _require_room(image, grid, np.uint8 if image.pixels.allocated <= 8 else np.uint16)
+    """Return the labels of a label map, with padding as 0."""
+    labels = _allocate(image, grid, np.uint8 if image.pixels.allocated <= 8 else np.uint16)
     _check_single(image, grid)
-    for at, page in zip(grid.slices, stored, strict=True):
-        labels[at] = page
+    for slice_index, page in zip(grid.slices, stored, strict=True):
+        labels[slice_index] = page
     if image.padding is not None:
         labels[(labels >= image.padding[0]) & (labels <= image.padding[1])] = 0
     return labels
 
 
-def _layers(
-    image: Image, grid: Grid, stored: NDArray[Any], known: Segments
+def _stack_segments(
+    image: Image, grid: Grid, stored: NDArray[Any], segment_info: Segments
 ) -> tuple[list[NDArray[Any]], dict[int, int]]:
-    """Return arrays of segment numbers, as few as hold segments that overlap, and in which each segment lies."""
+    """Return as few arrays of segment numbers as overlaps allow, and the array index of each segment."""
     _check_single(image, grid)
     of_segment: dict[int, list[int]] = {}
     for frame in image.frames:
@@ -245,18 +256,23 @@ def _layers(
         of_segment.setdefault(frame.segment, []).append(frame.number)
     kind = np.uint8 if max(of_segment) < 2**8 else np.uint16
     layers: list[NDArray[Any]] = []
-    where: dict[int, int] = {}
+    layer_of: dict[int, int] = {}
     for segment, numbers in sorted(of_segment.items()):
-        masks = [(grid.slices[k], _inside(stored[k], known)) for k in numbers]
-        free = (k for k, layer in enumerate(layers) if not any(layer[at][mask].any() for at, mask in masks))
-        number = next(free, len(layers))
-        if number == len(layers):
-            layers.append(_require_room(image, grid, kind))
-        where[segment] = number
-        for at, mask in masks:
-            layers[number][at][mask] = segment
-    return layers, where
+        masks = [(grid.slices[k], _mask_inside(stored[k], segment_info)) for k in numbers]
+        free = (
+            k
+            for k, layer in enumerate(layers)
+            if not any(layer[slice_index][mask].any() for slice_index, mask in masks)
+        )
+        layer_index = next(free, len(layers))
+        if layer_index == len(layers):
+            layers.append(_allocate(image, grid, kind))
+        layer_of[segment] = layer_index
+        for slice_index, mask in masks:
+            layers[layer_index][slice_index][mask] = segment
+    return layers, layer_of
 
 
-def _inside(page: NDArray[Any], known: Segments) -> NDArray[np.bool_]:
-    return page > 0 if known.kind == "BINARY" else 2 * page.astype(np.int64) >= known.highest
+def _mask_inside(page: NDArray[Any], segment_info: Segments) -> NDArray[np.bool_]:
+    """Return a mask of the cells inside the segment."""
+    return page > 0 if segment_info.kind == "BINARY" else 2 * page.astype(np.int64) >= segment_info.highest

@@ -1,4 +1,4 @@
-"""One of the volumes that a file may hold: frames of a series in time, components, or layers of segments."""
+"""Choice of one of the volumes in a file: frames of a time series, components, or layers of segments."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ from infill.errors import FormatError, ParameterError
 
 
 def chosen(path: Path, frame: int | None, frames: int, *, what: str) -> int:
-    """Return which of the frames of a file to read, counted from 0; the only one needs no choice.
+    """Check the requested frame index, counted from 0, and return it; a single frame needs no choice.
 
     Parameters
     ----------
     path : Path
     frame : int, optional
-        The frame that was asked for.
+        The requested frame.
     frames : int
-        How many there are.
+        Number of frames.
     what : str
-        What the file has or holds, for the message, such as "has 4 axes, 5 x 6 x 7 x 2 cells".
+        Content of the file, for the message, such as "has 4 axes, 5 x 6 x 7 x 2 cells".
 
     Raises
     ------
     FormatError
-        If there are several and none was asked for.
+        If there are several and none is requested.
     ParameterError
-        If there is no such frame.
+        If the requested frame does not exist.
 
     >>> chosen(Path("a.nii"), None, 1, what="")
     0
@@ -35,6 +35,6 @@ def chosen(path: Path, frame: int | None, frames: int, *, what: str) -> int:
             raise FormatError(f"{path} {what}; choose one of its {frames} frames: --frame 0 to --frame {frames - 1}")
         return 0
     if isinstance(frame, bool) or frame != int(frame) or not 0 <= frame < frames:
-        held = "one frame, number 0" if frames == 1 else f"{frames} frames, 0 to {frames - 1}"
-        raise ParameterError(f"frame is {frame!r} and {path} holds {held}; give one that is there")
+        available = "one frame, number 0" if frames == 1 else f"{frames} frames, 0 to {frames - 1}"
+        raise ParameterError(f"frame is {frame!r} and {path} holds {available}; give one that is there")
     return int(frame)

@@ -24,18 +24,18 @@ from infill.imaging.frames import chosen
 from infill.machine import require_memory
 from infill.volume import AXES, Volume
 
-HEADER = struct.Struct(">7ih15f")  # version, cells in x, y and z, frames, type, freedom, whether placed, place
+HEADER = struct.Struct(">7ih15f")  # version, cells in x, y and z, frames, type, freedom, flag of the place, place
 HEADER_BYTES = 284
-VERSION = 1  # in the low byte; newer files keep what the image is for in the others
+VERSION = 1  # in the low byte; newer files keep the intent of the image in the others
 TYPES = {0: ">u1", 1: ">i4", 3: ">f4", 4: ">i2", 10: ">u2"}
-# Where the header does not say: cells of 1 mm, the axes towards left, inferior and anterior.
+# Default without a place in the header: cells of 1 mm, the axes towards left, inferior and anterior.
 UNPLACED = (1.0, 1.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 TO_LPS = np.array([-1.0, -1.0, 1.0])
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Header:
-    """What the first bytes say: cells along each axis, frames, type of a cell, size, axes (columns) and centre, RAS."""
+class _MghHeader:
+    """The first bytes: cells along each axis, frames, type of a cell, size, axes (columns) and centre, RAS."""
 
     shape: tuple[int, int, int]
     frames: int
@@ -51,26 +51,26 @@ class _Header:
 
 
 def read_mgh(path: Path, frame: int | None = None) -> Volume:
-    """Return the volume of a file, [x, y, z] in LPS, or one of its frames, counted from 0."""
+    """Read the volume of a file, [x, y, z] in LPS, or one of its frames, counted from 0."""
     packed = path.suffix.lower() != ".mgh"
-    with told_broken(path), _opened(path, packed=packed) as file:
-        header = _header(path, file.read(HEADER_BYTES))
+    with told_broken(path), _open(path, packed=packed) as file:
+        header = _parse_header(path, file.read(HEADER_BYTES))
         what = f"has 4 axes, {' x '.join(map(str, (*header.shape, header.frames)))} cells"
-        at = chosen(path, frame, header.frames, what=what)
+        frame_index = chosen(path, frame, header.frames, what=what)
         if not packed and path.stat().st_size < HEADER_BYTES + header.frames * header.frame_bytes:
-            _cut_off(path, path.stat().st_size, HEADER_BYTES + header.frames * header.frame_bytes)
+            _raise_cut_off(path, path.stat().st_size, HEADER_BYTES + header.frames * header.frame_bytes)
         require_memory(2 * header.frame_bytes, None, SMALLER)
-        file.seek(HEADER_BYTES + at * header.frame_bytes)
-        held = _read(file, header.frame_bytes)
+        file.seek(HEADER_BYTES + frame_index * header.frame_bytes)
+        content = _read(file, header.frame_bytes)
         while packed and file.read(2**24):  # to the end, where the checksum is
             pass
-    if len(held) < header.frame_bytes:
-        _cut_off(path, len(held), header.frame_bytes)
-    values = np.frombuffer(held, dtype=header.kind).reshape(header.shape, order="F")
+    if len(content) < header.frame_bytes:
+        _raise_cut_off(path, len(content), header.frame_bytes)
+    values = np.frombuffer(content, dtype=header.kind).reshape(header.shape, order="F")
     direction = TO_LPS[:, None] * header.axes
     # The centre is that of cell n / 2, which lies half a cell beyond the middle where n is even.
-    first = TO_LPS * header.centre - direction @ (header.spacing * np.array(header.shape) / 2)
-    corner = first - direction @ header.spacing / 2
+    corner_centre = TO_LPS * header.centre - direction @ (header.spacing * np.array(header.shape) / 2)
+    corner = corner_centre - direction @ header.spacing / 2
     return checked_volume(
         path,
         values,
@@ -81,11 +81,13 @@ def read_mgh(path: Path, frame: int | None = None) -> Volume:
     )
 
 
-def _opened(path: Path, *, packed: bool) -> IO[bytes]:
+def _open(path: Path, *, packed: bool) -> IO[bytes]:
+    """Open a file, decompressing it if it is packed."""
     return cast(IO[bytes], gzip.open(path)) if packed else path.open("rb")
 
 
-def _header(path: Path, head: bytes) -> _Header:
+def _parse_header(path: Path, head: bytes) -> _MghHeader:
+    """Parse and check the header."""
     if len(head) < HEADER_BYTES:
         raise FormatError(f"{path} is cut off within its header of {HEADER_BYTES} bytes; copy or save it again")
     version, nx, ny, nz, frames, kind, _, placed, *place = HEADER.unpack_from(head)
@@ -100,7 +102,7 @@ def _header(path: Path, head: bytes) -> _Header:
             path,
         )
     numbers = np.array(place if placed else UNPLACED, dtype=np.float64)
-    return _Header(
+    return _MghHeader(
         shape=(nx, ny, nz),
         frames=frames,
         kind=np.dtype(TYPES[kind]),
@@ -111,12 +113,13 @@ def _header(path: Path, head: bytes) -> _Header:
 
 
 def _read(file: IO[bytes], count: int) -> bytes:
-    """Return up to so many bytes; room is taken only for those there are."""
-    held = bytearray()
-    while len(held) < count and (some := file.read(min(2**24, count - len(held)))):
-        held += some
-    return bytes(held)
+    """Read up to `count` bytes; allocate memory only for those that the file holds."""
+    content = bytearray()
+    while len(content) < count and (chunk := file.read(min(2**24, count - len(content)))):
+        content += chunk
+    return bytes(content)
 
 
-def _cut_off(path: Path, held: int, needed: int) -> None:
-    raise FormatError(f"{path} is cut off: it holds {held} bytes of {needed}; copy or save it again")
+def _raise_cut_off(path: Path, available: int, needed: int) -> None:
+    """Raise FormatError for a file that ends too early."""
+    raise FormatError(f"{path} is cut off: it holds {available} bytes of {needed}; copy or save it again")

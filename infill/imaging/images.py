@@ -1,4 +1,4 @@
-"""What the headers of medical images have in common: axes of space and others, the type of a cell, and an affine."""
+"""Common parts of the headers of medical images: axes of space and frames, the type of a cell, and an affine."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from infill.volume import AXES, Volume
 MOST_AXES = 16
 SIZES = "the size of its cells along"
 TO_LPS = {"RAS": (-1.0, -1.0, 1.0), "LAS": (1.0, -1.0, 1.0), "LPS": (1.0, 1.0, 1.0)}
-# Cells from one to the end of another, counted in the file.
+# Reads the cells from one index to before another, in the order of the file.
 ReadCells = Callable[[int, int], NDArray[Any]]
 
 
 @dataclass(frozen=True, kw_only=True)
 class ImageHeader:
-    """What the header of an image says.
+    """The header of an image.
 
     Parameters
     ----------
@@ -35,13 +35,13 @@ class ImageHeader:
     sizes : tuple of int
         Cells along every axis, the fastest first.
     spatial : (3,) tuple of int
-        Which of the axes are those of space, in the order of the columns of the affine; the others are frames.
+        Axes of space, in the order of the columns of the affine; the others are frames.
     affine : (3, 4) float64, mm
-        Where the centre of cell (i, j, k) lies: affine @ (i, j, k, 1).
+        Maps cell indices to cell centres: affine @ (i, j, k, 1).
     space : str
         See `infill.Volume`.
     what : str
-        What the frames are, for messages, such as "holds 2 numbers per cell".
+        Description of the frames, for messages, such as "holds 2 numbers per cell".
     """
 
     path: Path
@@ -53,22 +53,22 @@ class ImageHeader:
 
     @property
     def cells(self) -> int:
-        """Return how many numbers the file holds."""
+        """Number of cells in the file."""
         return math.prod(self.sizes)
 
     @property
     def frame_axes(self) -> tuple[int, ...]:
-        """Return the axes that are not of space."""
+        """Axes that are not of space."""
         return tuple(axis for axis in range(len(self.sizes)) if axis not in self.spatial)
 
     @property
     def frames(self) -> int:
-        """Return how many volumes the file holds."""
+        """Number of volumes in the file."""
         return math.prod(self.sizes[axis] for axis in self.frame_axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Return the cells along each axis of a volume."""
+        """Cells along each axis of a volume."""
         return tuple(self.sizes[axis] for axis in self.spatial)
 
 
@@ -78,47 +78,47 @@ def read_frame(header: ImageHeader, frame: int | None, read: ReadCells) -> Volum
     Raises
     ------
     FormatError
-        If there are several and none was asked for, or the volume is unusable.
+        If there are several and none is requested, or the volume is unusable.
     ParameterError
-        If there is no such frame.
+        If the requested frame does not exist.
     """
     what = header.what or f"has {len(header.sizes)} axes, {times(header.sizes)}"
-    at = chosen(header.path, frame, header.frames, what=what)
+    frame_index = chosen(header.path, frame, header.frames, what=what)
     cells = math.prod(header.shape)
     if sorted(header.spatial) == list(range(AXES)):  # frames lie one after the other
-        values = read(at * cells, (at + 1) * cells).reshape(header.sizes[:AXES], order="F")
+        values = read(frame_index * cells, (frame_index + 1) * cells).reshape(header.sizes[:AXES], order="F")
         return place_volume(header, values.transpose(header.spatial))
-    return place_volume(header, _split(header, read(0, header.cells))[..., at])
+    return place_volume(header, _cells_by_frame(header, read(0, header.cells))[..., frame_index])
 
 
 def read_frames(header: ImageHeader, read: ReadCells) -> tuple[Volume, ...]:
-    """Read all volumes of an image, which may be empty."""
-    values = _split(header, read(0, header.cells))
-    return tuple(place_volume(header, values[..., at], varied=False) for at in range(header.frames))
+    """Read all volumes of an image; they may be empty."""
+    values = _cells_by_frame(header, read(0, header.cells))
+    return tuple(place_volume(header, values[..., frame_index], varied=False) for frame_index in range(header.frames))
 
 
-def _split(header: ImageHeader, cells: NDArray[Any]) -> NDArray[Any]:
-    """Return the cells as [x, y, z, frame]."""
+def _cells_by_frame(header: ImageHeader, cells: NDArray[Any]) -> NDArray[Any]:
+    """Reorder the cells to [x, y, z, frame]."""
     values = cells.reshape(header.sizes, order="F").transpose(header.spatial + header.frame_axes)
     return values.reshape((*header.shape, header.frames), order="F")
 
 
 def place_volume(header: ImageHeader, values: NDArray[Any], *, varied: bool = True) -> Volume:
-    """Return values [x, y, z] as a volume that lies where the affine says; it must be neither sheared nor flat."""
-    columns, first = header.affine[:, :AXES], header.affine[:, AXES]
+    """Place values [x, y, z] by the affine, which must be neither sheared nor flat; return the volume."""
+    columns, centre = header.affine[:, :AXES], header.affine[:, AXES]
     spacing = np.linalg.norm(columns, axis=0)
     if not (np.isfinite(header.affine).all() and (spacing > 0).all() and np.isfinite(spacing).all()):
         raise FormatError(
-            f"{header.path} has no usable place in space: its matrix is {_rows(header.affine)}; save it again"
+            f"{header.path} has no usable place in space: its matrix is {_format_matrix(header.affine)}; save it again"
         )
     direction = columns / spacing
-    corner = first - columns.sum(axis=1) / 2
+    corner = centre - columns.sum(axis=1) / 2
     place = {"spacing": tuple(spacing.tolist()), "origin": tuple(corner.tolist()), "direction": direction}
     return checked_volume(header.path, values, varied=varied, space=header.space, **place)
 
 
 def require_sizes(path: Path, sizes: tuple[int, ...]) -> None:
-    """Raise FormatError for an image that is no volume, or whose axes have no cells."""
+    """Raise FormatError unless an image has at least three axes, all with cells."""
     if not sizes or len(sizes) > MOST_AXES or min(sizes) < 1:
         raise FormatError(f"{path} has {len(sizes)} axes, {times(sizes[:MOST_AXES])}; save a volume with cells")
     if len(sizes) < AXES:
@@ -126,17 +126,17 @@ def require_sizes(path: Path, sizes: tuple[int, ...]) -> None:
 
 
 def times(sizes: tuple[int, ...]) -> str:
-    """Return cells along each axis in words."""
+    """Describe the numbers of cells along the axes in words."""
     return " x ".join(str(cells) for cells in sizes) + " cells"
 
 
 def scale_of(path: Path, word: str, what: str = "its sizes") -> float:
-    """Return the mm of a unit that a file states; for a word that is none, warn, and take mm."""
+    """Return the mm of a stated unit; for an unknown word, warn and assume mm."""
     return scales_of(path, [word], what, [""])[0]
 
 
 def scales_of(path: Path, words: Sequence[str], what: str, axes: Sequence[str]) -> list[float]:
-    """Return the mm of the unit of each of several axes, 1 where none is stated; warn once of a word that is none.
+    """Return the mm of the unit of each axis, 1 where none is stated; warn once about each unknown word.
 
     Parameters
     ----------
@@ -144,22 +144,23 @@ def scales_of(path: Path, words: Sequence[str], what: str, axes: Sequence[str]) 
     words : sequence of str
         Blank where none is stated.
     what : str
-        What is in that unit, such as "the size of its cells along".
+        Quantity in that unit, such as "the size of its cells along".
     axes : sequence of str
         The name of each axis.
     """
     scales = [millimetres(word) if word.strip() else 1.0 for word in words]
-    for strange in dict.fromkeys(word for word, scale in zip(words, scales, strict=True) if scale is None):
-        *first, last = (axis for axis, word in zip(axes, words, strict=True) if word == strange)
-        named = f"{', '.join(first)} and {last}" if first else last
+    for unknown_word in dict.fromkeys(word for word, scale in zip(words, scales, strict=True) if scale is None):
+        *leading, final = (axis for axis, word in zip(axes, words, strict=True) if word == unknown_word)
+        axis_list = f"{', '.join(leading)} and {final}" if leading else final
         warn(
             "%s gives %s in %r, no known unit of length; they are taken as mm, unless --spacing gives them",
             path,
-            f"{what} {named}".rstrip(),
-            strange[:40],
+            f"{what} {axis_list}".rstrip(),
+            unknown_word[:40],
         )
     return [1.0 if scale is None else scale for scale in scales]
 
 
-def _rows(matrix: NDArray[np.float64]) -> str:
+def _format_matrix(matrix: NDArray[np.float64]) -> str:
+    """Format a matrix as text."""
     return "; ".join(" ".join(f"{number:.4g}" for number in row) for row in matrix)

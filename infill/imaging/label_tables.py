@@ -1,4 +1,4 @@
-"""What the numbers of a segmentation mean: names and colours, from the tables that other programs write.
+"""Names and colours of the labels of a segmentation, from the tables of other programs.
 
     ITK-SNAP         IDX R G B A VIS MSH "LABEL", colours 0 to 255, A from 0 to 1
     FreeSurfer, LUT  No. Name R G B A, colours 0 to 255, A is 255 less the opacity
@@ -36,11 +36,11 @@ class Segment:
     value : int
         Number of its cells.
     name : str
-        What it is called; empty if nobody says.
+        Empty if unknown.
     colour : (red, green, blue), optional
         From 0 to 1, sRGB.
     layer : int
-        Which of the volumes of the segmentation it lies in, counted from 0.
+        Index of its volume in the segmentation, counted from 0.
     """
 
     value: int
@@ -50,7 +50,7 @@ class Segment:
 
 
 def read_labels(path: str | os.PathLike[str]) -> tuple[Segment, ...]:
-    """Return the labels of a table, in the order of the file; where a number stands twice, the last line counts.
+    """Read the labels of a table, in the order of the file; the last line of a number counts.
 
     Parameters
     ----------
@@ -60,65 +60,65 @@ def read_labels(path: str | os.PathLike[str]) -> tuple[Segment, ...]:
     Raises
     ------
     FormatError
-        If there is no such file, it is none of these, or it holds no label.
+        If the file is missing, has another format, or holds no label.
     """
     source = Path(path)
-    text = _text(source)
-    found: dict[int, Segment] = {}
+    text = _read_text(source)
+    segments: dict[int, Segment] = {}
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.strip()
         if not words or words.startswith("#"):
             continue
-        segment = _described(words)
+        segment = _parse_label(words)
         if segment is None:
             raise FormatError(
                 f"{source} has no label in line {number}; give label descriptions of ITK-SNAP, a lookup table of "
                 "FreeSurfer or a .ctbl of 3D Slicer"
             )
-        found[segment.value] = segment
-    if not found:
+        segments[segment.value] = segment
+    if not segments:
         raise FormatError(f"{source} names no label; check that it is the right file")
-    return tuple(found.values())
+    return tuple(segments.values())
 
 
-def _described(line: str) -> Segment | None:
-    """Return the label that a line describes, or None."""
+def _parse_label(line: str) -> Segment | None:
+    """Parse the label on a line; return None if the line has none."""
     if snap := SNAP.fullmatch(line):
         value, *colour, name = snap.groups()
     elif lut := LUT.fullmatch(line):
         value, name, *colour = lut.groups()
     else:
         return None
-    if any(int(each) > HIGHEST for each in colour):
+    if any(int(channel) > HIGHEST for channel in colour):
         return None
-    red, green, blue = (int(each) / HIGHEST for each in colour)
+    red, green, blue = (int(channel) / HIGHEST for channel in colour)
     return Segment(value=int(value), name=name.strip(), colour=(red, green, blue))
 
 
 def segments_of_nrrd(path: str | os.PathLike[str]) -> tuple[Segment, ...]:
-    """Return the segments that 3D Slicer named in the header of a .nrrd; none if there are none.
+    """Read the segments that 3D Slicer named in the header of a .nrrd.
 
     Raises
     ------
     FormatError
-        If a field of a segment holds something other than it should.
+        If a field of a segment has a wrong value.
     """
     source = Path(path)
     fields = [
-        (int(found[1]), found[2], found[3].strip())
-        for line in _nrrd_header(source)
-        if (found := FIELD.fullmatch(line)) is not None
+        (int(match[1]), match[2], match[3].strip())
+        for line in _read_nrrd_header(source)
+        if (match := FIELD.fullmatch(line)) is not None
     ]
     segments = []
-    for number, each in groupby(sorted(fields), key=lambda field: field[0]):
-        known = {key: value for _, key, value in each}
+    for number, entries in groupby(sorted(fields), key=lambda field: field[0]):
+        values = {key: value for _, key, value in entries}
         try:
             # Before layers could be shared, every segment had one of its own, of zeros and ones.
             segment = Segment(
-                value=int(known.get("LabelValue", "1")),
-                name=known.get("Name", "").replace("\\n", " ").replace("\\\\", "\\"),
-                colour=_shares(known["Color"]) if "Color" in known else None,
-                layer=int(known.get("Layer", "0" if "LabelValue" in known else str(number))),
+                value=int(values.get("LabelValue", "1")),
+                name=values.get("Name", "").replace("\\n", " ").replace("\\\\", "\\"),
+                colour=_parse_colour(values["Color"]) if "Color" in values else None,
+                layer=int(values.get("Layer", "0" if "LabelValue" in values else str(number))),
             )
         except ValueError as error:
             raise FormatError(f"{source} describes segment {number} wrongly ({error}); save it again") from error
@@ -126,13 +126,14 @@ def segments_of_nrrd(path: str | os.PathLike[str]) -> tuple[Segment, ...]:
     return tuple(segments)
 
 
-def _shares(text: str) -> Colour:
+def _parse_colour(text: str) -> Colour:
+    """Parse a colour and clip it to the range from 0 to 1."""
     red, green, blue = (min(1.0, max(0.0, float(word))) for word in text.split())
     return red, green, blue
 
 
-def _nrrd_header(path: Path) -> list[str]:
-    """Return the lines before the first empty one; none if the file is no NRRD."""
+def _read_nrrd_header(path: Path) -> list[str]:
+    """Return the header lines of a NRRD, before the first empty line; an empty list for other files."""
     try:
         with path.open("rb") as file:
             head = file.read(LARGEST)
@@ -141,24 +142,26 @@ def _nrrd_header(path: Path) -> list[str]:
     if not head.startswith(NRRD.encode()):
         return []
     ends = re.search(rb"\r?\n\r?\n", head)
-    return _decoded(head if ends is None else head[: ends.start()]).splitlines()
+    return _decode(head if ends is None else head[: ends.start()]).splitlines()
 
 
-def _text(path: Path) -> str:
+def _read_text(path: Path) -> str:
+    """Read a text file of limited size."""
     if not path.is_file():
         raise FormatError(f"there is no file {path}; check the name")
     try:
         with path.open("rb") as file:
-            held = file.read(LARGEST + 1)
+            content = file.read(LARGEST + 1)
     except OSError as error:
         raise FormatError(f"cannot read {path}: {error.strerror or error}; check the file") from error
-    if len(held) > LARGEST or b"\0" in held:
+    if len(content) > LARGEST or b"\0" in content:
         raise FormatError(f"{path} is no table of labels; give a text file with one label a line")
-    return _decoded(held)
+    return _decode(content)
 
 
-def _decoded(held: bytes) -> str:
+def _decode(content: bytes) -> str:
+    """Decode text as UTF-8, or else as Latin-1."""
     try:
-        return held.decode("utf-8-sig")
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        return held.decode("latin-1")
+        return content.decode("latin-1")

@@ -1,4 +1,4 @@
-"""Frames of DICOM that are packed, by SimpleITK (extra `medical`), in a process of its own: see child_process.py."""
+"""Decompress DICOM frames by SimpleITK (extra `medical`), in a child process: see child_process.py."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from infill.files.child_process import read_in_child
 
 
 def unpacked_frames(path: Path, source: Path) -> tuple[NDArray[Any], tuple[str, ...]]:
-    """Return the numbers in a DICOM file [frame, row, column], and what was said while they were unpacked.
+    """Decompress a DICOM file; return its numbers [frame, row, column] and the messages of the library.
 
     Parameters
     ----------
     path : Path
-        A file that says nothing but pixels: see `infill.imaging.dicom_files.write_packed_frames`.
+        A file that holds only pixels: see `infill.imaging.dicom_files.write_packed_frames`.
     source : Path
-        The file that they come from, for messages.
+        The original file, for messages.
 
     Raises
     ------
@@ -36,15 +36,15 @@ def unpacked_frames(path: Path, source: Path) -> tuple[NDArray[Any], tuple[str, 
 
 
 def unpack_frames(path: str) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Read a DICOM file by SimpleITK; return nothing more about it, and its numbers [frame, row, column]."""
+    """Read a DICOM file by SimpleITK; return an empty dict and its numbers [frame, row, column]."""
     import SimpleITK
 
     image = SimpleITK.ReadImage(path, imageIO="GDCMImageIO")
-    return {}, {"values": np.asarray(_Kept(SimpleITK.GetArrayViewFromImage(image), image))}
+    return {}, {"values": np.asarray(_ImageArray(SimpleITK.GetArrayViewFromImage(image), image))}
 
 
-class _Kept:
-    """The numbers of an image as an array; the image is kept alive as long as the array, so that nothing is copied."""
+class _ImageArray:
+    """The numbers of an image as an array that keeps the image alive, so that no copy is needed."""
 
     def __init__(self, view: NDArray[Any], image: Any) -> None:  # noqa: ANN401 - SimpleITK.Image
         self.image = image

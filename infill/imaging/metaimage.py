@@ -27,14 +27,14 @@ TYPES = {
     "ushort": "u2",
     "int": "i4",
     "uint": "u4",
-    "long": "i4",  # as the format has it, whatever the computer
+    "long": "i4",  # as the format defines it, on every computer
     "ulong": "u4",
     "long_long": "i8",
     "ulong_long": "u8",
     "float": "f4",
     "double": "f8",
 }
-# Several names for one thing; where several are given, the first that is listed counts.
+# Synonyms; the first one in the header counts.
 MATRIX = ("transformmatrix", "rotation", "orientation")
 ORIGIN = ("offset", "position", "origin")
 DATA = "elementdatafile"
@@ -44,26 +44,26 @@ TOWARDS = {"R": (0, 1), "L": (0, -1), "A": (1, 1), "P": (1, -1), "I": (2, 1), "S
 UNKNOWN = {"", "???", "?"}
 
 
-class _Fields(dict[str, str]):
-    """The fields of a header by name, in small letters."""
+class _MetaFields(dict[str, str]):
+    """The fields of a header by lower-case name."""
 
     def __missing__(self, name: str) -> str:
         raise ValueError(f"its header lacks {name}")
 
     def yes(self, *names: str) -> bool:
-        """Return whether one of some fields says yes."""
-        said = next((self[name] for name in names if name in self), "false").lower()
-        if said not in ("true", "false", "1", "0", "yes", "no", "t", "f"):
-            raise ValueError(f"{names[0]} is {said[:20]!r}")
-        return said[0] in "t1y"
+        """Tell whether the first of the named fields in the header is true."""
+        value = next((self[name] for name in names if name in self), "false").lower()
+        if value not in ("true", "false", "1", "0", "yes", "no", "t", "f"):
+            raise ValueError(f"{names[0]} is {value[:20]!r}")
+        return value[0] in "t1y"
 
 
 def read_meta_image(path: Path, frame: int | None = None) -> Volume:
     """Read the volume of a file, [x, y, z] in LPS, or one of several, counted from 0."""
     with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
-        fields, listed, end = _fields(path)
+        fields, listed, end = _parse_header(path)
         count = int(fields["ndims"])
-        sizes = _whole(fields, "dimsize", count)
+        sizes = _integers(fields, "dimsize", count)
         require_sizes(path, sizes)
         channels = int(fields.get("elementnumberofchannels", "1"))
         if channels < 1:
@@ -77,12 +77,12 @@ def read_meta_image(path: Path, frame: int | None = None) -> Volume:
             space="LPS",
             what=f"holds {channels} numbers per cell" if several else "",
         )
-        return read_frame(header, frame, _cells(path, fields, header, listed, end))
+        return read_frame(header, frame, _cell_reader(path, fields, header, listed, end))
 
 
-def _fields(path: Path) -> tuple[_Fields, tuple[str, ...], int]:
-    """Return the header of a file, which the name of the data file ends, the files listed, and where the data begin."""
-    fields = _Fields()
+def _parse_header(path: Path) -> tuple[_MetaFields, tuple[str, ...], int]:
+    """Parse the header; return its fields, the listed files, and the end of the header."""
+    fields = _MetaFields()
     with path.open("rb") as file:
         for _ in range(MOST_LINES):
             line = file.readline(LONGEST_LINE)
@@ -91,14 +91,14 @@ def _fields(path: Path) -> tuple[_Fields, tuple[str, ...], int]:
                 if not line:
                     break
                 continue
-            found = LINE.fullmatch(text)
-            if found is None:
+            match = LINE.fullmatch(text)
+            if match is None:
                 raise FormatError(f"{path} has a line in its header that is no field, {text[:40]!r}; save it again")
-            fields[found[1].lower()] = found[2]
-            if found[1].lower() == DATA:
+            fields[match[1].lower()] = match[2]
+            if match[1].lower() == DATA:
                 listed: tuple[str, ...] = ()
-                if found[2].split()[:1] == ["LIST"]:
-                    listed = tuple(filter(None, (each.decode("utf-8", "replace").strip() for each in file)))
+                if match[2].split()[:1] == ["LIST"]:
+                    listed = tuple(filter(None, (name_line.decode("utf-8", "replace").strip() for name_line in file)))
                 if fields.get("objecttype", "image").lower() != "image":
                     raise FormatError(f"{path} holds {fields['objecttype'][:40]!r}; save an image")
                 return fields, listed, file.tell()
@@ -108,10 +108,10 @@ def _fields(path: Path) -> tuple[_Fields, tuple[str, ...], int]:
 # --- place -----------------------------------------------------------------------------------------------
 
 
-def _affine(path: Path, fields: _Fields, count: int) -> NDArray[np.float64]:
-    """Return where the cells lie, in LPS: row i of the matrix in the file is the direction of axis i."""
-    matrix = _first(path, fields, MATRIX, count * count)
-    origin = _first(path, fields, ORIGIN, count)
+def _affine(path: Path, fields: _MetaFields, count: int) -> NDArray[np.float64]:
+    """Return the affine in LPS: row i of the matrix in the file is the direction of axis i."""
+    matrix = _agreeing_vector(path, fields, MATRIX, count * count)
+    origin = _agreeing_vector(path, fields, ORIGIN, count)
     sizes, gaps = (_floats(fields, name, count) for name in ("elementspacing", "elementsize"))
     if sizes is None and gaps is None:
         warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
@@ -120,48 +120,49 @@ def _affine(path: Path, fields: _Fields, count: int) -> NDArray[np.float64]:
             "%s states cells of %s mm, %s mm apart (ElementSize, ElementSpacing); they are taken as that large as they "
             "are apart",
             path,
-            " x ".join(f"{each:.6g}" for each in gaps[:AXES]),
-            " x ".join(f"{each:.6g}" for each in sizes[:AXES]),
+            " x ".join(f"{length:.6g}" for length in gaps[:AXES]),
+            " x ".join(f"{length:.6g}" for length in sizes[:AXES]),
         )
     spacing = sizes if sizes is not None else gaps if gaps is not None else np.ones(count)
     directions = np.eye(count) if matrix is None else matrix.reshape(count, count).T
     _check_anatomy(path, fields, directions[:AXES, :AXES])
     unit = next((fields[name] for name in ("distanceunits", "elementspacingunits", "units") if fields.get(name)), "mm")
     scale = 1.0 if unit in UNKNOWN else scale_of(path, unit)
-    first = np.zeros(count) if origin is None else origin
-    return scale * np.column_stack([directions[:AXES, :AXES] * spacing[:AXES], first[:AXES]])
+    centre = np.zeros(count) if origin is None else origin
+    return scale * np.column_stack([directions[:AXES, :AXES] * spacing[:AXES], centre[:AXES]])
 
 
-def _first(path: Path, fields: _Fields, names: tuple[str, ...], count: int) -> NDArray[np.float64] | None:
-    """Return the numbers of a field that has several names; those given must agree."""
-    found = [each for name in names if (each := _floats(fields, name, count)) is not None]
-    if any(not np.allclose(each, found[0]) for each in found):
-        given = " and ".join(name for name in names if name in fields)
-        raise FormatError(f"{path} states two places ({given} differ); delete the wrong one from its header")
-    return found[0] if found else None
+def _agreeing_vector(path: Path, fields: _MetaFields, names: tuple[str, ...], count: int) -> NDArray[np.float64] | None:
+    """Return the numbers of a field with several names; raise FormatError if two disagree."""
+    vectors = [vector for name in names if (vector := _floats(fields, name, count)) is not None]
+    if any(not np.allclose(vector, vectors[0]) for vector in vectors):
+        conflict = " and ".join(name for name in names if name in fields)
+        raise FormatError(f"{path} states two places ({conflict} differ); delete the wrong one from its header")
+    return vectors[0] if vectors else None
 
 
-def _check_anatomy(path: Path, fields: _Fields, directions: NDArray[np.float64]) -> None:
-    """Warn if the anatomical orientation says something else than the directions, which count."""
-    said = fields.get("anatomicalorientation", "").upper()
-    if said in UNKNOWN or "?" in said:
+def _check_anatomy(path: Path, fields: _MetaFields, directions: NDArray[np.float64]) -> None:
+    """Warn if the anatomical orientation contradicts the directions, which count."""
+    anatomy = fields.get("anatomicalorientation", "").upper()
+    if anatomy in UNKNOWN or "?" in anatomy:
         return
-    letters = [TOWARDS.get(letter) for letter in said]
-    if len(said) >= AXES and all(letters[:AXES]):
-        turned = np.zeros((AXES, AXES))
+    letters = [TOWARDS.get(letter) for letter in anatomy]
+    if len(anatomy) >= AXES and all(letters[:AXES]):
+        stated_axes = np.zeros((AXES, AXES))
         for axis, letter in enumerate(letters[:AXES]):
             assert letter is not None
-            turned[letter[0], axis] = letter[1]
-        if ((directions * turned).sum(axis=0) > 0.5).all():  # within 60 degrees
+            stated_axes[letter[0], axis] = letter[1]
+        if ((directions * stated_axes).sum(axis=0) > 0.5).all():  # within 60 degrees
             return
     warn(
         "%s says AnatomicalOrientation = %s, which does not fit its TransformMatrix; the matrix is taken",
         path,
-        said[:20],
+        anatomy[:20],
     )
 
 
-def _floats(fields: _Fields, name: str, count: int) -> NDArray[np.float64] | None:
+def _floats(fields: _MetaFields, name: str, count: int) -> NDArray[np.float64] | None:
+    """Return `count` numbers of a field; None if it is missing."""
     if name not in fields:
         return None
     numbers = np.array([float(word) for word in fields[name].split()])
@@ -170,7 +171,8 @@ def _floats(fields: _Fields, name: str, count: int) -> NDArray[np.float64] | Non
     return numbers
 
 
-def _whole(fields: _Fields, name: str, count: int) -> tuple[int, ...]:
+def _integers(fields: _MetaFields, name: str, count: int) -> tuple[int, ...]:
+    """Return `count` integers of a field."""
     numbers = tuple(int(word) for word in fields[name].split())
     if len(numbers) != count:
         raise ValueError(f"{len(numbers)} numbers in {name} where there should be {count}")
@@ -180,8 +182,8 @@ def _whole(fields: _Fields, name: str, count: int) -> tuple[int, ...]:
 # --- cells -----------------------------------------------------------------------------------------------
 
 
-def _cells(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, ...], end: int) -> ReadCells:
-    """Return what reads the cells of a file, after checking that it can."""
+def _cell_reader(path: Path, fields: _MetaFields, header: ImageHeader, listed: tuple[str, ...], end: int) -> ReadCells:
+    """Return the function that reads the cells of a file, after checking the header."""
     name = fields["elementtype"].lower().removeprefix("met_").removesuffix("_array")
     if name not in TYPES:
         raise FormatError(f"{path} holds cells of type {name[:40]!r}; save them as integers or floats")
@@ -199,30 +201,30 @@ def _cells(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, 
         raise FormatError(
             f"{path} has a HeaderSize of {skip} before {encoding} data; give 0 or more, or -1 for raw data"
         )
-    files = _files(path, fields, header, listed)
-    local = files == [path]
-    if local and 0 < skip < end:
+    files = _data_files(path, fields, header, listed)
+    is_local = files == [path]
+    if is_local and 0 < skip < end:
         raise FormatError(
             f"{path} has a HeaderSize of {skip}, within its own header of {end} bytes; delete that line, or give -1"
         )
     packed = int(fields.get("compresseddatasize", "0")) if encoding == "zlib" else 0
     parts = [
         Part(
-            path=each,
-            begin=max(skip, end if local else 0),  # counted from the beginning of the file
+            path=file,
+            begin=max(skip, end if is_local else 0),  # counted from the beginning of the file
             from_end=skip == -1,
             packed_bytes=packed if packed > 0 and len(files) == 1 else None,
         )
-        for each in files
+        for file in files
     ]
     return lambda low, high: read_parts(path, parts, kind, header.cells, low, high, encoding=encoding)
 
 
-def _files(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, ...]) -> list[Path]:
-    """Return the files that hold the cells, in order."""
-    given = fields[DATA]
-    words = given.split()
-    if given.lower() == "local":
+def _data_files(path: Path, fields: _MetaFields, header: ImageHeader, listed: tuple[str, ...]) -> list[Path]:
+    """Return the files of the cells, in order."""
+    data_file = fields[DATA]
+    words = data_file.split()
+    if data_file.lower() == "local":
         return [path]
     if words[:1] == ["LIST"]:
         if not listed:
@@ -233,4 +235,4 @@ def _files(path: Path, fields: _Fields, header: ImageHeader, listed: tuple[str, 
         if len(words) == 2:
             high = low + header.sizes[-1] - 1
         return [find_detached(path, name) for name in number_names(path, words[0], low, high, step)]
-    return [find_detached(path, given)]
+    return [find_detached(path, data_file)]

@@ -1,4 +1,4 @@
-"""File names with a place for a label in them: ``bones/{label}.stl``, or ``{number}`` for its number."""
+"""File names with a placeholder for a label: ``bones/{label}.stl``, or ``{number}`` for its number."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NAME, NUMBER = "{label}", "{number}"
 
 
 def is_template(path: Path) -> bool:
-    """Return whether a path has a place for a label.
+    """Tell whether a path has a placeholder for a label.
 
     >>> is_template(Path("bones/{label}.stl")), is_template(Path("bones.stl"))
     (True, False)
@@ -21,9 +21,9 @@ def is_template(path: Path) -> bool:
 
 
 def filled(path: Path, names: Sequence[str], segments: Sequence[Segment]) -> list[Path]:
-    """Return the path of each label: its name, made safe for every file system, and its number put in.
+    """Return the path of each label, with its name, made safe for every file system, and its number.
 
-    >>> [each.name for each in filled(Path("{number}_{label}.stl"), ["L1/L2"], [Segment(value=4)])]
+    >>> [path.name for path in filled(Path("{number}_{label}.stl"), ["L1/L2"], [Segment(value=4)])]
     ['4_L1_L2.stl']
     """
     safe = safe_names(names, [f"label_{segment.value}" for segment in segments])

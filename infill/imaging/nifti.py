@@ -1,8 +1,8 @@
 """NIfTI-1 and NIfTI-2 in one file: .nii, plain or packed by gzip.
 
-A header of fixed length, then the cells, x fastest. Where they lie is said up to three times: by a matrix (sform), by a
-quaternion (qform), and by cell sizes alone; a code beside each of the first two says whether it counts. Space is RAS;
-here it becomes LPS. Sources: nifti1.h and nifti2.h of the NIfTI data format working group.
+A header of fixed length, then the cells, x fastest. The header gives their place up to three times: by a matrix
+(sform), by a quaternion (qform), and by cell sizes alone; a code tells whether each of the first two counts. Space is
+RAS; here it becomes LPS. Sources: nifti1.h and nifti2.h of the NIfTI data format working group.
 """
 
 from __future__ import annotations
@@ -44,15 +44,15 @@ COMPLEX = {32, 1792, 2048}
 COLOURS = {128: 3, 2304: 4}
 MILLIMETRES = {1: 1000.0, 2: 1.0, 3: 1e-3}
 LENGTH_BITS = 7  # of the units; the others are those of time
-CODES = range(6)  # of the methods to place a volume: 0 where one is not used
-# Two statements of one place that are rounded to 32 bits: share of a cell.
+CODES = range(6)  # of the methods to place a volume: 0 for an unused one
+# Tolerance between two places that are rounded to 32 bits: share of a cell.
 AGREEING = 1e-2
 OFF_UNIT = 1e-4  # by how much the squares of a quaternion's parts may exceed 1
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Form:
-    """Where the fields lie in a header of one version."""
+class _HeaderLayout:
+    """Positions of the fields in a header of one version."""
 
     size: int
     first: int
@@ -60,7 +60,7 @@ class _Form:
     fields: dict[str, tuple[str, int]]
 
 
-ONE = _Form(
+ONE = _HeaderLayout(
     size=348,
     first=352,
     dim="8h",
@@ -79,7 +79,7 @@ ONE = _Form(
         "sform": ("12f", 280),
     },
 )
-TWO = _Form(
+TWO = _HeaderLayout(
     size=540,
     first=544,
     dim="8q",
@@ -101,11 +101,11 @@ TWO = _Form(
 FORMS = {ONE.size: ONE, TWO.size: TWO}
 
 
-class _Header:
+class _NiftiHeader:
     """The fields of a header, by name."""
 
-    def __init__(self, form: _Form, order: str, held: bytes) -> None:
-        self.form, self.order, self.held = form, order, held
+    def __init__(self, form: _HeaderLayout, order: str, content: bytes) -> None:
+        self.form, self.order, self.held = form, order, content
 
     def all(self, name: str) -> tuple[Any, ...]:
         """Return the numbers of a field."""
@@ -122,18 +122,18 @@ def read_nifti(path: Path, frame: int | None = None) -> Volume:
     with told_broken(path), np.errstate(all="ignore"), path.open("rb") as file:  # infinite places are refused
         packed = file.read(2) == MAGIC_OF_GZIP
         file.seek(0)
-        found = _header(path, _head(path, file, packed=packed))
-        sizes = _sizes(path, found)
+        header = _parse_header(path, _read_head(path, file, packed=packed))
+        sizes = _sizes(path, header)
         image = ImageHeader(
-            path=path, sizes=sizes, spatial=tuple(range(AXES)), affine=_affine(path, found, sizes), space="LPS"
+            path=path, sizes=sizes, spatial=tuple(range(AXES)), affine=_affine(path, header, sizes), space="LPS"
         )
-        kind = _kind(path, found)
-        begin = _begin(path, found)
+        kind = _kind(path, header)
+        begin = _first_cell(path, header)
 
         def read(low: int, high: int) -> NDArray[Any]:
             file.seek(0)
             size = kind.itemsize
-            held = read_bytes(
+            content = read_bytes(
                 str(path),
                 file,
                 (high - low) * size,
@@ -141,92 +141,94 @@ def read_nifti(path: Path, frame: int | None = None) -> Volume:
                 skip=begin + low * size,
                 total=begin + image.cells * size,
             )
-            return _scaled(path, held.view(kind), found)
+            return _scaled(path, content.view(kind), header)
 
         return read_frame(image, frame, read)
 
 
-def _head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:
-    """Return the first bytes, as many as the longest header has, or fewer."""
+def _read_head(path: Path, file: BinaryIO, *, packed: bool) -> bytes:
+    """Read the first bytes, up to the length of the longest header."""
     if not packed:
         return file.read(TWO.size)
     try:
         with gzip.GzipFile(fileobj=file) as unpacked:
-            return _some(cast(BinaryIO, unpacked), TWO.size)
+            return _read_start(cast(BinaryIO, unpacked), TWO.size)
     except (OSError, zlib.error) as error:
         raise FormatError(
             f"{path} is damaged: it does not unpack ({one_line(error)}); copy or save it again"
         ) from error
 
 
-def _some(file: BinaryIO, count: int) -> bytes:
-    """Return the bytes up to a truncated end, too."""
-    held = b""
+def _read_start(file: BinaryIO, count: int) -> bytes:
+    """Read up to `count` bytes, also before a truncated end."""
+    content = b""
     try:
-        while len(held) < count and (byte := file.read(1)):
-            held += byte
+        while len(content) < count and (byte := file.read(1)):
+            content += byte
     except EOFError:
         pass
-    return held
+    return content
 
 
-def _header(path: Path, held: bytes) -> _Header:
-    """Return the header that some bytes are, whichever its version and the order of its bytes."""
+def _parse_header(path: Path, content: bytes) -> _NiftiHeader:
+    """Parse the header of either version and byte order."""
     for order in "<>":
-        form = FORMS.get(struct.unpack(f"{order}i", held[:4])[0]) if len(held) >= 4 else None
+        form = FORMS.get(struct.unpack(f"{order}i", content[:4])[0]) if len(content) >= 4 else None
         if form is None:
             continue
-        if len(held) < form.size:
-            raise cut_off(str(path), len(held), form.size, "bytes of its header")
-        found = _Header(form, order, held)
-        magic = found.one("magic")[:4]
+        if len(content) < form.size:
+            raise cut_off(str(path), len(content), form.size, "bytes of its header")
+        header = _NiftiHeader(form, order, content)
+        magic = header.one("magic")[:4]
         if magic in (b"ni1\0", b"ni2\0"):
             raise FormatError(f"{path} is the header of a pair of files; save both as one .nii")
         if magic not in (b"n+1\0", b"n+2\0"):
             raise FormatError(f"{path} has no mark of NIfTI in its header (it may be Analyze 7.5); save it as .nii")
-        return found
+        return header
     raise FormatError(f"{path} does not begin with a header of NIfTI; check that it is a .nii file")
 
 
-def _sizes(path: Path, found: _Header) -> tuple[int, ...]:
-    axes, *sizes = found.all("dim")
+def _sizes(path: Path, header: _NiftiHeader) -> tuple[int, ...]:
+    """Return the cells along each axis."""
+    axes, *sizes = header.all("dim")
     if not 1 <= axes <= len(sizes):
         raise FormatError(f"{path} has {axes} axes, and NIfTI 1 to 7; save it again")
     # Axes beyond space may be given as 0 where there is nothing along them.
-    known = tuple(max(1, size) if axis >= AXES else size for axis, size in enumerate(sizes[:axes]))
-    require_sizes(path, known)
-    return known
+    shape = tuple(max(1, size) if axis >= AXES else size for axis, size in enumerate(sizes[:axes]))
+    require_sizes(path, shape)
+    return shape
 
 
-def _kind(path: Path, found: _Header) -> np.dtype[Any]:
-    code = found.one("datatype")
+def _kind(path: Path, header: _NiftiHeader) -> np.dtype[Any]:
+    """Return the type of the cells."""
+    code = header.one("datatype")
     if code in COMPLEX:
         raise FormatError(f"{path} holds complex numbers; save their magnitude or their phase")
     if code in COLOURS:
         raise FormatError(f"{path} holds {COLOURS[code]} numbers per cell, a colour; save one as grey")
     if code not in TYPES:
         raise FormatError(f"{path} holds cells of type {code}; save them as integers or floats of up to 64 bits")
-    kind = np.dtype(TYPES[code]).newbyteorder("<" if found.order == "<" else ">")
-    if found.one("bitpix") not in (0, 8 * kind.itemsize):
+    kind = np.dtype(TYPES[code]).newbyteorder("<" if header.order == "<" else ">")
+    if header.one("bitpix") not in (0, 8 * kind.itemsize):
         raise FormatError(
-            f"{path} states cells of {found.one('bitpix')} bits and a type of {8 * kind.itemsize}; save it again"
+            f"{path} states cells of {header.one('bitpix')} bits and a type of {8 * kind.itemsize}; save it again"
         )
     return kind
 
 
-def _begin(path: Path, found: _Header) -> int:
-    """Return where the cells begin, bytes."""
-    begin = found.one("vox_offset")
+def _first_cell(path: Path, header: _NiftiHeader) -> int:
+    """Return the position of the first cell, bytes."""
+    begin = header.one("vox_offset")
     if begin == 0:  # some programs leave it out
-        return found.form.first
-    if not found.form.first <= begin < 2**62 or begin != int(begin):
+        return header.form.first
+    if not header.form.first <= begin < 2**62 or begin != int(begin):
         raise FormatError(f"{path} says that its cells begin at byte {begin:.6g}, within its header; save it again")
     return int(begin)
 
 
-def _scaled(path: Path, cells: NDArray[Any], found: _Header) -> NDArray[Any]:
-    """Return the values that cells stand for: slope * cell + intercept, unless the slope is 0 or no number."""
-    slope, intercept = found.all("slope")
+def _scaled(path: Path, cells: NDArray[Any], header: _NiftiHeader) -> NDArray[Any]:
+    """Scale cells to values: slope * cell + intercept, unless the slope is 0 or not finite."""
+    slope, intercept = header.all("slope")
     if not math.isfinite(slope) or slope == 0 or (slope == 1 and intercept == 0):
         return cells
     if not math.isfinite(intercept):
@@ -242,32 +244,32 @@ def _scaled(path: Path, cells: NDArray[Any], found: _Header) -> NDArray[Any]:
 # --- place -----------------------------------------------------------------------------------------------
 
 
-def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.float64]:
-    """Return where the cells lie, mm in LPS: by the sform if its code is not 0, else the qform, else by sizes alone.
+def _affine(path: Path, header: _NiftiHeader, sizes: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return the affine, mm in LPS: the sform if its code is not 0, else the qform, else the sizes alone.
 
-    Where neither counts, the axes lead left, anterior and superior from a volume around the origin, as in Analyze.
+    If neither counts, the axes lead left, anterior and superior from a volume around the origin, as in Analyze.
     """
-    unit = found.one("units") & LENGTH_BITS
+    unit = header.one("units") & LENGTH_BITS
     if unit == 0:
         warn("%s does not say its unit of length; it is taken as mm, unless --spacing gives it", path)
     elif unit not in MILLIMETRES:
         warn("%s has an unknown unit of length (code %d); it is taken as mm, unless --spacing gives it", path, unit)
     scale = MILLIMETRES.get(unit, 1.0)
-    steps = np.abs(np.array(found.all("pixdim")[1 : AXES + 1], dtype=np.float64))
-    codes = {name: found.one(f"{name}_code") for name in ("sform", "qform")}
+    steps = np.abs(np.array(header.all("pixdim")[1 : AXES + 1], dtype=np.float64))
+    codes = {name: header.one(f"{name}_code") for name in ("sform", "qform")}
     for name, code in codes.items():
         if code not in CODES:
             warn("%s has an unknown %s code, %d", path, name, code)
-    by_matrix = np.array(found.all("sform"), dtype=np.float64).reshape(AXES, AXES + 1)
-    by_quaternion = _of_quaternion(path, found, steps) if codes["qform"] else None
+    by_matrix = np.array(header.all("sform"), dtype=np.float64).reshape(AXES, AXES + 1)
+    by_quaternion = _affine_of_quaternion(path, header, steps) if codes["qform"] else None
     if codes["sform"]:
-        _warn_of_sizes(path, by_matrix, steps)
-        if by_quaternion is not None and (off := _apart(by_matrix, by_quaternion, sizes)) > AGREEING:
+        _warn_if_sizes_differ(path, by_matrix, steps)
+        if by_quaternion is not None and (distance := _corner_distance(by_matrix, by_quaternion, sizes)) > AGREEING:
             warn(
                 "%s states two places, up to %.3g cells apart: by its sform (code %d), which is taken, and by its "
                 "qform (code %d)",
                 path,
-                off,
+                distance,
                 codes["sform"],
                 codes["qform"],
             )
@@ -285,17 +287,17 @@ def _affine(path: Path, found: _Header, sizes: tuple[int, ...]) -> NDArray[np.fl
     return np.array([[-scale], [-scale], [scale]]) * affine
 
 
-def _of_quaternion(path: Path, found: _Header, steps: NDArray[np.float64]) -> NDArray[np.float64]:
+def _affine_of_quaternion(path: Path, header: _NiftiHeader, steps: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the affine of the qform; formulas of nifti1.h, "QUATERNION REPRESENTATION OF ROTATION MATRIX"."""
-    b, c, d, *offset = (float(number) for number in found.all("quaternion"))
-    rest = 1 - (b * b + c * c + d * d)
-    if not rest > -OFF_UNIT:
+    b, c, d, *offset = (float(number) for number in header.all("quaternion"))
+    squared_real = 1 - (b * b + c * c + d * d)
+    if not squared_real > -OFF_UNIT:
         raise FormatError(f"{path} has a quaternion that is no rotation ({b:.4g}, {c:.4g}, {d:.4g}); save it again")
-    if rest < 1e-7:  # a half turn, rounded
+    if squared_real < 1e-7:  # a half turn, rounded
         length = math.sqrt(b * b + c * c + d * d)
         a, b, c, d = 0.0, b / length, c / length, d / length
     else:
-        a = math.sqrt(rest)
+        a = math.sqrt(squared_real)
     rotation = np.array(
         [
             [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
@@ -303,27 +305,27 @@ def _of_quaternion(path: Path, found: _Header, steps: NDArray[np.float64]) -> ND
             [2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c],
         ]
     )
-    if found.all("pixdim")[0] < 0:
+    if header.all("pixdim")[0] < 0:
         rotation[:, 2] *= -1
     return np.column_stack([rotation * steps, offset])
 
 
-def _warn_of_sizes(path: Path, affine: NDArray[np.float64], steps: NDArray[np.float64]) -> None:
-    """Warn if the sizes of cells stated in the header are others than those of the matrix that counts."""
+def _warn_if_sizes_differ(path: Path, affine: NDArray[np.float64], steps: NDArray[np.float64]) -> None:
+    """Warn if the stated cell sizes differ from those of the matrix, which counts."""
     lengths = np.linalg.norm(affine[:, :AXES], axis=0)
     if not np.allclose(lengths, steps, rtol=AGREEING, atol=0):
         warn(
             "%s states cells of %s (pixdim) and %s (sform), of which the latter are taken",
             path,
-            " x ".join(f"{each:.6g}" for each in steps),
-            " x ".join(f"{each:.6g}" for each in lengths),
+            " x ".join(f"{size:.6g}" for size in steps),
+            " x ".join(f"{size:.6g}" for size in lengths),
         )
 
 
-def _apart(one: NDArray[np.float64], other: NDArray[np.float64], sizes: tuple[int, ...]) -> float:
-    """Return how far two affines lie apart in the corners of a volume, in smallest cells."""
-    last = np.array(sizes[:AXES], dtype=np.float64) - 1
-    corners = np.array(np.meshgrid(*((0.0, end) for end in last), indexing="ij")).reshape(AXES, -1)
-    off = (one - other) @ np.vstack([corners, np.ones(corners.shape[1])])
-    cell = float(np.linalg.norm(one[:, :AXES], axis=0).min())
-    return float(np.linalg.norm(off, axis=0).max()) / cell if cell > 0 else math.inf
+def _corner_distance(affine: NDArray[np.float64], reference: NDArray[np.float64], sizes: tuple[int, ...]) -> float:
+    """Return the largest distance of two affines at the corners of a volume, in smallest cells."""
+    last_cell = np.array(sizes[:AXES], dtype=np.float64) - 1
+    corners = np.array(np.meshgrid(*((0.0, end) for end in last_cell), indexing="ij")).reshape(AXES, -1)
+    differences = (affine - reference) @ np.vstack([corners, np.ones(corners.shape[1])])
+    cell = float(np.linalg.norm(affine[:, :AXES], axis=0).min())
+    return float(np.linalg.norm(differences, axis=0).max()) / cell if cell > 0 else math.inf

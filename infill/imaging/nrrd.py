@@ -74,7 +74,7 @@ SPACES = {
 }
 LEFT_HANDED = "3d-left-handed"
 TIME = "-time"  # a fourth axis of a space
-# Kinds of axes along which space extends; along all others lie several numbers of one cell, or times.
+# Kinds of axes of space; all others hold several numbers per cell, or times.
 OF_SPACE = {"domain", "space", "none", "???"}
 UNKNOWN = {"none", "???"}
 SEGMENTS = (".seg.nrrd", ".seg.nhdr")
@@ -108,8 +108,8 @@ WRITTEN_SPACES = {"LPS": "left-posterior-superior", "RAS": "right-anterior-super
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Fields:
-    """The fields of a header by name, the files that it lists, and where it ends."""
+class _NrrdFields:
+    """The fields of a header by name, the files that it lists, and the position of its end."""
 
     known: dict[str, str] = field(default_factory=dict)
     files: tuple[str, ...] = ()
@@ -125,36 +125,37 @@ class _Fields:
 
 
 def read_nrrd(path: Path, frame: int | None = None) -> Volume:
-    """Read the volume of a file, [x, y, z] where it lies in space, or one of several, counted from 0."""
+    """Read the volume of a file, [x, y, z] with its place in space, or one of several, counted from 0."""
     with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
-        header, read = _opened(path)
+        header, read = _open_image(path)
         return read_frame(header, frame, read)
 
 
 def read_layers(path: Path) -> tuple[Volume, ...]:
-    """Read all volumes of a file, in order: the layers of a segmentation, which may be empty."""
+    """Read all volumes of a file, in order: the layers of a segmentation; they may be empty."""
     with told_broken(path), np.errstate(all="ignore"):  # infinite places are refused
-        header, read = _opened(path)
+        header, read = _open_image(path)
         return read_frames(header, read)
 
 
-def _opened(path: Path) -> tuple[ImageHeader, ReadCells]:
-    fields = _fields(path)
+def _open_image(path: Path) -> tuple[ImageHeader, ReadCells]:
+    """Return the header of a file, and the function that reads its cells."""
+    fields = _parse_header(path)
     dimension = int(fields["dimension"])
     sizes = tuple(int(word) for word in fields["sizes"].split())
     if len(sizes) != dimension:
         raise ValueError(f"{len(sizes)} sizes for a dimension of {dimension}")
     require_sizes(path, sizes)
-    header = _placed(path, fields, sizes)
-    return header, _cells(path, fields, header)
+    header = _place_image(path, fields, sizes)
+    return header, _cell_reader(path, fields, header)
 
 
-def _fields(path: Path) -> _Fields:
-    """Return the header of a file, which an empty line ends, or the end of the file."""
-    known: dict[str, str] = {}
+def _parse_header(path: Path) -> _NrrdFields:
+    """Parse the header, up to an empty line or the end of the file."""
+    fields: dict[str, str] = {}
     with path.open("rb") as file:
-        first = file.readline(LONGEST_LINE).rstrip()
-        if not MAGIC.fullmatch(first):
+        magic = file.readline(LONGEST_LINE).rstrip()
+        if not MAGIC.fullmatch(magic):
             raise FormatError(f"{path} does not begin with NRRD000 and a version; check that it is an NRRD file")
         for line in _lines(path, file):
             if line.startswith("#") or re.match(r"[^:]*:=", line):
@@ -163,10 +164,10 @@ def _fields(path: Path) -> _Fields:
             if not colon:
                 raise FormatError(f"{path} has a line in its header that is no field, {line[:40]!r}; save it again")
             name = SYNONYMS.get(name.strip().lower(), name.strip().lower())
-            known[name] = text.strip()
-            if name == "data file" and known[name].split()[:1] == ["LIST"]:
-                return _Fields(known=known, files=tuple(filter(None, _lines(path, file))), end=file.tell())
-        return _Fields(known=known, end=file.tell())
+            fields[name] = text.strip()
+            if name == "data file" and fields[name].split()[:1] == ["LIST"]:
+                return _NrrdFields(known=fields, files=tuple(filter(None, _lines(path, file))), end=file.tell())
+        return _NrrdFields(known=fields, end=file.tell())
 
 
 def _lines(path: Path, file: BinaryIO) -> Iterator[str]:
@@ -185,8 +186,8 @@ def _lines(path: Path, file: BinaryIO) -> Iterator[str]:
 # --- place -----------------------------------------------------------------------------------------------
 
 
-def _placed(path: Path, fields: _Fields, sizes: tuple[int, ...]) -> ImageHeader:
-    """Return the axes of space, and where the cells lie along them."""
+def _place_image(path: Path, fields: _NrrdFields, sizes: tuple[int, ...]) -> ImageHeader:
+    """Find the axes of space and the affine; return the header of the image."""
     kinds = [kind.lower() for kind in fields.get("kinds").split()]
     if kinds and len(kinds) != len(sizes):
         raise ValueError(f"{len(kinds)} kinds for {len(sizes)} axes")
@@ -202,18 +203,18 @@ def _placed(path: Path, fields: _Fields, sizes: tuple[int, ...]) -> ImageHeader:
     if directions:
         if len(directions) != len(sizes):
             raise ValueError(f"{len(directions)} space directions for {len(sizes)} axes")
-        spatial, matrix = _directed(path, fields, directions)
+        spatial, matrix = _affine_of_directions(path, fields, directions)
     else:
         if name or fields.get("space dimension"):
             warn("%s lies in a space and lacks its directions there; the axes of space are taken", path)
-        spatial, matrix = _spaced(path, fields, sizes, kinds)
+        spatial, matrix = _affine_of_spacings(path, fields, sizes, kinds)
     if len(spatial) < AXES:
-        found = tuple(sizes[axis] for axis in spatial)
-        require_sizes(path, found or (1,))
+        shape = tuple(sizes[axis] for axis in spatial)
+        require_sizes(path, shape or (1,))
     flip = np.array(TO_LPS.get(space, (1.0, 1.0, 1.0)))
-    beside = [axis for axis in range(len(sizes)) if axis not in spatial]
-    numbers = math.prod(sizes[axis] for axis in beside)
-    in_cells = any(axis < max(spatial) or (kinds and kinds[axis] not in {"time", *OF_SPACE}) for axis in beside)
+    frame_axes = [axis for axis in range(len(sizes)) if axis not in spatial]
+    numbers = math.prod(sizes[axis] for axis in frame_axes)
+    in_cells = any(axis < max(spatial) or (kinds and kinds[axis] not in {"time", *OF_SPACE}) for axis in frame_axes)
     what = f"holds {numbers} numbers per cell" if in_cells else ""
     if numbers > 1 and path.name.lower().endswith(SEGMENTS):
         what = f"holds {numbers} layers of segments; write all with {{label}} in the name of the output"
@@ -227,11 +228,11 @@ def _placed(path: Path, fields: _Fields, sizes: tuple[int, ...]) -> ImageHeader:
     )
 
 
-def _directed(
-    path: Path, fields: _Fields, directions: list[NDArray[np.float64] | None]
+def _affine_of_directions(
+    path: Path, fields: _NrrdFields, directions: list[NDArray[np.float64] | None]
 ) -> tuple[tuple[int, ...], NDArray[np.float64]]:
-    """Return axes and affine from `space directions`; in a space with time, the axis along time is left out."""
-    axes = [axis for axis, each in enumerate(directions) if each is not None]
+    """Return axes and affine from `space directions`; in a space with time, leave out the axis of time."""
+    axes = [axis for axis, direction in enumerate(directions) if direction is not None]
     matrix = np.array([directions[axis] for axis in axes]).T  # column i: one cell along axis i
     count = matrix.shape[0] if matrix.ndim == 2 else 0
     if count not in (2, AXES, AXES + 1):
@@ -239,30 +240,30 @@ def _directed(
     origin = _vectors(fields.get("space origin"))
     if not origin or origin[0] is None:
         LOG.info("%s does not say where its first cell lies (space origin); it is taken to lie at 0, 0, 0", path)
-        first = np.zeros(count)
+        centre = np.zeros(count)
     else:
-        first = origin[0]
-    if len(first) != count:
-        raise ValueError(f"a space origin of {len(first)} numbers in a space of {count}")
-    units = _quoted(fields.get("space units"))
+        centre = origin[0]
+    if len(centre) != count:
+        raise ValueError(f"a space origin of {len(centre)} numbers in a space of {count}")
+    units = _split_words(fields.get("space units"))
     if units and len(units) != count:
         raise ValueError(f"{len(units)} space units in a space of {count}")
     if count > AXES:
         spatial = [column for column in range(len(axes)) if matrix[:AXES, column].any() or not matrix[AXES, column]]
         if (matrix[AXES, spatial] != 0).any():
             raise FormatError(f"{path} has an axis along space and time at once; save one volume of it")
-        axes, matrix, first, units = [axes[c] for c in spatial], matrix[:AXES, spatial], first[:AXES], units[:AXES]
+        axes, matrix, centre, units = [axes[c] for c in spatial], matrix[:AXES, spatial], centre[:AXES], units[:AXES]
     elif count < AXES:
         return tuple(axes), np.zeros((AXES, AXES + 1))  # a slice, which is refused
     if len(axes) != AXES:
         return tuple(axes[:2]), np.zeros((AXES, AXES + 1))
     scale = _scales(path, units)
     _require_agreeing(path, fields, axes, np.linalg.norm(matrix, axis=0))
-    return tuple(axes), scale[:, None] * np.column_stack([matrix, first])
+    return tuple(axes), scale[:, None] * np.column_stack([matrix, centre])
 
 
-def _require_agreeing(path: Path, fields: _Fields, axes: list[int], lengths: NDArray[np.float64]) -> None:
-    """Raise FormatError if `spacings` state other sizes than `space directions`."""
+def _require_agreeing(path: Path, fields: _NrrdFields, axes: list[int], lengths: NDArray[np.float64]) -> None:
+    """Raise FormatError if `spacings` contradict `space directions`."""
     stated = [float(word) for word in fields.get("spacings").split()]
     for axis, length in zip(axes, lengths, strict=True):
         size = abs(stated[axis]) if axis < len(stated) else math.nan
@@ -273,50 +274,51 @@ def _require_agreeing(path: Path, fields: _Fields, axes: list[int], lengths: NDA
             )
 
 
-def _spaced(
-    path: Path, fields: _Fields, sizes: tuple[int, ...], kinds: list[str]
+def _affine_of_spacings(
+    path: Path, fields: _NrrdFields, sizes: tuple[int, ...], kinds: list[str]
 ) -> tuple[tuple[int, ...], NDArray[np.float64]]:
-    """Return axes and affine from `spacings`, `axis mins` and `axis maxs`; 1 and 0 where they do not say."""
+    """Return axes and affine from `spacings`, `axis mins` and `axis maxs`; by default 1 and 0."""
     spacings, mins, maxs = (_numbers(fields, name, len(sizes)) for name in ("spacings", "axis mins", "axis maxs"))
-    units = _quoted(fields.get("units"))
+    units = _split_words(fields.get("units"))
     if units and len(units) != len(sizes):
         raise ValueError(f"{len(units)} units for {len(sizes)} axes")
     centers = fields.get("centers").lower().split()
     axes = [axis for axis in range(len(sizes)) if not kinds or kinds[axis] in OF_SPACE]
-    if len(axes) > AXES:  # those whose size is stated, and of these, or of all, the first three
-        known = [axis for axis in axes if math.isfinite(spacings[axis]) or math.isfinite(mins[axis])]
-        axes = (known if len(known) >= AXES else axes)[:AXES]
+    if len(axes) > AXES:  # the first three axes with a stated size, else the first three of all
+        stated = [axis for axis in axes if math.isfinite(spacings[axis]) or math.isfinite(mins[axis])]
+        axes = (stated if len(stated) >= AXES else axes)[:AXES]
     affine = np.zeros((AXES, AXES + 1))
     scales = scales_of(path, [units[axis] if units else "" for axis in axes], SIZES, [f"axis {axis}" for axis in axes])
-    missing = []
-    for place, axis in enumerate(axes):
+    unsized = []
+    for column, axis in enumerate(axes):
         at_nodes = axis < len(centers) and centers[axis] == "node"
         steps = sizes[axis] - at_nodes
         step = spacings[axis]
         if not math.isfinite(step) and math.isfinite(maxs[axis] - mins[axis]) and steps:
             step = (maxs[axis] - mins[axis]) / steps
         if not math.isfinite(step):
-            missing.append(axis)
+            unsized.append(axis)
             step = 1.0
-        first = mins[axis] if math.isfinite(mins[axis]) else maxs[axis] - step * steps
-        first = first + (0 if at_nodes else step / 2) if math.isfinite(first) else 0.0
-        scale = scales[place]
-        affine[place, place], affine[place, AXES] = scale * step, scale * first
-    if missing and len(axes) == AXES:
+        centre = mins[axis] if math.isfinite(mins[axis]) else maxs[axis] - step * steps
+        centre = centre + (0 if at_nodes else step / 2) if math.isfinite(centre) else 0.0
+        scale = scales[column]
+        affine[column, column], affine[column, AXES] = scale * step, scale * centre
+    if unsized and len(axes) == AXES:
         warn(
             "%s does not say the size of its cells along %s; 1 mm is taken, unless --spacing gives it",
             path,
-            "any axis" if len(missing) == AXES else "axis " + " and ".join(map(str, missing)),
+            "any axis" if len(unsized) == AXES else "axis " + " and ".join(map(str, unsized)),
         )
     return tuple(axes), affine
 
 
 def _scales(path: Path, units: list[str]) -> NDArray[np.float64]:
+    """Return the mm of the unit of each axis."""
     return np.array(scales_of(path, units, "its sizes", [""] * len(units)) or [1.0] * AXES)
 
 
-def _numbers(fields: _Fields, name: str, count: int) -> list[float]:
-    """Return a number for each axis, NaN where none is stated."""
+def _numbers(fields: _NrrdFields, name: str, count: int) -> list[float]:
+    """Return a number for each axis, NaN where the field states none."""
     words = fields.get(name).split()
     if words and len(words) != count:
         raise ValueError(f"{len(words)} {name} for {count} axes")
@@ -327,24 +329,24 @@ def _vectors(text: str) -> list[NDArray[np.float64] | None]:
     """Return the vectors of a field, None for `none`."""
     if VECTOR.sub("", text).strip():
         raise ValueError(f"no vectors in {text[:40]!r}")
-    found = []
-    for each in VECTOR.finditer(text):
-        numbers = None if each[1] is None else np.array([float(word) for word in each[1].split(",")])
-        found.append(None if numbers is None or np.isnan(numbers).all() else numbers)
-    return found
+    vectors = []
+    for match in VECTOR.finditer(text):
+        numbers = None if match[1] is None else np.array([float(word) for word in match[1].split(",")])
+        vectors.append(None if numbers is None or np.isnan(numbers).all() else numbers)
+    return vectors
 
 
-def _quoted(text: str) -> list[str]:
-    """Return the words of a list, each in quotation marks or not; those that say nothing are empty."""
-    words = [found[1] or found[2] or "" for found in QUOTED.finditer(text)]
+def _split_words(text: str) -> list[str]:
+    """Split a list of words, quoted or not; words without meaning become empty."""
+    words = [match[1] or match[2] or "" for match in QUOTED.finditer(text)]
     return ["" if word.strip().lower() in UNKNOWN else word.replace('\\"', '"').strip() for word in words]
 
 
 # --- cells -----------------------------------------------------------------------------------------------
 
 
-def _cells(path: Path, fields: _Fields, header: ImageHeader) -> ReadCells:
-    """Return what reads the cells of a file, after checking that it can."""
+def _cell_reader(path: Path, fields: _NrrdFields, header: ImageHeader) -> ReadCells:
+    """Return the function that reads the cells of a file, after checking the header."""
     name = fields["type"].lower()
     if name not in KINDS:
         raise FormatError(f"{path} holds cells of type {name[:40]!r}; save them as integers or floats")
@@ -364,14 +366,16 @@ def _cells(path: Path, fields: _Fields, header: ImageHeader) -> ReadCells:
         raise FormatError(
             f"{path} skips {lines} lines and {skipped} bytes of {encoding} data; give 0 or more, or -1 for raw data"
         )
-    parts = _parts(path, fields)
+    parts = _data_files(path, fields)
     # Compressed data are skipped once unpacked, plain ones before.
-    part_of = [Part(path=each, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for each, begin in parts]
-    return lambda low, high: read_parts(path, part_of, kind, header.cells, low, high, encoding=encoding)
+    parts_read = [
+        Part(path=file, begin=begin, lines=lines, skip=skipped, from_end=skipped == -1) for file, begin in parts
+    ]
+    return lambda low, high: read_parts(path, parts_read, kind, header.cells, low, high, encoding=encoding)
 
 
-def _parts(path: Path, fields: _Fields) -> list[tuple[Path, int]]:
-    """Return the files that hold the cells, in order, and where in them the data begin."""
+def _data_files(path: Path, fields: _NrrdFields) -> list[tuple[Path, int]]:
+    """Return the files of the cells, in order, and the position of the data in each."""
     words = fields.get("data file").split()
     if not words:
         return [(path, fields.end)]
@@ -379,7 +383,7 @@ def _parts(path: Path, fields: _Fields) -> list[tuple[Path, int]]:
         return [(find_detached(path, name), 0) for name in fields.files]
     if "%" in words[0] and len(words) >= 4:
         low, high, step = (int(word) for word in words[1:4])
-        return [(find_detached(path, each), 0) for each in number_names(path, words[0], low, high, step)]
+        return [(find_detached(path, name), 0) for name in number_names(path, words[0], low, high, step)]
     return [(find_detached(path, fields["data file"]), 0)]
 
 
@@ -392,7 +396,7 @@ def write_nrrd(volume: Volume, file: BinaryIO) -> None:
     Booleans become 0 and 1, and 16-bit floating-point numbers become 32-bit. A space without a name stays
     without one, so that no program reorients its axes.
     """
-    kind = _stored(volume.values.dtype)
+    kind = _stored_type(volume.values.dtype)
     axes = np.asarray(volume.direction) * volume.cell_size  # column i: one cell along axis i
     centre = np.array(volume.origin) + axes.sum(axis=1) / 2
     named = WRITTEN_SPACES.get(volume.space)
@@ -403,11 +407,11 @@ def write_nrrd(volume: Volume, file: BinaryIO) -> None:
         f"dimension: {AXES}",
         f"space: {named}" if named else f"space dimension: {AXES}",
         f"sizes: {' '.join(str(cells) for cells in volume.values.shape)}",
-        f"space directions: {' '.join(_vector(axis) for axis in axes.T)}",
+        f"space directions: {' '.join(_format_vector(axis) for axis in axes.T)}",
         f"kinds:{AXES * ' domain'}",
         "endian: little",
         "encoding: gzip",
-        f"space origin: {_vector(centre)}",
+        f"space origin: {_format_vector(centre)}",
     )
     file.write(("\n".join(header) + "\n\n").encode("ascii"))
     with gzip.GzipFile(filename="", mode="wb", compresslevel=6, fileobj=cast(IO[bytes], file), mtime=0) as packed:
@@ -415,12 +419,13 @@ def write_nrrd(volume: Volume, file: BinaryIO) -> None:
             packed.write(volume.values[:, :, k].astype(kind).tobytes(order="F"))
 
 
-def _stored(kind: np.dtype[np.generic]) -> np.dtype[np.generic]:
-    """Return the type in which NRRD holds numbers of type `kind`, low byte first."""
+def _stored_type(kind: np.dtype[np.generic]) -> np.dtype[np.generic]:
+    """Return the type in which NRRD stores numbers of type `kind`, low byte first."""
     if kind.kind == "f":
         return np.dtype("<f4" if kind.itemsize <= 4 else "<f8")
     return np.dtype(np.uint8) if kind.kind == "b" else kind.newbyteorder("<")
 
 
-def _vector(numbers: Iterable[float]) -> str:
+def _format_vector(numbers: Iterable[float]) -> str:
+    """Format a vector as NRRD writes it."""
     return "(" + ",".join(f"{float(number):.17g}" for number in numbers) + ")"

@@ -1,4 +1,4 @@
-"""A segmentation: volumes whose cells hold numbers, and what those numbers mean."""
+"""Segmentations: volumes of label numbers, with the names and colours of the labels."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ NRRD = (".nrrd", ".nhdr")
 
 @dataclass(frozen=True, kw_only=True)
 class Segmentation:
-    """Volumes of labels, and what is known about the labels.
+    """Volumes of label numbers, and information about the labels.
 
     Parameters
     ----------
     layers : tuple of Volume
-        Whole numbers, 0 where no label is. Segments that overlap lie in layers of their own.
+        Integers, 0 outside all labels. Overlapping segments lie in separate layers.
     segments : tuple of Segment
-        Names and colours, as far as they are known.
+        Known names and colours.
     """
 
     layers: tuple[Volume, ...]
@@ -44,7 +44,7 @@ def read_segmentation(
     frame: int | None = None,
     spacing: float | tuple[float, ...] | None = None,
 ) -> Segmentation:
-    """Return the labels of a file or a folder: of .seg.nrrd and of DICOM segmentations, with layers, names and colours.
+    """Read the labels of a file or a folder; .seg.nrrd and DICOM segmentations have layers, names and colours.
 
     Parameters
     ----------
@@ -55,46 +55,46 @@ def read_segmentation(
     Raises
     ------
     FormatError
-        As `infill.read_volume`; and if the header names a layer that is not there.
+        As `infill.read_volume`, or if the header names a layer that does not exist.
     """
     source = Path(path)
     if array is None and holds_dicom(source, series):
-        found = _read_dicom(source, series)
-        if found is not None:
-            return _sized(found if frame is None else _layer(found, source, frame), spacing)
+        segmentation = _read_dicom(source, series)
+        if segmentation is not None:
+            return _with_spacing(segmentation if frame is None else _select_layer(segmentation, source, frame), spacing)
     segments: tuple[Segment, ...] = ()
     if source.suffix.lower() in NRRD and source.is_file() and array is None and series is None:
         segments = segments_of_nrrd(source)
     if not segments or frame is not None:
         volume = read_volume(source, array=array, series=series, frame=frame, spacing=spacing)
-        own = tuple(replace(each, layer=0) for each in segments if each.layer == frame)
-        return Segmentation(layers=(volume,), segments=own)
-    with keep_warnings() as kept:
-        layers = tuple(replace(layer, warnings=(*layer.warnings, *kept)) for layer in read_layers(source))
-    missing = [each for each in segments if not 0 <= each.layer < len(layers)]
+        selected = tuple(replace(segment, layer=0) for segment in segments if segment.layer == frame)
+        return Segmentation(layers=(volume,), segments=selected)
+    with keep_warnings() as assumptions:
+        layers = tuple(replace(layer, warnings=(*layer.warnings, *assumptions)) for layer in read_layers(source))
+    missing = [segment for segment in segments if not 0 <= segment.layer < len(layers)]
     if missing:
         raise FormatError(
             f"{source} says that {missing[0].name or missing[0].value!r} lies in layer {missing[0].layer} and holds "
             f"{len(layers)} of them, counted from 0; save it again"
         )
-    return _sized(Segmentation(layers=layers, segments=segments), spacing)
+    return _with_spacing(Segmentation(layers=layers, segments=segments), spacing)
 
 
 def _read_dicom(source: Path, series: str | None) -> Segmentation | None:
-    """Return the segments of a DICOM file or folder; None if it holds other things."""
+    """Read the segments of a DICOM file or folder; return None for other content."""
     with told_unreadable(source):
-        found = read_dicom_segments(source, series=series)
-    return None if found is None else Segmentation(layers=found[0], segments=found[1])
+        content = read_dicom_segments(source, series=series)
+    return None if content is None else Segmentation(layers=content[0], segments=content[1])
 
 
-def _layer(segmentation: Segmentation, source: Path, frame: int) -> Segmentation:
-    """Return one layer of a segmentation, and its segments."""
-    at = chosen(source, frame, len(segmentation.layers), what="holds layers of segments")
-    segments = tuple(replace(each, layer=0) for each in segmentation.segments if each.layer == at)
-    return Segmentation(layers=(segmentation.layers[at],), segments=segments)
+def _select_layer(segmentation: Segmentation, source: Path, frame: int) -> Segmentation:
+    """Return one layer of a segmentation, with its segments."""
+    layer = chosen(source, frame, len(segmentation.layers), what="holds layers of segments")
+    segments = tuple(replace(segment, layer=0) for segment in segmentation.segments if segment.layer == layer)
+    return Segmentation(layers=(segmentation.layers[layer],), segments=segments)
 
 
-def _sized(segmentation: Segmentation, spacing: float | tuple[float, ...] | None) -> Segmentation:
+def _with_spacing(segmentation: Segmentation, spacing: float | tuple[float, ...] | None) -> Segmentation:
     """Return a segmentation with another cell size, if one is given."""
     if spacing is None:
         return segmentation

@@ -24,16 +24,16 @@ from infill.volume import AXES, Volume
 SLICES = {".tif", ".tiff", ".png"}
 UNCOMPRESSED = 1
 GREY_MODES = {"1", "L", "I", "I;16", "I;16L", "I;16B", "F"}
-# What a size is stated in where nobody measured: pixels, or whatever is one cell long.
+# Units of sizes that were not measured: pixels or cells.
 CELLS = {"", "pixel", "pixels", "px", "voxel", "voxels", "unitless", "reference frame", "none", "null", "?"}
 RESOLUTIONS = {2: "inch", 3: "cm"}
-USUAL_DOTS = {72, 96}  # per inch: what programs write that know no size
+USUAL_DOTS = {72, 96}  # per inch: defaults of programs without a real size
 DOTS_APART = 0.01  # of an inch's dots
 
 
 @contextlib.contextmanager
-def _no_complaints(path: Path) -> Iterator[None]:
-    """Raise FormatError for problems that tifffile only logs, such as pages missing from a truncated file."""
+def _raise_complaints(path: Path) -> Iterator[None]:
+    """Raise FormatError for problems that tifffile only logs, such as missing pages of a truncated file."""
     complaints: list[str] = []
 
     def keep(record: logging.LogRecord) -> bool:
@@ -48,82 +48,82 @@ def _no_complaints(path: Path) -> Iterator[None]:
     finally:
         logger.removeFilter(keep)
     if complaints:
-        said = " ".join(complaints[0].split())
-        raise FormatError(f"{path} is broken or cut off ({said}); save it again")
+        complaint = " ".join(complaints[0].split())
+        raise FormatError(f"{path} is broken or cut off ({complaint}); save it again")
 
 
 def read_tiff(path: Path) -> Volume:
-    """Read a stack of pages as a volume, with the cell size that it states."""
+    """Read a stack of pages as a volume, with the stated cell size."""
     pages, spacing = _tiff_pages(path)
     return checked_volume(path, pages.T, spacing=spacing)
 
 
-def _tiff_pages(path: Path, *, first: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
-    """Return grey pages [(z,) y, x] and the cell size along x, y, z, which is not looked for but in the first file."""
+def _tiff_pages(path: Path, *, with_spacing: bool = True) -> tuple[NDArray[Any], tuple[float, ...]]:
+    """Read grey pages [(z,) y, x]; return them, and for the first file the cell size along x, y, z."""
     import tifffile
 
-    with _no_complaints(path), told_broken(path), tifffile.TiffFile(path) as tiff:
-        found = tiff.series
-        if not found:
+    with _raise_complaints(path), told_broken(path), tifffile.TiffFile(path) as tiff:
+        series = tiff.series
+        if not series:
             raise FormatError(f"{path} holds no pages; save it again")
-        if len(found) > 1:
-            shapes = ", ".join(str(each.shape) for each in found[:4])
+        if len(series) > 1:
+            shapes = ", ".join(str(series_item.shape) for series_item in series[:4])
             raise FormatError(f"{path} holds pages of different kinds, {shapes}; save one stack of equal pages")
-        axes, shape = found[0].axes, found[0].shape
+        axes, shape = series[0].axes, series[0].shape
         if "S" in axes or "C" in axes:
             raise FormatError(
                 f"{path} holds colours or channels (axes {axes}, shape {shape}); save one of them as grey"
             )
         if len(shape) > AXES:
             raise FormatError(f"{path} has {len(shape)} axes ({axes}, shape {shape}); save one stack of it")
-        require_memory(found[0].nbytes, None, SMALLER)
-        _require_whole_pages(path, found[0])
-        return found[0].asarray(), _tiff_spacing(path, tiff) if first else ()
+        require_memory(series[0].nbytes, None, SMALLER)
+        _require_whole_pages(path, series[0])
+        return series[0].asarray(), _tiff_spacing(path, tiff) if with_spacing else ()
 
 
 def _require_whole_pages(path: Path, series: Any) -> None:  # noqa: ANN401 - tifffile.TiffPageSeries
-    """Raise FormatError for pages, or pieces of pages, that are not there: tifffile would fill them with zeros."""
+    """Raise FormatError for missing pages or pieces of pages, which tifffile would fill with zeros."""
     for number, page in enumerate(series.pages):
         if page is None:
             raise FormatError(f"{path} lacks page {number} of its series; save it again")
-        counts, whole = page.databytecounts, page.keyframe
-        if not whole.nbytes:
+        counts, keyframe = page.databytecounts, page.keyframe
+        if not keyframe.nbytes:
             raise FormatError(f"{path} has a page {number} without cells; save it again")
         if not counts or min(counts) <= 0 or min(page.dataoffsets) <= 0:
             raise FormatError(f"{path} lacks a piece of its page {number}; save it again")
-        if whole.compression == UNCOMPRESSED and not whole.is_tiled:
-            row = whole.nbytes / whole.imagelength
-            padded = row * whole.rowsperstrip * len(counts)  # the last strip may be as long as all others
-            if not whole.nbytes <= sum(counts) <= max(padded, whole.nbytes):
+        if keyframe.compression == UNCOMPRESSED and not keyframe.is_tiled:
+            row_bytes = keyframe.nbytes / keyframe.imagelength
+            padded = row_bytes * keyframe.rowsperstrip * len(counts)  # the last strip may be as long as all others
+            if not keyframe.nbytes <= sum(counts) <= max(padded, keyframe.nbytes):
                 raise FormatError(
-                    f"{path} announces {whole.nbytes} bytes for page {number} and holds {sum(counts)}; save it again"
+                    f"{path} announces {keyframe.nbytes} bytes for page {number} and holds {sum(counts)}; save it again"
                 )
 
 
 def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 - tifffile.TiffFile
-    """Return the cell size along x, y, z, mm, as stated by OME, by ImageJ or for a printer; 1 if nothing states it."""
+    """Return the cell size along x, y, z, mm, by OME, ImageJ or the printing resolution; by default 1."""
     if tiff.ome_metadata:
         return _ome_spacing(path, tiff.ome_metadata)
     page = tiff.pages[0]
-    per_cell = [_length(page, name) for name in ("XResolution", "YResolution")]
+    per_cell = [_cell_length(page, name) for name in ("XResolution", "YResolution")]
     unit_code = getattr(page.tags.get("ResolutionUnit"), "value", 0)
     stated = RESOLUTIONS.get(int(unit_code), "") if isinstance(unit_code, int) else ""
-    known = tiff.imagej_metadata
-    if known is None:
+    metadata = tiff.imagej_metadata
+    if metadata is None:
         if not stated:
             return (1.0,) * AXES
         return _printed_spacing(path, per_cell, stated)
-    unit = str(known.get("unit", "")).strip()
-    if unit.lower() in CELLS and stated and not _is_usual(per_cell, stated):
+    unit = str(metadata.get("unit", "")).strip()
+    if unit.lower() in CELLS and stated and not _is_default_resolution(per_cell, stated):
         unit = stated  # as ImageJ itself does
-    units = [unit, *(str(known.get(f"{axis}unit", unit)) for axis in "yz")]
-    depth = known.get("spacing")
-    sizes = [*per_cell, None if depth is None else _positive(depth)]
+    units = [unit, *(str(metadata.get(f"{axis}unit", unit)) for axis in "yz")]
+    depth = metadata.get("spacing")
+    sizes = [*per_cell, None if depth is None else _positive_or_none(depth)]
     if unit.lower() in CELLS and sizes[:2] in ([None, None], [1.0, 1.0]) and sizes[2] in (None, 1.0):
         return (1.0,) * AXES  # nothing was measured
     scales = scales_of(path, units, SIZES, "xyz")
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
-    if missing and (len(tiff.pages) > 1 or int(known.get("images", 1)) > 1 or missing != ["z"]):
+    if missing and (len(tiff.pages) > 1 or int(metadata.get("images", 1)) > 1 or missing != ["z"]):
         warn(
             "%s does not say the size of its cells along %s; 1 %s is taken, as ImageJ does: unless --spacing gives it",
             path,
@@ -134,24 +134,24 @@ def _tiff_spacing(path: Path, tiff: Any) -> tuple[float, ...]:  # noqa: ANN401 -
 
 
 def _ome_spacing(path: Path, text: str) -> tuple[float, ...]:
-    """Return the cell size of OME; where one axis lacks it, that of another."""
+    """Return the cell size of OME; an axis without one takes that of another axis."""
     # Only attributes are read, and the standard parser fetches nothing from outside.
     pixels = ElementTree.fromstring(text).find(".//{*}Pixels")  # noqa: S314
     if pixels is None:
         return (1.0,) * AXES
-    given = [_positive(pixels.get(f"PhysicalSize{axis}")) for axis in "XYZ"]
+    stated = [_positive_or_none(pixels.get(f"PhysicalSize{axis}")) for axis in "XYZ"]
     units = [
         "" if size is None else pixels.get(f"PhysicalSize{axis}Unit", "µm")
-        for axis, size in zip("XYZ", given, strict=True)
+        for axis, size in zip("XYZ", stated, strict=True)
     ]
     scales = scales_of(path, units, SIZES, "xyz")
-    sizes = [None if size is None else size * scale for size, scale in zip(given, scales, strict=True)]
-    return _filled(path, sizes, (pixels.get("SizeZ") or "1") != "1")
+    sizes = [None if size is None else size * scale for size, scale in zip(stated, scales, strict=True)]
+    return _fill_missing_sizes(path, sizes, (pixels.get("SizeZ") or "1") != "1")
 
 
 def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tuple[float, ...]:
-    """Return the cell size of a file that gives dots per inch or cm, as for a printer, and no distance of its pages."""
-    if _is_usual(per_cell, unit):
+    """Return the cell size of a file with a printing resolution, which lacks the distance of pages."""
+    if _is_default_resolution(per_cell, unit):
         LOG.info(
             "%s states dots per inch as programs do that know no size; cells of 1 mm are taken, unless --spacing gives "
             "them",
@@ -159,13 +159,13 @@ def _printed_spacing(path: Path, per_cell: list[float | None], unit: str) -> tup
         )
         return (1.0,) * AXES
     scale = scales_of(path, [unit], SIZES, "x")[0]
-    return _filled(path, [*(None if size is None else size * scale for size in per_cell), None], True)
+    return _fill_missing_sizes(path, [*(None if size is None else size * scale for size in per_cell), None], True)
 
 
-def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[float, ...]:
-    """Return sizes in mm with another one in place of each that is missing, and warn of it."""
-    known = [size for size in sizes if size is not None]
-    if not known:
+def _fill_missing_sizes(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[float, ...]:
+    """Replace missing sizes, mm, by another one, with a warning."""
+    known_sizes = [size for size in sizes if size is not None]
+    if not known_sizes:
         return (1.0,) * AXES
     missing = [axis for axis, size in zip("xyz", sizes, strict=True) if size is None]
     if missing and (has_depth or missing != ["z"]):
@@ -174,28 +174,29 @@ def _filled(path: Path, sizes: list[float | None], has_depth: bool) -> tuple[flo
             "--spacing gives it",
             path,
             " and ".join(missing),
-            known[0],
+            known_sizes[0],
         )
-    return tuple(known[0] if size is None else size for size in sizes)
+    return tuple(known_sizes[0] if size is None else size for size in sizes)
 
 
-def _length(page: Any, name: str) -> float | None:  # noqa: ANN401 - tifffile.TiffPage
-    """Return the length of a cell by a resolution, cells per length, which is a fraction; None if there is none."""
-    value = getattr(page.tags.get(name), "value", None)
-    if not isinstance(value, tuple) or len(value) != 2 or not value[0]:
+def _cell_length(page: Any, name: str) -> float | None:  # noqa: ANN401 - tifffile.TiffPage
+    """Return the cell length by a resolution, a fraction of cells per length; None if there is none."""
+    fraction = getattr(page.tags.get(name), "value", None)
+    if not isinstance(fraction, tuple) or len(fraction) != 2 or not fraction[0]:
         return None
-    return float(value[1]) / float(value[0])
+    return float(fraction[1]) / float(fraction[0])
 
 
-def _is_usual(per_cell: list[float | None], unit: str) -> bool:
+def _is_default_resolution(per_cell: list[float | None], unit: str) -> bool:
+    """Tell whether a resolution is a default of programs without a real size."""
     inches = 1.0 if unit == "inch" else 2.54
     return all(
         not size or any(abs(inches / size - dots) < DOTS_APART * dots for dots in USUAL_DOTS) for size in per_cell
     )
 
 
-def _positive(value: Any) -> float | None:  # noqa: ANN401 - a number or a text
-    """Return the absolute value of a number, or None if it is none, or 0."""
+def _positive_or_none(value: Any) -> float | None:  # noqa: ANN401 - a number or a text
+    """Return the absolute value of a number; None for 0 and for anything else."""
     try:
         number = abs(float(value))
     except (TypeError, ValueError):
@@ -204,11 +205,11 @@ def _positive(value: Any) -> float | None:  # noqa: ANN401 - a number or a text
 
 
 def read_slices(folder: Path, names: list[Path]) -> Volume:
-    """Return a volume with one file per slice, in the order of the names."""
+    """Read a volume with one file per slice, in the order of the names."""
     pages: NDArray[Any] | None = None
     spacing = (1.0,) * AXES
     for number, name in enumerate(names):
-        page, sizes = _read_png(name) if name.suffix.lower() == ".png" else _tiff_pages(name, first=number == 0)
+        page, sizes = _read_png(name) if name.suffix.lower() == ".png" else _tiff_pages(name, with_spacing=number == 0)
         if page.ndim != 2:
             raise FormatError(f"{name} has the shape {page.shape}; a folder of slices holds one grey page per file")
         if pages is None:
@@ -225,6 +226,7 @@ def read_slices(folder: Path, names: list[Path]) -> Volume:
 
 
 def _read_png(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
+    """Read a grey picture; return its pixels and a cell size of 1."""
     from PIL import Image
 
     try:
@@ -237,6 +239,6 @@ def _read_png(path: Path) -> tuple[NDArray[Any], tuple[float, ...]]:
 
 
 def natural(path: Path) -> list[tuple[int, str]]:
-    """Return a sort key by which slice 9 comes before slice 10."""
+    """Return a sort key that puts slice 9 before slice 10."""
     parts = re.split(r"([0-9]+)", path.name.lower())
     return [(int(part), "") if number % 2 else (0, part) for number, part in enumerate(parts)]

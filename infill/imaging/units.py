@@ -1,4 +1,4 @@
-"""Units of length: the words for them in files, and the unit of coordinates that come without one."""
+"""Units of length: their names in files, and a guess for coordinates without a unit."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ import re
 import unicodedata
 
 UNITS = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}  # mm
-# Formats that state their unit and come out in mm: mm per unit of a file written in the usual way. They are not
-# questioned.
+# Formats that state their unit and are converted to mm: mm per unit of a usual file. Their unit is never guessed.
 STATED = {".3mf": 1.0, ".glb": 1000.0, ".gltf": 1000.0}
 # Printed parts are 2 mm to 2 m long. A part in metres therefore reads as less than 2, and one in µm as more than 2000.
 SMALLEST, LARGEST = 2.0, 2000.0
-IN_INCHES = 0.5  # that is 13 to 51 mm: likelier than half a metre to two metres
+IN_INCHES = 0.5  # 13 to 51 mm, which is likelier than half a metre to two metres
 
 INCH = 25.4
 SYMBOLS = {
@@ -69,22 +68,22 @@ PREFIXES = {
     "kilo": 1e6,
 }
 METRE = re.compile(r"(femto|pico|nano|micro|milli|centi|deci|deca|hecto|kilo|)[- ]?(?:met(?:er|re))s?")
-# Prefixes that differ by case alone from others: Mm is a million metres and mm a thousandth.
+# Prefixes that differ from others only by case: Mm is a million metres and mm a thousandth.
 LARGE_PREFIXES = {"Mm", "Pm", "Ym", "Zm", "Em", "Tm", "Gm"}
 ESCAPED = re.compile(r"\\u([0-9a-fA-F]{4})")  # as ImageJ writes what is not ASCII
 
 
 def millimetres(word: str) -> float | None:
-    """Return how many mm a unit of length has, or None for a word that is no known unit.
+    """Return the mm of a unit of length, or None for an unknown word.
 
     >>> millimetres("µm"), millimetres("Micrometers"), millimetres("inch"), millimetres("pixel")
     (0.001, 0.001, 25.4, None)
     """
-    plain = ESCAPED.sub(lambda found: chr(int(found[1], 16)), word).strip().strip("\0").strip()
-    if plain in LARGE_PREFIXES:
+    word_alone = ESCAPED.sub(lambda match: chr(int(match[1], 16)), word).strip().strip("\0").strip()
+    if word_alone in LARGE_PREFIXES:
         return None
     # Two characters stand for micro, two for ångström; NFKC makes one of each. A prime must not become letters.
-    text = unicodedata.normalize("NFKC", plain).lower() if plain not in SYMBOLS else plain
+    text = unicodedata.normalize("NFKC", word_alone).lower() if word_alone not in SYMBOLS else word_alone
     text = text if text in SYMBOLS else text.rstrip(".")
     if text in SYMBOLS:
         return SYMBOLS[text]
@@ -94,7 +93,7 @@ def millimetres(word: str) -> float | None:
 
 
 def guess_unit(largest: float) -> str:
-    """Return the unit in which a part whose largest side is `largest` was probably made.
+    """Guess the unit of a part from the length of its longest side.
 
     >>> guess_unit(60.0), guess_unit(0.047)
     ('mm', 'm')

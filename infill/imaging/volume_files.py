@@ -1,12 +1,12 @@
-"""`read_volume` and `write_field`: a volume from a file and back.
+"""`read_volume` and `write_field`: read a volume from a file and write one.
 
     .npy .npz           [x, y, z], or [z, y, x] where the file says so
     .tif .tiff          pages are z, rows y, columns x; likewise a folder of .tif or .png slices
-    .nrrd .nii .mha …   with their place in space
+    .nrrd .nii .mha …   with the place in space
     .mgz .mgh           of FreeSurfer
     .vtk .vti           images of VTK, legacy and XML
-    .dcm                frames of DICOM, where they say they lie, by pydicom (extra `medical`)
-    a DICOM folder      the only series in it, or the one that is named
+    .dcm                frames of DICOM in their place, by pydicom (extra `medical`)
+    a DICOM folder      the only series in it, or the named one
 
 Values keep their type, and are copied at most once.
 """
@@ -46,7 +46,7 @@ def read_volume(
     frame: int | None = None,
     spacing: float | tuple[float, ...] | None = None,
 ) -> Volume:
-    """Return the volume that a file or a folder holds.
+    """Read the volume of a file or a folder.
 
     Parameters
     ----------
@@ -59,10 +59,10 @@ def read_volume(
     series : str, optional
         UID of the series to read, if a DICOM folder holds several.
     frame : int, optional
-        Which volume to read, counted from 0, of a file that holds several: a series in time, or several numbers per
-        cell. Medical images, DICOM folders, and images of FreeSurfer and VTK have frames.
+        Index of the volume, counted from 0, in a file with several: a time series, or several numbers per cell. Medical
+        images, DICOM folders, and images of FreeSurfer and VTK have frames.
     spacing : float or (hx, hy, hz), optional
-        Cell size, mm, in the place of what the file says; some DICOM files do not say it.
+        Cell size, mm, which replaces the one in the file; some DICOM files have none.
 
     Returns
     -------
@@ -74,29 +74,30 @@ def read_volume(
     Raises
     ------
     FormatError
-        If there is no such file, it is of an unknown kind, is broken, or holds no grey volume.
+        If the file is missing, of an unknown format or broken, or holds no grey volume.
     MemoryLimitError
         If the values need more memory than is available.
     ParameterError
         If `array`, `series` or `frame` is given for a file that has none.
     """
     source = Path(path)
-    suffix = next((each for each in READERS if source.name.lower().endswith(each)), "")
+    suffix = next((ending for ending in READERS if source.name.lower().endswith(ending)), "")
     if array is not None and suffix != ".npz":
         raise ParameterError(f"array is {array!r}, and only an .npz holds named arrays, not {source}; leave it out")
     if series is not None and not source.is_dir():
         raise ParameterError(f"series is {series!r}, and {source} is no folder; give the one that holds the series")
     if frame is not None and not source.is_dir() and suffix and suffix not in FRAMED:
-        raise _no_frames(frame, source)
+        raise _frame_error(frame, source)
     size = None if spacing is None else spacing_of(spacing, AXES)
-    with keep_warnings() as kept:
+    with keep_warnings() as assumptions:
         volume = _read(source, suffix, array=array, series=series, frame=frame, size=size)
-    if kept:
-        volume = replace(volume, warnings=(*volume.warnings, *kept))
+    if assumptions:
+        volume = replace(volume, warnings=(*volume.warnings, *assumptions))
     return volume if size is None else replace(volume, spacing=size)
 
 
-def _no_frames(frame: int, source: Path) -> ParameterError:
+def _frame_error(frame: int, source: Path) -> ParameterError:
+    """Return the error for a frame of a format without frames."""
     return ParameterError(f"frame is {frame!r}, and only {', '.join(FRAMED)} hold frames, not {source}; leave it out")
 
 
@@ -109,6 +110,7 @@ def _read(
     frame: int | None,
     size: tuple[float, ...] | None,
 ) -> Volume:
+    """Read a file or a folder by the reader of its suffix."""
     with told_unreadable(source):
         if source.is_dir():
             return _read_folder(source, series, frame, size)
@@ -116,8 +118,8 @@ def _read(
             raise FormatError(f"there is no file {source}; check the name")
         not_empty(source)
         if not suffix:
-            known = ", ".join(READERS)
-            raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {known} or a folder of slices")
+            endings = ", ".join(READERS)
+            raise FormatError(f"cannot tell a volume from {source.name!r}; use one of {endings} or a folder of slices")
         if suffix == DICOM:
             return read_dicom(source, frame, spacing=size)
         if frame is not None:
@@ -126,28 +128,30 @@ def _read(
 
 
 def holds_dicom(path: Path, series: str | None = None) -> bool:
-    """Return whether `read_volume` reads a path as DICOM: a file by its suffix, a folder by those of its files."""
+    """Tell whether `read_volume` reads a path as DICOM, by the suffix of the file or of the files in the folder."""
     if not path.is_dir():
         return path.is_file() and path.stat().st_size > 0 and path.suffix.lower() == DICOM
-    names = _names(path)
-    slices = any(each.suffix.lower() in SLICES for each in names)
-    return bool(names) and (not slices or series is not None or any(each.suffix.lower() == DICOM for each in names))
+    names = _visible_files(path)
+    slices = any(file.suffix.lower() in SLICES for file in names)
+    return bool(names) and (not slices or series is not None or any(file.suffix.lower() == DICOM for file in names))
 
 
-def _names(folder: Path) -> list[Path]:
-    return sorted((each for each in folder.iterdir() if each.is_file() and each.name[0] != "."), key=natural)
+def _visible_files(folder: Path) -> list[Path]:
+    """Return the visible files of a folder, in natural order."""
+    return sorted((file for file in folder.iterdir() if file.is_file() and file.name[0] != "."), key=natural)
 
 
 def _read_folder(folder: Path, series: str | None, frame: int | None, size: tuple[float, ...] | None) -> Volume:
-    names = _names(folder)
+    """Read a DICOM folder or a folder of slices."""
+    names = _visible_files(folder)
     if not names:
         raise FormatError(f"{folder} holds no files; give the folder with the slices in it")
     if holds_dicom(folder, series):
         return read_dicom(folder, frame, series=series, spacing=size)
     if frame is not None:
-        raise _no_frames(frame, folder)
-    slices = [each for each in names if each.suffix.lower() in SLICES]
-    if len({each.suffix.lower()[:4] for each in slices}) > 1:
+        raise _frame_error(frame, folder)
+    slices = [file for file in names if file.suffix.lower() in SLICES]
+    if len({file.suffix.lower()[:4] for file in slices}) > 1:
         raise FormatError(f"{folder} holds slices as .png and as .tif; keep only those of one scan")
     return read_slices(folder, slices)
 
@@ -184,8 +188,8 @@ def field_writer(path: Path) -> Callable[[Volume, BinaryIO], None]:
     """Return the function that writes the format of `path`, or raise FormatError."""
     suffix = path.suffix.lower()
     if suffix not in FIELD_WRITERS:
-        given = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
-        raise FormatError(f"cannot tell a format of volumes from {given}; use one of {', '.join(FIELD_WRITERS)}")
+        description = f"the suffix {path.suffix!r}" if suffix else f"{path.name!r}, which has no suffix"
+        raise FormatError(f"cannot tell a format of volumes from {description}; use one of {', '.join(FIELD_WRITERS)}")
     return FIELD_WRITERS[suffix]
 
 

@@ -1,7 +1,7 @@
-"""VTK's XML format .vti: an image as text, as base64, or as bytes appended to the XML, plain or packed by zlib.
+"""VTK's XML format .vti: an image as text, base64, or bytes appended to the XML, plain or packed by zlib.
 
 Source: "VTK XML file formats", VTK documentation. Every array has a head of whole numbers: its bytes; or, if it is
-packed, the number of blocks, their size, that of the last one (0 if it is whole), and the packed size of each.
+packed, the number of blocks, their size, that of the last one (0 if it is full), and the packed size of each.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ TEXT_BYTES = 100  # of memory for each number that is text: words, then numbers
 
 @dataclass(frozen=True, kw_only=True)
 class _Coding:
-    """How numbers are stored: byte order, type of the head, whether packed, and the appended part."""
+    """Storage of numbers: byte order, type of the head, packing, and the appended part."""
 
     order: Literal["<", ">"]
     head: np.dtype[np.generic]
@@ -50,22 +50,23 @@ class _Coding:
 
 
 def read_vti(path: Path, frame: int | None = None) -> Volume:
-    """Return the scalars of an image, [x, y, z], or one component of them, counted from 0."""
+    """Read the scalars of an image, [x, y, z], or one component of them, counted from 0."""
     with told_broken(path):
         require_memory(2 * path.stat().st_size, None, SMALLER)
-        held = path.read_bytes()
-        found = APPENDED.search(held)
-        text = held if found is None else held[: found.start()] + b"</VTKFile>"
+        content = path.read_bytes()
+        marker = APPENDED.search(content)
+        text = content if marker is None else content[: marker.start()] + b"</VTKFile>"
         # The standard parser fetches nothing from outside, and its output is only counted and turned into numbers.
         root = ElementTree.fromstring(text)  # noqa: S314
         image = root.find("ImageData")
         if root.tag != "VTKFile" or image is None:
             raise FormatError(f"{path} holds no ImageData of VTK; save an image as .vti")
-        coding = _coding(path, root, memoryview(held)[len(held) if found is None else found.end() :], found)
-        return _image(path, image, coding, frame)
+        coding = _coding(path, root, memoryview(content)[len(content) if marker is None else marker.end() :], marker)
+        return _assemble(path, image, coding, frame)
 
 
 def _coding(path: Path, root: ElementTree.Element, appended: memoryview, tag: re.Match[bytes] | None) -> _Coding:
+    """Return the storage of numbers by the attributes of the file."""
     compressor = root.get("compressor", "")
     if compressor not in ("", ZLIB):
         raise FormatError(f"{path} is packed by {compressor[:40]}; save it packed by zlib, or not packed")
@@ -79,26 +80,29 @@ def _coding(path: Path, root: ElementTree.Element, appended: memoryview, tag: re
     )
 
 
-def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int | None) -> Volume:
-    """Return the volume that the pieces of an image make up."""
+def _assemble(path: Path, image: ElementTree.Element, coding: _Coding, frame: int | None) -> Volume:
+    """Assemble the volume from the pieces of an image."""
     extent = _extent(image.get("WholeExtent", ""))
     if image.get("Spacing") is None:
         warn("%s does not say the size of its cells; 1 mm is taken, unless --spacing gives it", path)
     spacing = _numbers(image.get("Spacing", "1 1 1"), AXES)
     direction = _numbers(image.get("Direction", "1 0 0 0 1 0 0 0 1"), AXES * AXES).reshape(AXES, AXES)
-    first = _numbers(image.get("Origin", "0 0 0"), AXES) + direction @ (spacing * extent[:, 0])
+    first_point = _numbers(image.get("Origin", "0 0 0"), AXES) + direction @ (spacing * extent[:, 0])
     lattice = Lattice(
-        points=tuple((extent[:, 1] - extent[:, 0] + 1).tolist()), origin=first, spacing=spacing, direction=direction
+        points=tuple((extent[:, 1] - extent[:, 0] + 1).tolist()),
+        origin=first_point,
+        spacing=spacing,
+        direction=direction,
     )
-    pieces = [(piece, *_scalars(path, piece)) for piece in image.findall("Piece")]
+    pieces = [(piece, *_find_scalars(path, piece)) for piece in image.findall("Piece")]
     if not pieces:
         raise FormatError(f"{path} holds an image without a piece; save it again")
     _, array, in_cells = pieces[0]
     shape, kind = lattice.shape(in_cells=in_cells), _kind(array.get("type", ""))
     numbers = int(array.get("NumberOfComponents", "1"))
-    at = chosen(path, frame, numbers, what=f"holds {numbers} numbers per cell")
-    each = kind.itemsize + (TEXT_BYTES if array.get("format") == "ascii" else kind.itemsize)
-    require_memory(math.prod(shape) * numbers * each, None, SMALLER)
+    component = chosen(path, frame, numbers, what=f"holds {numbers} numbers per cell")
+    cell_bytes = kind.itemsize + (TEXT_BYTES if array.get("format") == "ascii" else kind.itemsize)
+    require_memory(math.prod(shape) * numbers * cell_bytes, None, SMALLER)
     values = np.empty(0)
     covered = 0
     for piece, array, inside in pieces:
@@ -107,8 +111,8 @@ def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int |
         size = np.maximum(1, part[:, 1] - part[:, 0] + (0 if in_cells else 1))
         if inside != in_cells or (low < 0).any() or (low + size > shape).any():
             raise FormatError(f"{path} has pieces that do not fit into it; save it again")
-        found = _values(array, coding, int(size.prod()) * numbers)
-        cells = found[at::numbers].reshape(size, order="F")
+        numbers_of_piece = _array_values(array, coding, int(size.prod()) * numbers)
+        cells = numbers_of_piece[component::numbers].reshape(size, order="F")
         if len(pieces) == 1 and tuple(size) == shape:
             return lattice.volume(path, cells, in_cells=in_cells)
         if not covered:
@@ -120,21 +124,21 @@ def _image(path: Path, image: ElementTree.Element, coding: _Coding, frame: int |
     return lattice.volume(path, values, in_cells=in_cells)
 
 
-def _scalars(path: Path, piece: ElementTree.Element) -> tuple[ElementTree.Element, bool]:
-    """Return the array of a piece that is its scalars, or else its first one, and whether it belongs to the cells."""
-    for of in ("PointData", "CellData"):
-        section = piece.find(of)
+def _find_scalars(path: Path, piece: ElementTree.Element) -> tuple[ElementTree.Element, bool]:
+    """Return the scalars of a piece, or else its first array, and whether it belongs to the cells."""
+    for section_name in ("PointData", "CellData"):
+        section = piece.find(section_name)
         if section is None:
             continue
-        arrays = [each for each in section.findall("DataArray") if each.get("type") in TYPES]
-        named = [each for each in arrays if each.get("Name") == section.get("Scalars")]
+        arrays = [array for array in section.findall("DataArray") if array.get("type") in TYPES]
+        named = [array for array in arrays if array.get("Name") == section.get("Scalars")]
         if arrays:
-            return (named or arrays)[0], of == "CellData"
+            return (named or arrays)[0], section_name == "CellData"
     raise FormatError(f"{path} holds no array of numbers; save an image with one number per point")
 
 
-def _values(array: ElementTree.Element, coding: _Coding, count: int) -> NDArray[Any]:
-    """Return the numbers of an array, exactly so many."""
+def _array_values(array: ElementTree.Element, coding: _Coding, count: int) -> NDArray[Any]:
+    """Return exactly `count` numbers of an array."""
     kind = _kind(array.get("type", ""))
     form = array.get("format")
     if form == "ascii":
@@ -147,72 +151,79 @@ def _values(array: ElementTree.Element, coding: _Coding, count: int) -> NDArray[
             raw, in_base64 = coding.appended[begin:], coding.in_base64
         else:
             raw, in_base64 = memoryview("".join((array.text or "").split()).encode()), True
-        data = _unpacked(raw, coding, count * kind.itemsize, in_base64=in_base64)
+        data = _unpack(raw, coding, count * kind.itemsize, in_base64=in_base64)
         values = np.frombuffer(data, dtype=kind.newbyteorder(coding.order))
     if len(values) != count:
         raise ValueError(f"{len(values)} numbers where there should be {count}")
     return values
 
 
-def _unpacked(raw: memoryview, coding: _Coding, needed: int, *, in_base64: bool) -> bytes:
-    """Return the bytes of an array, at most as many as are needed."""
+def _unpack(raw: memoryview, coding: _Coding, needed: int, *, in_base64: bool) -> bytes:
+    """Return the `needed` bytes of an array, decompressed."""
     word = coding.head.itemsize
 
     def head(begin: int, count: int) -> list[int]:
-        return [int(number) for number in np.frombuffer(_some(raw, begin, count * word, in_base64), dtype=coding.head)]
+        return [
+            int(number)
+            for number in np.frombuffer(_slice_bytes(raw, begin, count * word, in_base64), dtype=coding.head)
+        ]
 
     if not coding.packed:
         size = head(0, 1)[0]
         if size != needed:
             raise ValueError(f"{size} bytes where there should be {needed}")
-        return _some(raw, 0, word + size, in_base64)[word:]
-    blocks, size, last = head(0, 3)
-    if blocks > len(raw) or (blocks - (last > 0)) * size + last != needed:
+        return _slice_bytes(raw, 0, word + size, in_base64)[word:]
+    blocks, size, last_size = head(0, 3)
+    if blocks > len(raw) or (blocks - (last_size > 0)) * size + last_size != needed:
         raise ValueError(f"{blocks} blocks of {size} bytes where there should be {needed} bytes")
     packed = head(0, 3 + blocks)[3:]
-    # The head is turned into base64 by itself, what is packed after it in one go.
+    # The head is encoded in base64 separately, and the packed blocks after it as one.
     begin = math.ceil((3 + blocks) * word / BASE64_IN) * BASE64_OUT if in_base64 else (3 + blocks) * word
-    data, parts = _some(raw, begin, sum(packed), in_base64), []
-    at = 0
+    data, parts = _slice_bytes(raw, begin, sum(packed), in_base64), []
+    position = 0
     for number, length in enumerate(packed):
         stream = zlib.decompressobj()
-        expected = last if last and number == blocks - 1 else size
-        parts.append(stream.decompress(data[at : at + length], expected + 1))  # its checksum is read with its end
+        expected = last_size if last_size and number == blocks - 1 else size
+        parts.append(
+            stream.decompress(data[position : position + length], expected + 1)
+        )  # its checksum is read with its end
         if len(parts[-1]) != expected or not stream.eof:
             raise ValueError(f"a block of {len(parts[-1])} bytes or more where there should be {expected}")
-        at += length
+        position += length
     return b"".join(parts)
 
 
-def _some(raw: memoryview, begin: int, count: int, in_base64: bool) -> bytes:
-    """Return so many bytes, or raise EOFError."""
+def _slice_bytes(raw: memoryview, begin: int, count: int, in_base64: bool) -> bytes:
+    """Return exactly `count` bytes, or raise EOFError."""
     if in_base64:
         text = raw[begin : begin + math.ceil(count / BASE64_IN) * BASE64_OUT]
-        found = base64.b64decode(text, validate=True)[:count]
+        decoded = base64.b64decode(text, validate=True)[:count]
     else:
-        found = bytes(raw[begin : begin + count])
-    if len(found) < count:
-        raise EOFError(f"{len(found)} bytes where there should be {count}: it is cut off")
-    return found
+        decoded = bytes(raw[begin : begin + count])
+    if len(decoded) < count:
+        raise EOFError(f"{len(decoded)} bytes where there should be {count}: it is cut off")
+    return decoded
 
 
 def _kind(name: str) -> np.dtype[np.generic]:
+    """Return the NumPy type of a VTK type."""
     if name not in TYPES:
         raise ValueError(f"numbers of a type {name[:40]!r}")
     return np.dtype(TYPES[name])
 
 
 def _extent(text: str) -> NDArray[np.int64]:
-    """Return first and last point along each axis, (3, 2)."""
+    """Return the first and last point along each axis, (3, 2)."""
     numbers = np.array([int(word) for word in text.split()], dtype=np.int64)
-    found = numbers.reshape(AXES, 2)
-    if (found[:, 1] < found[:, 0]).any():
+    ranges = numbers.reshape(AXES, 2)
+    if (ranges[:, 1] < ranges[:, 0]).any():
         raise ValueError(f"an extent of {text!r}")
-    return found
+    return ranges
 
 
 def _numbers(text: str, count: int) -> NDArray[np.float64]:
-    found = np.array([float(word) for word in text.split()])
-    if len(found) != count:
-        raise ValueError(f"{len(found)} numbers in {text!r} where there should be {count}")
-    return found
+    """Parse exactly `count` numbers."""
+    numbers = np.array([float(word) for word in text.split()])
+    if len(numbers) != count:
+        raise ValueError(f"{len(numbers)} numbers in {text!r} where there should be {count}")
+    return numbers
