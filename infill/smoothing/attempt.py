@@ -110,7 +110,7 @@ class Attempt:
 
 
 @told_of_compiling("the smoother")
-def attempted(given: Given, request: Request) -> Attempt:
+def attempted(smooth_input: Given, request: Request) -> Attempt:
     """Smooth the data in the requested way and judge the surface, however good it is: the first four stages.
 
     Raises
@@ -119,24 +119,24 @@ def attempted(given: Given, request: Request) -> Attempt:
         If nothing is left, or the surface is not closed.
     MemoryLimitError
     """
-    request = request.at(float(given.data.cell_size.min()))
+    request = request.at(float(smooth_input.data.cell_size.min()))
     clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
-        require_room(given.data, request)
-        data, specks = cleaned(given.data, request)
-        given = replace(given, data=data)
-        field = _smooth_field(given, request, clock)
+        require_room(smooth_input.data, request)
+        data, specks = cleaned(smooth_input.data, request)
+        smooth_input = replace(smooth_input, data=data)
+        field = _smooth_field(smooth_input, request, clock)
     with clock.stage("surface", 0.4):
-        raised = levelled(field, given, request)
+        raised = levelled(field, smooth_input, request)
     with clock.stage("check", 0.5):
         threads = thread_count(request.threads)
         full, (flips, surely_near), _ = together(
             partial(_measured_surface, raised, data),
-            partial(_sign_changes, raised, given, request),
+            partial(_sign_changes, raised, smooth_input, request),
             partial(getattr, raised.found, "shells"),
             threads=threads,
         )
-        surfaced, crumbs = without_crumbs(raised, given, request)
+        surfaced, crumbs = without_crumbs(raised, smooth_input, request)
         if surfaced.found.surface is not raised.found.surface:
             full = _measured_surface(surfaced, data)
         if not full.closed:
@@ -146,9 +146,11 @@ def attempted(given: Given, request: Request) -> Attempt:
             partial(_wall_thickness, surfaced, data),
             threads=threads,
         )
-        deviation = None if surely_near and not crumbs.count else _compare_with_input(full, given, field, request)
+        deviation = (
+            None if surely_near and not crumbs.count else _compare_with_input(full, smooth_input, field, request)
+        )
     return Attempt(
-        given=given,
+        given=smooth_input,
         request=request,
         field=field,
         surfaced=surfaced,
@@ -157,7 +159,7 @@ def attempted(given: Given, request: Request) -> Attempt:
         judged=judged,
         thinnest=thinnest,
         found=deviation,
-        told=differences(judged, deviation, given, off=off_by(surfaced, given, request)),
+        told=differences(judged, deviation, smooth_input, off=off_by(surfaced, smooth_input, request)),
         full=full,
         clock=clock,
     )
@@ -182,13 +184,13 @@ def _measured_surface(surfaced: Surfaced, data: Volume) -> Surface:
     return with_measures(placed(surfaced.found.surface, data), threads=1)
 
 
-def _sign_changes(raised: Surfaced, given: Given, request: Request) -> tuple[Flips, bool]:
+def _sign_changes(raised: Surfaced, smooth_input: Given, request: Request) -> tuple[Flips, bool]:
     """Return the cells that changed sign, and whether the surface is sure to be near the input (only for voxels)."""
-    levelled, spacing = raised.found, tuple(given.data.cell_size.tolist())
+    levelled, spacing = raised.found, tuple(smooth_input.data.cell_size.tolist())
     flips = Flips.of(
         levelled.against, raised.before.bits, levelled.height, signs=levelled.signs, threads=request.threads
     )
-    of_data = given.mesh is None and given.raw is None
+    of_data = smooth_input.mesh is None and smooth_input.raw is None
     return flips, of_data and near_each_other(flips, spacing=spacing, threads=request.threads)
 
 
@@ -200,13 +202,13 @@ def _wall_thickness(surfaced: Surfaced, data: Volume) -> tuple[float | None, flo
 
 def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
     """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage."""
-    given, request, clock, data = best.given, best.request, best.clock, best.given.data
+    smooth_input, request, clock, data = best.given, best.request, best.clock, best.given.data
     judged, surfaced, deviation, final_verdict = best.judged, best.surfaced, best.found, best.told
     with clock.stage("measure", 0.75):
         surface, simplified = lightened(best.full, request)
         if surface is not best.full:
-            deviation = _compare_with_input(surface, given, best.field, request)
-            final_verdict = differences(judged, deviation, given, off=off_by(surfaced, given, request))
+            deviation = _compare_with_input(surface, smooth_input, best.field, request)
+            final_verdict = differences(judged, deviation, smooth_input, off=off_by(surfaced, smooth_input, request))
     report = report_of(
         product="smooth",
         surface=surface,
@@ -225,7 +227,7 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
         problems=[*final_verdict.losses, *final_verdict.problems],
         seconds=clock.seconds,
         simplified=simplified,
-        input={**given.facts, "despeckled": best.specks},
+        input={**smooth_input.facts, "despeckled": best.specks},
         distance={},
         verdict={
             "word": final_verdict.word,
@@ -241,34 +243,34 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
             "tried": [],
         },
     )
-    report = Sections(report, {"distance": partial(_distance_facts, surface, given, best.field, request)})
-    stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
+    report = Sections(report, {"distance": partial(_distance_facts, surface, smooth_input, best.field, request)})
+    stages = SmoothStages(data=data, levelled=surfaced.found, given=smooth_input.mesh)
     return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), final_verdict
 
 
-def _raw_surface(given: Given, field: SparseField, request: Request) -> Surface:
+def _raw_surface(smooth_input: Given, field: SparseField, request: Request) -> Surface:
     """Return the surface of the input voxels, mm."""
-    return given.raw or raw_surface(field, given.data, request.threads)
+    return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
 
 
 def _compare_with_input(
-    surface: Surface, given: Given, field: SparseField, request: Request, *, exact: bool = False
+    surface: Surface, smooth_input: Given, field: SparseField, request: Request, *, exact: bool = False
 ) -> Fidelity:
     """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
     return fidelity(
-        _raw_surface(given, field, request) if given.mesh is None else given.mesh,
+        _raw_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
-        cell=given.cell or float(given.data.cell_size.max()),
-        closed=given.reference,
-        kinds=kinds_of_places(given, field, threads=request.threads),
+        cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
+        closed=smooth_input.reference,
+        kinds=kinds_of_places(smooth_input, field, threads=request.threads),
         exact=exact,
         threads=request.threads,
     )
 
 
-def _smooth_field(given: Given, request: Request, clock: Clock) -> SparseField:
+def _smooth_field(smooth_input: Given, request: Request, clock: Clock) -> SparseField:
     """Smooth the data into a field of bricks: the second stage."""
-    values, spacing = given.data.values, tuple(given.data.cell_size.tolist())
+    values, spacing = smooth_input.data.values, tuple(smooth_input.data.cell_size.tolist())
 
     def progress(share: float) -> None:
         clock.tell("smooth", 0.05 + 0.3 * share)
@@ -278,16 +280,16 @@ def _smooth_field(given: Given, request: Request, clock: Clock) -> SparseField:
             values,
             request.smoothing,
             spacing=spacing,
-            exact=given.exact and request.held,
+            exact=smooth_input.exact and request.held,
             threads=request.threads,
             progress=progress,
         )
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 
 
-def off_by(surfaced: Surfaced, given: Given, request: Request) -> float:
+def off_by(surfaced: Surfaced, smooth_input: Given, request: Request) -> float:
     """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
-    enclosed = given.enclosed
+    enclosed = smooth_input.enclosed
     target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
     error = surfaced.volume / target - 1
     return error if request.level == "volume" and abs(error) > OFF else 0.0
@@ -311,21 +313,21 @@ def _wall_facts(best: Attempt, data: Volume) -> dict[str, Any]:
     return {"thinnest": {"data": data_thickness, "result": result_thickness}, "lost": lost}
 
 
-def _distance_facts(surface: Surface, given: Given, field: SparseField, request: Request) -> dict[str, Any]:
+def _distance_facts(surface: Surface, smooth_input: Given, field: SparseField, request: Request) -> dict[str, Any]:
     """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
-    deviation = _compare_with_input(surface, given, field, request, exact=True)
+    deviation = _compare_with_input(surface, smooth_input, field, request, exact=True)
     facts: dict[str, Any] = {
-        "from": "voxels" if given.mesh is None else "mesh",
+        "from": "voxels" if smooth_input.mesh is None else "mesh",
         "result": deviation.there.facts(),
         "input": deviation.back.facts(),
         "thin": deviation.thin,
         "sheet": deviation.sheet,
         "hidden": deviation.hidden,
     }
-    if given.reference is not None:
-        raw = _raw_surface(given, field, request)
+    if smooth_input.reference is not None:
+        raw = _raw_surface(smooth_input, field, request)
         distances_from_mesh = distances(
-            raw.vertices[:: max(1, len(raw.vertices) // COMPARED)], given.reference, threads=request.threads
+            raw.vertices[:: max(1, len(raw.vertices) // COMPARED)], smooth_input.reference, threads=request.threads
         )
         facts["data"] = {
             "mean": float(distances_from_mesh.mean()),

@@ -166,20 +166,20 @@ def _report(
     component_reports = list(reports.values())
     corners = np.array([surface.bounds for surface in surfaces.values()])
     volume, data = (
-        sum(each["volume"] for each in component_reports),
-        sum(each["solid"]["data"] for each in component_reports),
+        sum(part["volume"] for part in component_reports),
+        sum(part["solid"]["data"] for part in component_reports),
     )
-    words = [each["verdict"]["word"] for each in component_reports] + ["lost"] * bool(failed)
+    words = [part["verdict"]["word"] for part in component_reports] + ["lost"] * bool(failed)
     report = {
         "form": FORM,
         "version": __version__,
         "product": "components",
-        "triangles": sum(each["triangles"] for each in component_reports),
-        "closed": all(each["closed"] for each in component_reports),
+        "triangles": sum(part["triangles"] for part in component_reports),
+        "closed": all(part["closed"] for part in component_reports),
         "extents": (corners[:, 1].max(axis=0) - corners[:, 0].min(axis=0)).tolist(),
         "volume": volume,
         "volume_change": volume / data - 1,
-        "problems": [f"{name}: {each}" for name, report in reports.items() for each in report["problems"]],
+        "problems": [f"{name}: {problem}" for name, report in reports.items() for problem in report["problems"]],
         "verdict": {"word": max(words, key=WORDS.index)},
         "request": request.facts(),
         "components": [{"name": name, "report": report} for name, report in reports.items()],

@@ -45,15 +45,15 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = None) -> Kinds:
+def kinds_of_places(smooth_input: Given, field: SparseField, *, threads: int | None = None) -> Kinds:
     """Return the function that classifies points of the input: those that count as lost, and those that do not.
 
     Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.
     Slits narrower than a cell have a class of their own. Of voxels, points between solid and void more than one cell
     thick count; the equation removes walls one cell thick, which have a class of their own.
     """
-    if given.enclosed is not None:
-        enclosed, mesh = given.enclosed, given.reference
+    if smooth_input.enclosed is not None:
+        enclosed, mesh = smooth_input.enclosed, smooth_input.reference
         assert mesh is not None
 
         def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
@@ -64,8 +64,8 @@ def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = N
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
         return bounding
-    cells = THICK_IN_NOISE if given.facts.get("noise", 0.0) > NOISY else THICK
-    data, turn = given.data, np.asarray(given.data.direction)
+    cells = THICK_IN_NOISE if smooth_input.facts.get("noise", 0.0) > NOISY else THICK
+    data, turn = smooth_input.data, np.asarray(smooth_input.data.direction)
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
         bits = data_bits(field, threads=threads)
@@ -81,48 +81,48 @@ def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = N
     return thick
 
 
-def differences(judged: Verdict, found: Fidelity | None, given: Given, *, off: float = 0.0) -> Differences:
+def differences(judged: Verdict, deviation: Fidelity | None, smooth_input: Given, *, off: float = 0.0) -> Differences:
     """Judge a result: return the verdict with its losses, problems and remarks.
 
     Parameters
     ----------
     judged : Verdict
         The changes of the voxels in smoothing.
-    found : Fidelity or None
+    deviation : Fidelity or None
         Distances between result and input; None if they are sure to be small everywhere.
-    given : Given
+    smooth_input : Given
     off : float
         Relative error of the volume.
     """
-    problems = [*judged.problems, *_topology_changes(judged, given)]
+    problems = [*judged.problems, *_topology_changes(judged, smooth_input)]
     if off:
         problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
     remarks = []
     if thin_count := judged.changes.vanished_thin:
         remarks.append(f"{thin_count} specks or flakes one voxel thick are gone")
-    if found and found.thin:
+    if deviation and deviation.thin:
         feature = (
             "walls or gaps one voxel thick are gone"
-            if given.enclosed is None
+            if smooth_input.enclosed is None
             else "slits narrower than a voxel are closed"
         )
-        remarks.append(f"{feature}, {found.thin:.3g} mm² of their faces")
-    if found and found.sheet:
-        remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")
-    if given.enclosed is not None and given.topology is None:
-        mesh_parts, now = int((given.enclosed.volumes > 0).sum()), judged.result.components
-        if now < mesh_parts:
+        remarks.append(f"{feature}, {deviation.thin:.3g} mm² of their faces")
+    if deviation and deviation.sheet:
+        remarks.append(f"{deviation.sheet:.3g} mm² of faces that bound no solid are left out")
+    if smooth_input.enclosed is not None and smooth_input.topology is None:
+        mesh_parts, result_parts = int((smooth_input.enclosed.volumes > 0).sum()), judged.result.components
+        if result_parts < mesh_parts:
             remarks.append(
-                f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {now}; "
+                f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
                 "--by-component keeps them apart"
             )
-    if given.facts.get("coarse"):
+    if smooth_input.facts.get("coarse"):
         remarks.append("what is smaller than the voxels that were asked for was not compared")
-    repairs = given.facts.get("repairs", {})
+    repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > CAPS:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
-    phrases = found.phrases if found else ()
-    lost = found is not None and found.word == "lost"
+    phrases = deviation.phrases if deviation else ()
+    lost = deviation is not None and deviation.word == "lost"
     losses = phrases if lost else ()
     if not lost:
         remarks = [*phrases, *remarks]
@@ -130,11 +130,11 @@ def differences(judged: Verdict, found: Fidelity | None, given: Given, *, off: f
     return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
 
 
-def _topology_changes(judged: Verdict, given: Given) -> list[str]:
+def _topology_changes(judged: Verdict, smooth_input: Given) -> list[str]:
     """Describe differences in topology between mesh and result, if the topology of the mesh is known."""
-    if given.topology is None:
+    if smooth_input.topology is None:
         return []
-    mesh_counts, result_counts = given.topology, judged.result
+    mesh_counts, result_counts = smooth_input.topology, judged.result
     phrases = []
     for name, singular, before, after in (
         ("components", "component", mesh_counts.components, result_counts.components),

@@ -35,20 +35,20 @@ class Crumbs:
     limit: float
 
 
-def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[Surfaced, Crumbs]:
+def without_crumbs(surfaced: Surfaced, smooth_input: Given, request: Request) -> tuple[Surfaced, Crumbs]:
     """Remove crumbs from a surface; return it and their number and volume.
 
     A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
     the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
     is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
     """
-    limit = CRUMB * given.data.cell_volume if request.crumbs is None else request.crumbs
+    limit = CRUMB * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
     levelled = surfaced.found
     volume = levelled.shells.volume
     if levelled.shells.names.min(initial=0) < 0:  # vertices that no face uses
         levelled = _without_shells(levelled, np.zeros(len(volume), dtype=bool))
         surfaced = replace(surfaced, found=levelled)
-    enclosed = given.enclosed
+    enclosed = smooth_input.enclosed
     all_small = enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any()
     small = (np.abs(volume) if all_small else np.where(volume > 0, volume, np.inf)) <= limit
     if not small.any() or small.all():
@@ -57,7 +57,7 @@ def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[
         return replace(surfaced, found=_without_shells(levelled, small)), Crumbs(
             count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
         )
-    spacing = tuple(given.data.cell_size.tolist())
+    spacing = tuple(smooth_input.data.cell_size.tolist())
     component = component_of_shells(levelled, surfaced.before, spacing=spacing)
     largest = np.full(surfaced.before.count, -math.inf)
     has_component = component >= 0

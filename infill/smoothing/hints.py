@@ -13,7 +13,7 @@ LOG = logging.getLogger("infill")
 DENSE = 2  # voxels: a mesh whose edges are longer in the mean has no detail to keep
 
 
-def tell_of_filters(surface: Surface, found: Voxelised) -> None:
+def tell_of_filters(surface: Surface, voxelised: Voxelised) -> None:
     """Log a hint to "infill" if a filter of the mesh itself may stay nearer to it than voxels.
 
     That is so for a closed mesh of one component, without overlaps, whose edges are shorter than two voxels in the
@@ -23,11 +23,11 @@ def tell_of_filters(surface: Surface, found: Voxelised) -> None:
     ----------
     surface : Surface, mm
         The input mesh.
-    found : Voxelised
+    voxelised : Voxelised
         The cells inside it.
     """
-    edge_length, cell_size = mean_edge(surface), float(found.volume.cell_size.max())
-    if edge_length >= DENSE * cell_size or found.several or found.repairs.holes:
+    edge_length, cell_size = mean_edge(surface), float(voxelised.volume.cell_size.max())
+    if edge_length >= DENSE * cell_size or voxelised.several or voxelised.repairs.holes:
         return
     LOG.info(
         "hint: the mesh is closed, and its edges (%.3g mm in the mean) are short for voxels of %.3g mm; if it is a "

@@ -154,7 +154,9 @@ def smooth_labels(
             surfaces[piece.name] = result.surface
             # A complete copy: measuring later would keep the field of every label in memory.
             reports[piece.name] = result.report.copy()
-    smoothed_pieces, failed_pieces = ([piece for piece in pieces if piece.name in some] for some in (surfaces, failed))
+    smoothed_pieces, failed_pieces = (
+        [piece for piece in pieces if piece.name in names] for names in (surfaces, failed)
+    )
     return Result(
         surfaces=surfaces,
         report=_report(request, smoothed_pieces, reports, failed_pieces, failed, absent, clock),
@@ -178,15 +180,17 @@ def _find_pieces(
 ) -> list[_Piece]:
     """Return the labels to smooth, each with a unique name."""
     requested = None if label is None else label if isinstance(label, tuple) else (label,)
-    file_segments = {(each.layer, each.value): each for each in segmentation.segments}
-    table_segments = {each.value: each for each in table}
+    file_segments = {(segment.layer, segment.value): segment for segment in segmentation.segments}
+    table_segments = {segment.value: segment for segment in table}
     present = []
     for layer, volume in enumerate(segmentation.layers):
-        for each in extents(volume):
+        for extent in extents(volume):
             template = (
-                table_segments.get(each.value) or file_segments.get((layer, each.value)) or Segment(value=each.value)
+                table_segments.get(extent.value)
+                or file_segments.get((layer, extent.value))
+                or Segment(value=extent.value)
             )
-            present.append((replace(template, layer=layer), each))
+            present.append((replace(template, layer=layer), extent))
     values = sorted({segment.value for segment, _ in present})
     if not present:
         raise ParameterError("the volume holds no label, only 0; check that it is the right file")
@@ -209,10 +213,10 @@ def _unique_name(segment: Segment, used_names: set[str]) -> str:
     """Return the name of a label, made unique with its number, layer or a counter if the name is taken."""
     base = " ".join(segment.name.split()) or f"label_{segment.value}"
     candidates = (base, f"{base}_{segment.value}", f"{base}_{segment.value}_layer_{segment.layer}")
-    unused = [each for each in candidates if each not in used_names]
+    unused = [name for name in candidates if name not in used_names]
     number = 2
     while not unused:
-        unused = [each for each in [f"{base}_{number}"] if each not in used_names]
+        unused = [name for name in [f"{base}_{number}"] if name not in used_names]
         number += 1
     return unused[0]
 
@@ -220,7 +224,7 @@ def _unique_name(segment: Segment, used_names: set[str]) -> str:
 def _absent_names(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[str]:
     """Return the names of the segments that hold no cell."""
     present = {(piece.segment.layer, piece.segment.value) for piece in pieces}
-    return [each.name for each in segmentation.segments if (each.layer, each.value) not in present]
+    return [segment.name for segment in segmentation.segments if (segment.layer, segment.value) not in present]
 
 
 def _smooth_piece(
@@ -263,9 +267,11 @@ def _report(
         "form": FORM,
         "version": __version__,
         "product": "labels",
-        "triangles": sum(each["triangles"] for each in label_reports),
-        "closed": all(each["closed"] for each in label_reports),
-        "problems": [f"{piece.name}: {each}" for piece in smoothed_pieces for each in reports[piece.name]["problems"]],
+        "triangles": sum(part["triangles"] for part in label_reports),
+        "closed": all(part["closed"] for part in label_reports),
+        "problems": [
+            f"{piece.name}: {problem}" for piece in smoothed_pieces for problem in reports[piece.name]["problems"]
+        ],
         "request": request.facts(),
         "labels": [
             {

@@ -53,45 +53,51 @@ class Surfaced:
         return float(self.found.shells.volume.sum())
 
 
-def levelled(field: SparseField, given: Given, request: Request) -> Surfaced:
+def levelled(field: SparseField, smooth_input: Given, request: Request) -> Surfaced:
     """Extract the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
 
     If the field is straightened along the way, its values are overwritten.
     """
-    threads, level, spacing = request.threads, request.level, tuple(given.data.cell_size.tolist())
+    threads, level, spacing = request.threads, request.level, tuple(smooth_input.data.cell_size.tolist())
     if isinstance(level, str):
         before, field, start = counted(field, spacing=spacing, straighten=not request.refined, threads=threads)
-        targets = _target_volumes(field, before, given, threads)
+        targets = _target_volumes(field, before, smooth_input, threads)
         level_surface = at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
         to_phase_level = request.profile.phase_level
         common, levels = (
             to_phase_level(level_surface.common),
-            np.array([to_phase_level(float(each)) for each in level_surface.levels]),
+            np.array([to_phase_level(float(height)) for height in level_surface.levels]),
         )
     else:
         before = components(field, data_bits(field, threads=threads))
-        targets = _target_volumes(field, before, given, threads)
+        targets = _target_volumes(field, before, smooth_input, threads)
         threshold = request.profile.distance_level(level) if request.refined else level
         level_surface = at_level(field, before, spacing=spacing, level=threshold, threads=threads)
         common, levels = level, np.full(before.count, level)
     return Surfaced(found=level_surface, before=before, targets=targets, common=common, levels=levels)
 
 
-def _target_volumes(field: SparseField, data: Components, given: Given, threads: int | None) -> NDArray[np.float64]:
+def _target_volumes(
+    field: SparseField, data: Components, smooth_input: Given, threads: int | None
+) -> NDArray[np.float64]:
     """Return the volume of each component of the data, mm³: of its cells, or inside its mesh or grey surface."""
-    spacing = tuple(given.data.cell_size.tolist())
+    spacing = tuple(smooth_input.data.cell_size.tolist())
     cells: NDArray[np.float64] = data.cells.astype(np.float64) * math.prod(spacing)
     if field.data.dtype == np.int8:
         return cells
     grey = replace(field, values=field.data.astype(np.float32))
-    if given.enclosed is not None:
+    if smooth_input.enclosed is not None:
         grey = replace(grey, values=REFINED.distance(grey.values, threads=threads))
     volume = volumes_of(grey, data, spacing=spacing, threads=threads)
     volume = np.where(volume > 0, volume, cells)
-    if given.volume is not None:
-        scaled: NDArray[np.float64] = volume * (given.volume / volume.sum())
+    if smooth_input.volume is not None:
+        scaled: NDArray[np.float64] = volume * (smooth_input.volume / volume.sum())
         return scaled
-    return volume if given.enclosed is None else _mesh_targets(field, data, given.data, given.enclosed, volume)
+    return (
+        volume
+        if smooth_input.enclosed is None
+        else _mesh_targets(field, data, smooth_input.data, smooth_input.enclosed, volume)
+    )
 
 
 def _mesh_targets(

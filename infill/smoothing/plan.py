@@ -209,14 +209,14 @@ class _InputSurvey:
 
 def _survey_volume(ways: Iterator[Way]) -> _InputSurvey:
     first_strategy = next(ways)
-    given, request = first_strategy.make()
-    data = given.data
+    smooth_input, request = first_strategy.make()
+    data = smooth_input.data
     solid, vertices = _count_cells(np.asarray(data.values) > 0)
     return _InputSurvey(
         request=request,
         grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
         space=data.space,
-        facts=given.facts,
+        facts=smooth_input.facts,
         solid=solid,
         vertices=vertices,
         ways=(first_strategy.name, *(way.name for way in ways)),

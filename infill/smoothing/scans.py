@@ -137,21 +137,21 @@ def ways_of_scan(
     smooth_input = _scan_input(data, solid, {**facts, "grey": grey or method == "grey"}, axis=axis, count=count)
     smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
     base_request = replace(request, method=method, refine=None, despeckle=despeckle)
-    yield Way(name=method, make=partial(_unchanged, smooth_input, base_request))
+    yield Way(name=method, make=partial(_pass_through, smooth_input, base_request))
     if request.method == AUTO and method == "plain" and not paper:
         refined_request = replace(base_request, method="refine")
-        yield Way(name="refine", make=partial(_unchanged, smooth_input, refined_request), cost=2)
+        yield Way(name="refine", make=partial(_pass_through, smooth_input, refined_request), cost=2)
     for steps in fewer_steps(base_request):
         fewer = replace(base_request, smoothing=replace(base_request.smoothing, steps=steps), radius=None)
-        yield Way(name=f"{method}, {steps} steps", make=partial(_unchanged, smooth_input, fewer))
+        yield Way(name=f"{method}, {steps} steps", make=partial(_pass_through, smooth_input, fewer))
     if request.method == AUTO and method != "plain":
         plain = replace(base_request, method="plain")
-        yield Way(name="plain", make=partial(_unchanged, smooth_input, plain), cost=0.5)
+        yield Way(name="plain", make=partial(_pass_through, smooth_input, plain), cost=0.5)
 
 
-def _unchanged(given: Given, request: Request) -> tuple[Given, Request]:
+def _pass_through(smooth_input: Given, request: Request) -> tuple[Given, Request]:
     """Return both arguments: `make` of a strategy that needs no other data."""
-    return given, request
+    return smooth_input, request
 
 
 def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
