@@ -68,7 +68,7 @@ def main(*, alone: bool = False) -> None:
 def _open_missing_streams() -> None:
     """Open the null device in place of standard streams that do not exist: under pythonw, or after `2>&-`.
 
-    Their numbers are taken first: a file that got number 2 would receive what compiled libraries print.
+    Their numbers are taken first: a file that got number 2 would receive messages of compiled libraries.
     """
     for number in range(3):
         with contextlib.suppress(OSError):

@@ -15,7 +15,7 @@ from infill.cli.console import as_bytes, print_json, progress_bar, say, table
 if TYPE_CHECKING:
     from infill.report_keys import MakeReport
 
-SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
+SHOWN = 1e-3  # mm: smaller differences from the requested size are not shown
 STDOUT = Path("-")
 BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
@@ -234,7 +234,7 @@ def make(
     if dry_run:
         _show_plan(block, limit, as_json=as_json)
     else:
-        block.require_grid_memory(limit)  # of what cannot be made, it does not matter how long it takes
+        block.require_grid_memory(limit)  # no warning of a long run for a block that does not fit
     if not quiet and (slow := warning_of(block)):
         say(f"warning: {slow}")
     if dry_run:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MACHINE, FILES = "The machine, instead of what the file says", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
 UNITS |= {"junction_deviation": "mm", "square_corner_velocity": "mm/s", "travel_acceleration": "mm/s²"}
-# Of a single file: heading, and what stands below it.
+# Columns of a single file: heading, and the text of a feature below it.
 COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
     "laid m": lambda each: f"{each.length / 1000:.2f}",
     "travel m": lambda each: f"{each.travel / 1000:.2f}",
