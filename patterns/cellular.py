@@ -1,4 +1,4 @@
-"""The patterns in space, by name: those that repeat, and those that follow the skin of a part."""
+"""The patterns in space, by name: periodic ones, and those that follow the skin of a part."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from patterns.lightning import LIGHTNING, Lightning
 from patterns.octree import OCTREES, Octree
 from patterns.unit_cells import Cellular
 
-Unlined = Cellular | Octree | Lightning  # no lines at any height say what they are
+Unlined = Cellular | Octree | Lightning  # no lines at any height describe them
 InSpace = Unlined | Cross3D
 
 
@@ -25,8 +25,8 @@ class _Catalogue(Mapping[str, InSpace]):
         from patterns.struts import STRUTS
         from patterns.tpms import NETWORKS, TPMS
 
-        walls = (CROSS_HATCH, Cross3D(), *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
-        return {each.name: each for each in (*TPMS, *walls, *NETWORKS, *STRUTS)}
+        wall_patterns = (CROSS_HATCH, Cross3D(), *PLANES, *OCTREES, LIGHTNING, *HONEYCOMBS)
+        return {pattern.name: pattern for pattern in (*TPMS, *wall_patterns, *NETWORKS, *STRUTS)}
 
     def __getitem__(self, name: str) -> InSpace:
         return self._all()[name]
@@ -42,8 +42,8 @@ CELLULAR: Mapping[str, InSpace] = _Catalogue()
 
 
 def no_such(name: str, names: Iterable[str]) -> PatternError:
-    """Return the error that no pattern has a name, with the nearest one that there is."""
+    """Return the error for an unknown pattern, with the nearest known name."""
     names = list(names)
-    near = difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.4)
-    advice = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(names)}"
+    matches = difflib.get_close_matches(name.lower(), names, n=1, cutoff=0.4)
+    advice = f"did you mean {matches[0]!r}?" if matches else f"there are {', '.join(names)}"
     return PatternError(f"there is no pattern {name!r}; {advice}")

@@ -19,7 +19,7 @@ ARC = 16  # chords in a quarter of the circle about a corner
 class Concentric(Pattern):
     """Closed lines at k `cell` from the outline of the region, which is the frame; without one, at (k + 1/2) `cell`.
 
-    There is about 1 / `cell` mm of line per square millimetre. Where the region is narrower than a cell, there is none.
+    There is about 1 / `cell` mm of line per square millimetre, and none where the region is narrower than a cell.
     """
 
     name: ClassVar[str] = "concentric"
@@ -35,9 +35,9 @@ class Concentric(Pattern):
 
         from patterns.linework import framed
 
-        first = self.cell if self.frame else self.cell / 2
-        rings = [shapely.get_rings(shapely.get_parts(inner)) for inner in insets(region, first, self.cell)]
-        lines = shapely.MultiLineString([ring for some in rings for ring in some])
+        first_distance = self.cell if self.frame else self.cell / 2
+        rings = [shapely.get_rings(shapely.get_parts(inner)) for inner in insets(region, first_distance, self.cell)]
+        lines = shapely.MultiLineString([ring for level in rings for ring in level])
         return framed(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
@@ -46,7 +46,7 @@ class Concentric(Pattern):
 
 
 def insets(region: Polygon | MultiPolygon, first: float, cell: float) -> Iterator[Polygon | MultiPolygon]:
-    """Yield what lies further than `first` + k `cell` inside the outline of a region, k = 0, 1, ...
+    """Yield the parts of a region further than `first` + k `cell` inside its outline, k = 0, 1, ...
 
     >>> from shapely import box
     >>> [inner.bounds for inner in insets(box(0, 0, 9, 7), 1.0, 2.0)]

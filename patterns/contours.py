@@ -1,4 +1,4 @@
-r"""Where a level set is zero at one height: marching squares, with every corner on the zero set itself.
+r"""Zero lines of a level set at one height: marching squares, with every corner on the zero set itself.
 
 Step 1. Take the signs at the nodes of a grid. An edge between two nodes of different sign contains a zero.
 Step 2. Find that zero by halving the edge, on the function itself, so that no grid shows in it.
@@ -31,7 +31,7 @@ Signs = NDArray[np.bool_]
 Function = Callable[[Floats, Floats, Floats], Floats]
 
 STEPS_PER_SPACING = 32
-# Nodes are offset from the multiples of the step, where straight patterns are zero and rounding decides the sign.
+# Nodes are offset from multiples of the step, where straight patterns are zero and rounding decides the sign.
 OFFSET = (math.sqrt(5) - 2, math.sqrt(2) - 1)
 HALVINGS = 26  # of a step: to 1e-8 of it
 NODES_AT_ONCE = 1_000_000
@@ -64,47 +64,47 @@ def zero_lines(
 
     def value(x: Floats, y: Floats) -> Floats:
         x, y = np.broadcast_arrays(x, y)
-        found = np.broadcast_to(np.asarray(function(x, y, np.full(x.shape, float(z))), dtype=np.float64), x.shape)
-        if not np.isfinite(found).all():
+        values = np.broadcast_to(np.asarray(function(x, y, np.full(x.shape, float(z))), dtype=np.float64), x.shape)
+        if not np.isfinite(values).all():
             raise PatternError("the level set has no finite value somewhere; make it a number everywhere")
-        return found
+        return values
 
     positive = _signs(x, y, value)
-    zeros, pairs = _pieces(x, y, positive, value)
+    zeros, pairs = _join_zeros(x, y, positive, value)
     ends = zeros[pairs]
-    long = (ends[:, 0] != ends[:, 1]).any(axis=-1)  # two edges may contain the same zero, at the node between them
-    pieces = shapely.multilinestrings(shapely.linestrings(ends[long]))
+    is_long = (ends[:, 0] != ends[:, 1]).any(axis=-1)  # two edges may contain the same zero, at the node between them
+    pieces = shapely.multilinestrings(shapely.linestrings(ends[is_long]))
     lines: NDArray[np.object_] = shapely.get_parts(shapely.line_merge(pieces))
     return lines
 
 
 def _nodes(low: float, high: float, step: float, offset: float) -> Floats:
-    """Return nodes from below `low` to above `high`, the same ones whatever the box."""
+    """Return nodes from below `low` to above `high`; they do not depend on the box."""
     number = np.arange(math.floor(low / step) - 1, math.ceil(high / step) + 1, dtype=np.float64)
     return (number + offset) * step
 
 
 def _signs(x: Floats, y: Floats, value: Callable[[Floats, Floats], Floats]) -> Signs:
-    """Return whether the function is above 0 at the nodes, (len(x), len(y)); some columns at a time."""
+    """Return the mask of nodes with a value above 0, (len(x), len(y)), computed in blocks of columns."""
     positive = np.empty((len(x), len(y)), dtype=bool)
     columns = max(1, NODES_AT_ONCE // len(y))
-    for first in range(0, len(x), columns):
-        part = slice(first, first + columns)
+    for start in range(0, len(x), columns):
+        part = slice(start, start + columns)
         positive[part] = value(x[part, None], y[None]) > 0
     return positive
 
 
-def _pieces(
+def _join_zeros(
     x: Floats, y: Floats, positive: Signs, value: Callable[[Floats, Floats], Floats]
 ) -> tuple[Floats, NDArray[np.intp]]:
     """Return the zeros on edges, (N, 2) float64, and the numbers of those joined by a piece of line, (M, 2)."""
     columns, rows = positive.shape
-    # Edges along x are numbered like the nodes they start from, edges along y after all of those.
+    # Edges along x have the number of their first node; edges along y follow.
     on_x = np.flatnonzero(positive[1:] != positive[:-1])
     on_y = np.flatnonzero(positive[:, 1:] != positive[:, :-1])
     i, j = np.divmod(on_x, rows)
     k, n = np.divmod(on_y, rows - 1)
-    zeros = _zeros(
+    zeros = _bisect_zeros(
         np.concatenate([x[i], x[k]]),
         np.concatenate([y[j], y[n]]),
         np.concatenate([x[i + 1], x[k]]),
@@ -115,22 +115,27 @@ def _pieces(
     numbered = np.concatenate([on_x, on_y + columns * rows])
     corners = (positive[:-1, :-1], positive[1:, :-1], positive[:-1, 1:], positive[1:, 1:])
     i, j = np.nonzero(np.logical_or.reduce(corners) & ~np.logical_and.reduce(corners))
-    below, left = i * rows + j, columns * rows + i * (rows - 1) + j
-    edges = np.stack([below, left + rows - 1, below + 1, left], axis=-1)  # below, right, above, left
+    lower, left_edge = i * rows + j, columns * rows + i * (rows - 1) + j
+    edges = np.stack([lower, left_edge + rows - 1, lower + 1, left_edge], axis=-1)  # below, right, above, left
     place = np.searchsorted(numbered, edges).clip(max=max(0, len(numbered) - 1))
     crossed = numbered[place] == edges
     saddle = crossed.all(axis=-1)
     pairs = [place[~saddle][crossed[~saddle]].reshape(-1, 2)]
-    i, j, four = i[saddle], j[saddle], place[saddle]
-    here, right, above, opposite = (value(x[i + m], y[j + n]) for m, n in ((0, 0), (1, 0), (0, 1), (1, 1)))
+    i, j, edge_zeros = i[saddle], j[saddle], place[saddle]
+    lower_left, lower_right, upper_left, upper_right = (
+        value(x[i + m], y[j + n]) for m, n in ((0, 0), (1, 0), (0, 1), (1, 1))
+    )
     # Does the saddle of the interpolated corners have the sign of the lower left corner? If so, lines cut off the lower
     # right and the upper left one.
-    like = (here * opposite > right * above)[:, None]
-    pairs += [np.where(like, four[:, [0, 1]], four[:, [0, 3]]), np.where(like, four[:, [2, 3]], four[:, [1, 2]])]
+    lower_left_sign = (lower_left * upper_right > lower_right * upper_left)[:, None]
+    pairs += [
+        np.where(lower_left_sign, edge_zeros[:, [0, 1]], edge_zeros[:, [0, 3]]),
+        np.where(lower_left_sign, edge_zeros[:, [2, 3]], edge_zeros[:, [1, 2]]),
+    ]
     return zeros, np.concatenate(pairs)
 
 
-def _zeros(
+def _bisect_zeros(
     x0: Floats,
     y0: Floats,
     x1: Floats,
@@ -142,7 +147,7 @@ def _zeros(
     low, high = np.zeros(len(x0)), np.ones(len(x0))
     for _ in range(HALVINGS if len(x0) else 0):
         middle = (low + high) / 2
-        same = (value(x0 + middle * (x1 - x0), y0 + middle * (y1 - y0)) > 0) == positive
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
+        has_start_sign = (value(x0 + middle * (x1 - x0), y0 + middle * (y1 - y0)) > 0) == positive
+        low, high = np.where(has_start_sign, middle, low), np.where(has_start_sign, high, middle)
     part = (low + high) / 2
     return np.stack([x0 + part * (x1 - x0), y0 + part * (y1 - y0)], axis=-1)

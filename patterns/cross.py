@@ -1,4 +1,4 @@
-"""Cross: Sierpinski's curve, one line around a tree of crosses, the same everywhere; with walls upright or winding."""
+"""Cross: Sierpinski's curve, one line around a tree of crosses, with upright or winding walls."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ class Cross(Pattern):
         if max(-low.min(), high.max()) > ORIGIN:
             raise PatternError(f"the cell is {self.cell:g} mm; the curve reaches {ORIGIN} octagons: give a larger one")
         parts = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(steps(low, high))))
-        placed = shapely.transform(parts, lambda ends: turn(ends * pitch, self.angle) + np.array(self.phase))
-        lines = clip(placed, region)
+        placed_lines = shapely.transform(parts, lambda ends: turn(ends * pitch, self.angle) + np.array(self.phase))
+        lines = clip(placed_lines, region)
         return framed(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
@@ -65,10 +65,10 @@ class Cross(Pattern):
 
 @dataclass(frozen=True, kw_only=True)
 class Cross3D(Cross):
-    """The same curve, whose walls wind upwards like the thread of a screw, half a cell about where they would stand.
+    """Sierpinski's curve whose walls wind upwards like the thread of a screw, half a cell about their place.
 
-    A wall leans this way and that way by turns, never by more than `lean`, whichever way it runs: a part gives way when
-    it is pressed from above as it does from the side.
+    Walls of every direction lean to and fro, never by more than `lean`: a part yields to pressure from above as it
+    does to pressure from the side.
     """
 
     name: ClassVar[str] = "cross-3d"
@@ -79,26 +79,26 @@ class Cross3D(Cross):
 
     @property
     def height(self) -> float:
-        """In which walls wind once around, mm."""
+        """Height of one turn of the walls, mm."""
         return math.pi * self.cell / math.tan(math.radians(self.lean))
 
     def lines(self, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
         """Return the parts of the curve in the region at a height, and the frame."""
         x, y = self._shift(z)
-        own = {each.name: getattr(self, each.name) for each in fields(Cross)}
-        return Cross(**{**own, "phase": (float(x), float(y))}).lines(region)
+        parameters = {field.name: getattr(self, field.name) for field in fields(Cross)}
+        return Cross(**{**parameters, "phase": (float(x), float(y))}).lines(region)
 
     def level_set(self, x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return 1 on one side of the walls, in the octagons that hang together, and -1 on the other."""
+        """Return 1 on one side of the walls, in the connected octagons, and -1 on the other."""
         import numpy as np
 
         from patterns.linework import turn
 
-        places = turn(np.stack([x, y], axis=-1) - np.stack(self._shift(z), axis=-1), -self.angle) / (self.cell / SIDE)
-        node = np.round(places)
-        beside = np.abs(places - node).sum(axis=-1)
+        position = turn(np.stack([x, y], axis=-1) - np.stack(self._shift(z), axis=-1), -self.angle) / (self.cell / SIDE)
+        node = np.round(position)
+        distance = np.abs(position - node).sum(axis=-1)
         power = (node.astype(np.int64) + ORIGIN) & -(node.astype(np.int64) + ORIGIN)
-        return np.where((beside < 0.5 + SIDE / 2) & (power[..., 0] != power[..., 1]), 1.0, -1.0)
+        return np.where((distance < 0.5 + SIDE / 2) & (power[..., 0] != power[..., 1]), 1.0, -1.0)
 
     def _shift(self, z: float | NDArray[np.float64]) -> tuple[Any, Any]:
         import numpy as np
@@ -108,13 +108,13 @@ class Cross3D(Cross):
 
 
 def steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the steps of the curve around the nodes from `low` to `high`, (2,) each: (N, 2, 2), in distances of nodes.
+    """Return the steps of the curve around nodes from `low` to `high`, (2,) each: (N, 2, 2), in node distances.
 
     Notes
     -----
-    Four curves of one order make one of the next where their corners meet: it is drawn there along the outside of the
-    gap between them, in place of the four corners. A node is such a place if the powers of 2 that divide
-    its numbers are the same. Two of these are never side by side: one of their numbers would be odd in both.
+    Four curves of one order form a curve of the next order where their corners meet: it runs along the outside of the
+    gap between them, instead of the four corners. Curves meet at a node if the same power of 2 divides both its
+    coordinates. Two such nodes are never neighbours: one coordinate would be odd in both.
 
     >>> import numpy as np
     >>> len(steps(np.array([0.0, 0.0]), np.array([9.0, 9.0])))
@@ -122,12 +122,16 @@ def steps(low: NDArray[np.float64], high: NDArray[np.float64]) -> NDArray[np.flo
     """
     import numpy as np
 
-    axes = [np.arange(first, last + 1).astype(np.int64) for first, last in zip(low, high, strict=True)]
+    axes = [np.arange(low_node, high_node + 1).astype(np.int64) for low_node, high_node in zip(low, high, strict=True)]
     node = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 1, 1, 2)
     power = (node + ORIGIN) & -(node + ORIGIN)
-    met = (power[..., 0] == power[..., 1]).ravel()
-    far, near = 0.5, SIDE / 2
-    upright = np.array([[(x, -near), (x, near)] for x in (-far, far)])
+    is_meeting = (power[..., 0] == power[..., 1]).ravel()
+    half_width, half_side = 0.5, SIDE / 2
+    upright = np.array([[(x, -half_side), (x, half_side)] for x in (-half_width, half_width)])
     straight = np.concatenate([upright, upright[..., ::-1]])
-    slanted = np.array([[(x * far, y * near), (x * near, y * far)] for x in (-1, 1) for y in (-1, 1)])
-    return np.concatenate([(node[met] + straight).reshape(-1, 2, 2), (node[~met] + slanted).reshape(-1, 2, 2)])
+    slanted = np.array(
+        [[(x * half_width, y * half_side), (x * half_side, y * half_width)] for x in (-1, 1) for y in (-1, 1)]
+    )
+    return np.concatenate(
+        [(node[is_meeting] + straight).reshape(-1, 2, 2), (node[~is_meeting] + slanted).reshape(-1, 2, 2)]
+    )

@@ -1,4 +1,4 @@
-"""The parameters of a pattern: what each means, its unit and its range, and the check of it.
+"""The parameters of a pattern: meaning, unit, range and check.
 
 A pattern is a frozen, keyword-only dataclass whose fields are its parameters. Fields made with
 `parameter` are offered to users, with their range and unit; patterns.given reads what users enter.
@@ -36,9 +36,9 @@ class Parameter:
     whole : bool
         True for whole numbers.
     replaces : str
-        The parameter that is ignored once this one is given.
+        The parameter that is ignored if this one is given.
     count : int
-        How many numbers it is, where its default is none; else its default says so.
+        Number of values if the default is none; otherwise the default determines it.
     """
 
     help: str
@@ -56,7 +56,7 @@ class Parameter:
 
     @property
     def range(self) -> str:
-        """The range in words, with its unit; empty if every number will do.
+        """The range in words, with its unit; empty if every number is allowed.
 
         >>> Parameter(help="", low=1, high=9).range, Parameter(help="", unit="", low=2).range
         ('from 1 to 9 mm', 'of at least 2')
@@ -88,16 +88,16 @@ def parameter(
     Raises
     ------
     PatternError
-        If the unit or the default could not be offered to users.
+        If the unit or the default is of an unsupported kind.
     """
     numbers = default if isinstance(default, tuple) else (default,)
-    if unit not in UNITS or not all(each is None or isinstance(each, (bool, Real)) for each in numbers):
+    if unit not in UNITS or not all(number is None or isinstance(number, (bool, Real)) for number in numbers):
         raise PatternError(
             f"a parameter has the default {default!r} and the unit {unit!r}; give a number, a tuple of numbers, "
             f"True, False or None, and one of the units {', '.join(map(repr, UNITS))}"
         )
-    described = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces, count=count)
-    return dataclasses.field(default=default, metadata={"parameter": described})
+    declaration = Parameter(help=help, unit=unit, low=low, high=high, whole=whole, replaces=replaces, count=count)
+    return dataclasses.field(default=default, metadata={"parameter": declaration})
 
 
 Described = tuple["dataclasses.Field[Any]", Parameter]
@@ -115,25 +115,25 @@ def parameters(pattern: object) -> dict[str, Described]:
 
 
 def parameter_values(pattern: object) -> dict[str, Any]:
-    """Return the parameters of a pattern by name, as JSON and TOML hold them, without those that another replaces.
+    """Return the parameters of a pattern by name, as JSON and TOML values, without those that another replaces.
 
     >>> from patterns import Zigzag
     >>> parameter_values(Zigzag(waves=3, angle=30))
     {'waves': 3.0, 'angle': 30.0, 'phase': [0.0, 0.0], 'frame': True}
     """
-    found = parameters(pattern)
-    values = {name: getattr(pattern, name) for name in found}
-    replaced = {described.replaces for name, (_, described) in found.items() if values[name] is not None}
+    declared = parameters(pattern)
+    values = {name: getattr(pattern, name) for name in declared}
+    replaced = {declaration.replaces for name, (_, declaration) in declared.items() if values[name] is not None}
     return {name: listed(value) for name, value in values.items() if name not in replaced}
 
 
 def listed(value: object) -> object:
-    """Return a list for a tuple, as JSON and TOML give back."""
+    """Convert a tuple to a list, as JSON and TOML return it."""
     return list(value) if isinstance(value, tuple) else value
 
 
 class Named(Protocol):
-    """Anything that messages can refer to by name: a pattern, a class of patterns, or what else has parameters."""
+    """Any object with parameters that messages name: a pattern, a class of patterns, and others."""
 
     @property
     def name(self) -> str:
@@ -141,25 +141,25 @@ class Named(Protocol):
         ...
 
 
-def wanted(default: object, described: Parameter) -> str:
-    """Return in words what values a parameter may have, with its range and unit.
+def wanted(default: object, declaration: Parameter) -> str:
+    """Describe the values of a parameter in words, with range and unit.
 
     >>> wanted(None, Parameter(help="", unit="", low=1, high=9, whole=True))
     'a whole number from 1 to 9, or none'
     """
     if isinstance(default, bool):
         return "true or false"
-    kind = "whole number" if described.whole else "number"
-    count = numbers_of(default, described)
-    some = f"a {kind}" if count is None else f"{count} {kind}s"
-    return f"{some} {described.range}".rstrip() + (", or none" if default is None else "")
+    kind = "whole number" if declaration.whole else "number"
+    count = numbers_of(default, declaration)
+    quantity = f"a {kind}" if count is None else f"{count} {kind}s"
+    return f"{quantity} {declaration.range}".rstrip() + (", or none" if default is None else "")
 
 
-def numbers_of(default: object, described: Parameter) -> int | None:
-    """Return how many numbers a parameter is, or None if it is a single one."""
+def numbers_of(default: object, declaration: Parameter) -> int | None:
+    """Return the number of values of a parameter, or None if it is a single one."""
     if isinstance(default, tuple):
         return len(default)
-    return described.count if default is None and described.count != 1 else None
+    return declaration.count if default is None and declaration.count != 1 else None
 
 
 def check_parameters(pattern: Named) -> None:
@@ -167,8 +167,8 @@ def check_parameters(pattern: Named) -> None:
 
     A number must be finite and in its range, a flag True or False, a tuple as long as its default.
     """
-    for name, described in parameters(pattern).items():
-        object.__setattr__(pattern, name, checked(pattern.name, described, getattr(pattern, name)))
+    for name, declaration in parameters(pattern).items():
+        object.__setattr__(pattern, name, checked(pattern.name, declaration, getattr(pattern, name)))
 
 
 def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: ANN401 - of the kind of the field
@@ -200,38 +200,38 @@ def checked(pattern: str, described: Described, value: object) -> Any:  # noqa: 
     return plain
 
 
-def _numbers(value: object, described: Parameter, count: int) -> tuple[float, ...] | None:
+def _numbers(value: object, declaration: Parameter, count: int) -> tuple[float, ...] | None:
     """Return `count` plain numbers, or None if the parameter cannot have them."""
     if not isinstance(value, Sequence) and not hasattr(value, "tolist"):
         return None
-    several = value if isinstance(value, Sequence) else value.tolist()
-    numbers = [_number(each, described) for each in several] if isinstance(several, Sequence) else []
-    found = tuple(number for number in numbers if number is not None)
-    return found if len(found) == len(numbers) == count else None
+    items = value if isinstance(value, Sequence) else value.tolist()
+    numbers = [_number(item, declaration) for item in items] if isinstance(items, Sequence) else []
+    plain_numbers = tuple(number for number in numbers if number is not None)
+    return plain_numbers if len(plain_numbers) == len(numbers) == count else None
 
 
-def _number(value: object, described: Parameter) -> float | None:
+def _number(value: object, declaration: Parameter) -> float | None:
     """Return a number as a plain int or float, or None if the parameter cannot have it."""
     if isinstance(value, bool) or not isinstance(value, Real):
         return None
     try:
         number = float(value)
-    except OverflowError:  # a whole number of more digits than any limit has
+    except OverflowError:  # an integer with more digits than any limit
         return None
-    if not math.isfinite(number) or not described.low <= number <= described.high:
+    if not math.isfinite(number) or not declaration.low <= number <= declaration.high:
         return None
-    if described.whole:
+    if declaration.whole:
         return int(number) if number == round(number) else None
     return number
 
 
-def shown(value: object, described: Parameter) -> str:
-    """Return a value as users enter it, with its unit: several numbers separated by commas."""
-    several = value if isinstance(value, (tuple, list)) else (value,)
+def shown(value: object, declaration: Parameter) -> str:
+    """Format a value as users enter it, with its unit; numbers of a tuple are separated by commas."""
+    items = value if isinstance(value, (tuple, list)) else (value,)
     try:
-        if several and all(isinstance(each, Real) and not isinstance(each, bool) for each in several):
-            return ",".join(f"{float(each):.10g}" for each in several) + SHOWN_UNITS[described.unit]
-        said = repr(value)
+        if items and all(isinstance(item, Real) and not isinstance(item, bool) for item in items):
+            return ",".join(f"{float(item):.10g}" for item in items) + SHOWN_UNITS[declaration.unit]
+        text = repr(value)
     except (OverflowError, ValueError):
         return "a number of hundreds of digits"
-    return said if len(said) <= LONGEST_SHOWN else said[:LONGEST_SHOWN] + "…"
+    return text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN] + "…"

@@ -6,7 +6,7 @@ PatternError(ValueError)    a parameter, a region or a name from which no patter
 
 
 class PatternError(ValueError):
-    """A pattern cannot be made from what was given; the message says what to change."""
+    """A pattern cannot be made from its parameters or region; the message says what to change."""
 
 
 class PatternUsageError(PatternError):

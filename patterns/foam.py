@@ -16,8 +16,8 @@ from patterns.unit_cells import Bars
 Floats = NDArray[np.float64]
 
 ALONG = 3  # cells along a period
-NEAR, WIDER = 1.8, 1.2  # cells: seeds that are looked at first, and how many times as far the next time
-FINE = 12  # points along a cell, by which cells are evened out
+NEAR, WIDER = 1.8, 1.2  # cells: distance of the seeds that are tried first, and its factor for every next try
+FINE = 12  # sample points along a cell for centroids
 ROUNDING = 1e-9
 
 
@@ -49,72 +49,74 @@ def evened(seeds: Floats, period: int) -> Floats:
     """Return the centroids of the Voronoi cells of seeds (N, 3) that repeat with a period along each axis."""
     line = (np.arange(FINE * period) + 0.5) / FINE
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-    nearest, which = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
+    nearest, nearest_seed = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
     for number, seed in enumerate(seeds):
-        away = (_shortest(points - seed, period) ** 2).sum(axis=1)
-        which[away < nearest] = number
-        nearest = np.minimum(nearest, away)
-    off = _shortest(points - seeds[which], period)
-    count = np.bincount(which, minlength=len(seeds))
-    moved = np.stack([np.bincount(which, weights=each, minlength=len(seeds)) for each in off.T], axis=-1)
-    found: Floats = (seeds + moved / count[:, None]) % period
-    return found
+        squared_distance = (_wrap(points - seed, period) ** 2).sum(axis=1)
+        nearest_seed[squared_distance < nearest] = number
+        nearest = np.minimum(nearest, squared_distance)
+    offset = _wrap(points - seeds[nearest_seed], period)
+    count = np.bincount(nearest_seed, minlength=len(seeds))
+    shift = np.stack(
+        [np.bincount(nearest_seed, weights=component, minlength=len(seeds)) for component in offset.T], axis=-1
+    )
+    centroids: Floats = (seeds + shift / count[:, None]) % period
+    return centroids
 
 
-def _shortest(off: Floats, period: int) -> Floats:
-    found: Floats = off - period * np.round(off / period)
-    return found
+def _wrap(offset: Floats, period: int) -> Floats:
+    wrapped: Floats = offset - period * np.round(offset / period)
+    return wrapped
 
 
 def voronoi_edges(seeds: Floats, period: int) -> Floats:
     """Return the edges of the Voronoi cells of seeds (N, 3) that repeat with a period along each axis, each edge once.
 
-    A vertex is as far from four seeds as from no other; two vertices with three seeds in common end an edge.
+    A vertex is equally far from its four nearest seeds; two vertices with three seeds in common end an edge.
 
     Returns
     -------
     (E, 2, 3) float64
-        With one end, or both, beyond the period where they cross its border.
+        One end, or both, lies beyond the period where an edge crosses its border.
     """
     shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)), dtype=np.float64) * period
     images = (seeds[None] + shifts[:, None]).reshape(-1, 3)
     number = np.tile(np.arange(len(seeds)), len(shifts))
-    found: list[Floats] = []
-    for own, seed in enumerate(seeds):
-        around, vertices = _cell(images - seed)
+    edges: list[Floats] = []
+    for seed_number, seed in enumerate(seeds):
+        neighbours, vertices = _cell(images - seed)
         ends: dict[tuple[int, int], list[Floats]] = {}
-        for three, vertex in zip(around.tolist(), vertices, strict=True):
-            for pair in itertools.combinations(three, 2):
-                # An edge is seen from its three seeds: it is taken at that of the lowest number.
-                if own < min(number[pair[0]], number[pair[1]]):
+        for triple, vertex in zip(neighbours.tolist(), vertices, strict=True):
+            for pair in itertools.combinations(triple, 2):
+                # Three seeds see the same edge: the seed with the lowest number keeps it.
+                if seed_number < min(number[pair[0]], number[pair[1]]):
                     ends.setdefault(pair, []).append(vertex + seed)
-        found.extend(np.array(each) for each in ends.values())
-    return np.array(found)
+        edges.extend(np.array(end_points) for end_points in ends.values())
+    return np.array(edges)
 
 
-def _cell(off: Floats) -> tuple[NDArray[np.intp], Floats]:
+def _cell(offsets: Floats) -> tuple[NDArray[np.intp], Floats]:
     """Return the vertices (V, 3) of the Voronoi cell around 0 among points (N, 3), and the three points (V, 3) of each.
 
-    Points that are further than twice its furthest vertex have no say, so few are looked at first.
+    Points further than twice the furthest vertex have no effect, so the nearest are tried first.
     """
-    away = np.linalg.norm(off, axis=1)
+    distance = np.linalg.norm(offsets, axis=1)
     reach = NEAR
     while True:
-        near = np.flatnonzero((away > 0) & (away < reach))
-        three = np.array(list(itertools.combinations(range(len(near)), 3)))
-        planes = off[near][three]
-        sure = np.abs(np.linalg.det(planes)) > ROUNDING
-        three, planes = three[sure], planes[sure]
+        nearby = np.flatnonzero((distance > 0) & (distance < reach))
+        triples = np.array(list(itertools.combinations(range(len(nearby)), 3)))
+        planes = offsets[nearby][triples]
+        is_independent = np.abs(np.linalg.det(planes)) > ROUNDING
+        triples, planes = triples[is_independent], planes[is_independent]
         # As far from 0 as from three others: off . x = |off|² / 2 for each.
         vertices = np.linalg.solve(planes, (planes**2).sum(axis=2)[..., None] / 2)[..., 0]
-        free = (vertices @ off[near].T - away[near] ** 2 / 2 <= ROUNDING).all(axis=1)
-        three, vertices = near[three[free]], vertices[free]
-        if _closed(three) and np.linalg.norm(vertices, axis=1).max() <= reach / 2:
-            return three, vertices
+        is_vertex = (vertices @ offsets[nearby].T - distance[nearby] ** 2 / 2 <= ROUNDING).all(axis=1)
+        triples, vertices = nearby[triples[is_vertex]], vertices[is_vertex]
+        if _is_closed(triples) and np.linalg.norm(vertices, axis=1).max() <= reach / 2:
+            return triples, vertices
         reach *= WIDER
 
 
-def _closed(three: NDArray[np.intp]) -> bool:
-    """Return whether every edge, which two of three points make, has two ends."""
-    pairs = np.sort(np.concatenate([three[:, [0, 1]], three[:, [0, 2]], three[:, [1, 2]]]), axis=1)
+def _is_closed(triples: NDArray[np.intp]) -> bool:
+    """Tell whether every edge, which is a pair of a triple of points, has two ends."""
+    pairs = np.sort(np.concatenate([triples[:, [0, 1]], triples[:, [0, 2]], triples[:, [1, 2]]]), axis=1)
     return len(pairs) > 0 and bool((np.unique(pairs, axis=0, return_counts=True)[1] == 2).all())

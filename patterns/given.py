@@ -16,18 +16,18 @@ NONE = "none"
 
 
 def nearest(name: str, known: Iterable[str], *, others: Iterable[str] = ()) -> str:
-    """Return advice for an unknown name: the nearest known one, including `others`, or a list of all known names.
+    """Return advice for an unknown name: the nearest one of `known` and `others`, or a list of all known names.
 
     >>> nearest("wavs", ["cell", "waves"]), nearest("qq", ["cell"]), nearest("qq", [])
     ("did you mean 'waves'?", 'it has cell', 'it has none')
     """
     names = list(known)
-    near = difflib.get_close_matches(name, [*others, *names], n=1)
-    return f"did you mean {near[0]!r}?" if near else f"it has {', '.join(names) or 'none'}"
+    matches = difflib.get_close_matches(name, [*others, *names], n=1)
+    return f"did you mean {matches[0]!r}?" if matches else f"it has {', '.join(names) or 'none'}"
 
 
 def assigned(kind: Named, text: str) -> tuple[str, Any]:
-    """Return the name and the value in a text such as ``waves=7.5``, or raise PatternError.
+    """Parse a text such as ``waves=7.5``; return the name and the value, or raise PatternError.
 
     Dashes and underscores are equivalent; several numbers are separated by commas; a flag is true, yes, on, 1,
     false, no, off or 0.
@@ -36,14 +36,14 @@ def assigned(kind: Named, text: str) -> tuple[str, Any]:
     >>> assigned(Zigzag, "phase=1,2"), assigned(Zigzag, "waves=none"), assigned(Zigzag, "frame=off")
     (('phase', (1.0, 2.0)), ('waves', None), ('frame', False))
     """
-    word, sign, value = text.partition("=")
+    word, equals, value = text.partition("=")
     name = word.strip().replace("-", "_")
-    if not sign or not name:
+    if not equals or not name:
         raise PatternUsageError("give a name and a value with = between, such as cell=5")
-    found = parameters(kind)
-    if name not in found:
-        raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, found)}")
-    return name, value_of(kind, name, _plain(value.strip(), *found[name]))
+    declared = parameters(kind)
+    if name not in declared:
+        raise PatternError(f"{kind.name} has no parameter {word.strip()!r}; {nearest(name, declared)}")
+    return name, value_of(kind, name, _parse_value(value.strip(), *declared[name]))
 
 
 def value_of(kind: Named, name: str, value: object) -> Any:  # noqa: ANN401 - of the kind of the parameter
@@ -53,16 +53,18 @@ def value_of(kind: Named, name: str, value: object) -> Any:  # noqa: ANN401 - of
 
 def descriptions(kind: Named) -> dict[str, dict[str, Any]]:
     """Return the parameters of a pattern by name, as plain values: help, unit, default, and the limits low and high."""
-    found = {}
-    for name, (field, each) in parameters(kind).items():
-        limits = {end: value for end, value in (("low", each.low), ("high", each.high)) if math.isfinite(value)}
-        found[name] = {
-            "help": each.help,
-            "unit": each.shown_unit,
+    described = {}
+    for name, (field, declaration) in parameters(kind).items():
+        limits = {
+            end: value for end, value in (("low", declaration.low), ("high", declaration.high)) if math.isfinite(value)
+        }
+        described[name] = {
+            "help": declaration.help,
+            "unit": declaration.shown_unit,
             "default": listed(field.default),
             **limits,
         }
-    return found
+    return described
 
 
 def default_text(described: Described) -> str:
@@ -73,8 +75,8 @@ def default_text(described: Described) -> str:
     return shown(default, described[1])
 
 
-def _plain(text: str, field: dataclasses.Field[Any], described: Parameter) -> object:
-    """Return the value that a text stands for, or the text itself if it stands for none of the type of the default."""
+def _parse_value(text: str, field: dataclasses.Field[Any], described: Parameter) -> object:
+    """Parse a text as a value of the type of the default; return the text itself if that fails."""
     word, default = text.lower(), field.default
     if default is None and word == NONE:
         return None

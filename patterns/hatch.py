@@ -1,4 +1,4 @@
-"""Cross hatch: upright walls along y and along x by turns, with saddles where they change over."""
+"""Cross hatch: upright walls along y and along x in turn, with saddles between them."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 def cross_hatch(x: Floats, y: Floats, z: Floats) -> Floats:
     """Return a mean of cos x and cos y whose weight goes from one to the other and back in a period of z.
 
-    Where all the weight is with one of them, walls are upright, half a cell apart: it is, to 5 %, at half of all
-    heights. Where both weigh the same, a section of the walls is of squares that touch at their corners.
+    Where one of them has all the weight, walls are upright, half a cell apart: to 5 %, this holds at half of all
+    heights. Where both weights are equal, a section of the walls consists of squares that touch at their corners.
 
     >>> import numpy as np
     >>> bool(abs(cross_hatch(np.array(np.pi / 2), np.array(1.3), np.array(0.0))) < 1e-12)
@@ -24,8 +24,8 @@ def cross_hatch(x: Floats, y: Floats, z: Floats) -> Floats:
     import numpy as np
 
     change = np.sin(math.pi / 2 * np.cos(z))
-    found: Floats = (1 + change) / 2 * np.cos(x) + (1 - change) / 2 * np.cos(y)
-    return found
+    value: Floats = (1 + change) / 2 * np.cos(x) + (1 - change) / 2 * np.cos(y)
+    return value
 
 
 CROSS_HATCH = Surfaces(

@@ -50,7 +50,7 @@ class ConcentricHeart(Pattern):
     Copies are scaled about the middle of the square they occupy, in even steps. The gap between
     neighbours is `cell` at the straight sides and at the notch, and twice that at the tips of the
     lobes; no other centre makes it more even. In a region that is not square, the hearts lie in
-    its middle; what `phase` shifts out of the region is cut off. Source: Wang et al. 2020, Fig. 17(a).
+    its middle; parts that `phase` shifts out of the region are cut off. Source: Wang et al. 2020, Fig. 17(a).
     """
 
     name: ClassVar[str] = "concentric-heart"
@@ -72,12 +72,12 @@ class ConcentricHeart(Pattern):
         from patterns.linework import clip, framed, middle, turn
 
         largest, gap = self._side(region), self.line_spacing(region)
-        # A heart is left out once its own interior would be narrower than a gap.
+        # A heart is left out if its interior would be narrower than a gap.
         count = self.hearts or max(1, math.floor((largest - gap) / (2 * gap)) + 1)
         sides = largest - 2 * gap * np.arange(count)
         hearts = turn(sides[:, None, None] * (outline() - 0.5), self.angle)
-        placed = hearts - (hearts[0].min(axis=0) + hearts[0].max(axis=0)) / 2 + middle(region) + self.phase
-        lines = clip(shapely.linestrings(placed), region)
+        placed_hearts = hearts - (hearts[0].min(axis=0) + hearts[0].max(axis=0)) / 2 + middle(region) + self.phase
+        lines = clip(shapely.linestrings(placed_hearts), region)
         return framed(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:

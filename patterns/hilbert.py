@@ -43,8 +43,8 @@ class Hilbert(Pattern):
 
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) - self.cell / 2
         parts = curve(np.concatenate([corners.min(axis=0), corners.max(axis=0)]), self.cell)
-        placed = [turn(part + self.cell / 2, self.angle) + np.array(self.phase) for part in parts]
-        lines = clip([shapely.LineString(part) for part in placed], region)
+        placed_parts = [turn(part + self.cell / 2, self.angle) + np.array(self.phase) for part in parts]
+        lines = clip([shapely.LineString(part) for part in placed_parts], region)
         return framed(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
@@ -60,19 +60,22 @@ def curve(bounds: NDArray[np.float64], cell: float) -> list[NDArray[np.float64]]
     bounds : (x0, y0, x1, y1)
         mm.
     cell : float
-        Side of a square, mm; one has its middle at (0, 0).
+        Side of a square, mm; the middle of one square is (0, 0).
 
     Raises
     ------
     PatternError
-        If the box reaches beyond the curve, which takes millions of squares.
+        If the box reaches beyond the curve, millions of squares away.
     """
     import numpy as np
 
     low, high = np.floor(np.array(bounds[:2]) / cell) - 1, np.ceil(np.array(bounds[2:]) / cell) + 1
     if max(-low.min(), high.max()) > ORIGIN:
         raise PatternError(f"the cell is {cell:g} mm; Hilbert's curve reaches {ORIGIN} cells: give a larger one")
-    axes = [np.arange(first, last + 1, dtype=np.int64) for first, last in zip(low, high, strict=True)]
+    axes = [
+        np.arange(low_square, high_square + 1, dtype=np.int64)
+        for low_square, high_square in zip(low, high, strict=True)
+    ]
     square = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 2)
     number = numbers(square[:, 0] + ORIGIN, square[:, 1] + ORIGIN)
     order = np.argsort(number)
@@ -82,7 +85,7 @@ def curve(bounds: NDArray[np.float64], cell: float) -> list[NDArray[np.float64]]
 
 
 def numbers(x: NDArray[np.int64], y: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the place of squares along the curve, int64; source: Hilbert, Math. Ann. 38 (1891).
+    """Return the position of squares along the curve, int64; source: Hilbert, Math. Ann. 38 (1891).
 
     >>> import numpy as np
     >>> numbers(np.array([0, 0, 1, 1]), np.array([0, 1, 1, 0])).tolist()

@@ -43,8 +43,10 @@ class Honeycomb(Pattern):
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
         pitch = np.array([self.cell, self.cell * math.sqrt(3) / 2])
-        first, last = np.floor(low / pitch) - 1, np.ceil(high / pitch) + 1
-        column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
+        low_cell, high_cell = np.floor(low / pitch) - 1, np.ceil(high / pitch) + 1
+        column, row = np.meshgrid(
+            np.arange(low_cell[0], high_cell[0] + 1), np.arange(low_cell[1], high_cell[1] + 1), indexing="ij"
+        )
         half, radius = self.cell / 2, self.cell / math.sqrt(3)
         centres = np.stack([column + (row % 2) / 2, row], axis=-1) * pitch
         centres = drop_distant(centres, region, angle=self.angle, phase=self.phase, reach=2 * radius)[:, None, None]
@@ -54,8 +56,8 @@ class Honeycomb(Pattern):
             (0.0, radius),
             (-half, radius / 2),
         )
-        own = np.array([[right_low, right_high], [right_high, top], [top, left_high]])
-        walls = turn((centres + own).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
+        cell_walls = np.array([[right_low, right_high], [right_high, top], [top, left_high]])
+        walls = turn((centres + cell_walls).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
         lines = clip(shapely.linestrings(walls), region)
         return framed(lines, region) if self.frame else lines
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 SLANTED = 1 / math.sqrt(3)
 
-# In half cells, the middles are the points whose numbers are all even, or all odd: a body-centred lattice. Of two that
-# touch, the sums of these numbers differ by 1, 2 or 3.
+# In half cells, the middles are the points whose coordinates are all even, or all odd: a body-centred lattice. For two
+# cells that touch, the sums of these coordinates differ by 1, 2 or 3.
 HONEYCOMB_3D = Polyhedra(
     name="honeycomb-3d",
     summary="truncated octahedra: closed cells, about as stiff in every direction",
@@ -46,8 +46,8 @@ HONEYCOMB_3D = Polyhedra(
 class LateralHoneycomb(Polyhedra):
     """Hexagonal tubes along x, one upon another; `cell` is the distance between upright walls.
 
-    All walls of a tube are as wide; those between upright ones lean by `overhang`, and hexagons are regular where
-    that is 60.
+    All walls of a tube have the same width; those between upright ones lean by `overhang`, and 60 degrees make regular
+    hexagons.
     """
 
     name: str = "lateral-honeycomb"
@@ -64,11 +64,11 @@ class LateralHoneycomb(Polyhedra):
         """See `Polyhedra`."""
         import numpy as np
 
-        wide, rise = self._wall()
+        width, rise = self._wall()
         leaning = math.radians(self.overhang)
-        across, up = math.cos(leaning), math.sin(leaning)
-        normals = np.array([(0.0, 1.0, 0.0), (0.0, across, up), (0.0, -across, up)])
-        half = up * (wide / 2 + rise)
+        cosine, sine = math.cos(leaning), math.sin(leaning)
+        normals = np.array([(0.0, 1.0, 0.0), (0.0, cosine, sine), (0.0, -cosine, sine)])
+        half = sine * (width / 2 + rise)
         return normals, np.array([0.5, half, half])
 
     def lattice(self) -> tuple[Floats, Floats]:
@@ -80,7 +80,7 @@ class LateralHoneycomb(Polyhedra):
         return np.array([1.0, 3.0, 2 * pitch]), np.array(middles, dtype=np.float64)
 
     def _wall(self) -> tuple[float, float]:
-        """Return how wide a wall is, and how high a leaning one rises, in cells."""
+        """Return the width of a wall, and the rise of a leaning one, in cells."""
         leaning = math.radians(self.overhang)
         return 0.5 / math.sin(leaning), 0.5 / math.tan(leaning)
 

@@ -1,4 +1,4 @@
-"""Lightning: walls only where a roof needs them, which lean to the nearest wall as trees lean to their trunk."""
+"""Lightning: walls only where a roof needs them, which lean to the nearest wall like branches to their trunk."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ class Lightning:
     """Upright walls under roofs: branches that end at the walls of the part, and whose lower edges rise to their tips.
 
     Below every roof there are twigs about a cell apart. Each goes to the nearest branch or wall; further down, tips
-    draw back along their branch, as far as walls may lean out when they are printed.
+    recede along their branch, as far as printed walls may lean out.
 
     Parameters
     ----------
     name, summary : str
     overhang : float
-        Degrees from upright that lower edges lean; what is steeper is no roof.
+        Degrees from upright that lower edges lean; a steeper surface does not count as a roof.
     first : (x, y)
-        Where the first twig is, in cells: not in the middle of a part, where opposite walls would be as near.
+        Place of the first twig, in cells: not in the middle of a part, equally far from opposite walls.
     cells : int
         A period, in cells: a power of 2. Twigs at whole multiples of it come first, then those between them at halves,
         and so on, so that few branches are long.
@@ -29,7 +29,7 @@ class Lightning:
     Notes
     -----
     Source: Tricard, Claux and Lefebvre, "Ribbed support vaults for 3D printing of hollowed objects", Computer
-    Graphics Forum 39 (2020) 147-159, whose ribs, too, lean from what they carry to what is there already.
+    Graphics Forum 39 (2020) 147-159, whose ribs also lean from their load to existing walls.
     """
 
     cells: ClassVar[int] = 8

@@ -14,7 +14,7 @@ from patterns.errors import PatternError
 
 
 def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
-    """Return `points` (..., 2) turned by `angle` degrees, counter-clockwise, about (0, 0).
+    """Turn `points` (..., 2) by `angle` degrees, counter-clockwise, about (0, 0).
 
     >>> turn(np.array([1.0, 0.0]), 90).round(12).tolist()
     [0.0, 1.0]
@@ -27,7 +27,7 @@ def turn(points: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
 def local(
     x: NDArray[np.float64], y: NDArray[np.float64], *, angle: float, phase: tuple[float, float]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the coordinates of points in a pattern that is turned by `angle` degrees and then shifted by `phase`, mm.
+    """Return the coordinates of points in a pattern turned by `angle` degrees and then shifted by `phase`, mm.
 
     A level set of these coordinates is the pattern turned and shifted.
 
@@ -35,8 +35,8 @@ def local(
     >>> round(float(x), 12), round(float(y), 12)
     (2.0, 0.0)
     """
-    place = turn(np.stack(np.broadcast_arrays(x - phase[0], y - phase[1]), axis=-1), -angle)
-    return place[..., 0], place[..., 1]
+    position = turn(np.stack(np.broadcast_arrays(x - phase[0], y - phase[1]), axis=-1), -angle)
+    return position[..., 0], position[..., 1]
 
 
 def drop_distant(
@@ -70,25 +70,25 @@ def drop_distant(
     [[0.0, 0.0]]
     """
     low, high = np.reshape(region.bounds, (2, 2))
-    places = turn(centres, angle) + np.array(phase)
-    near: NDArray[np.bool_] = ((places >= low - reach) & (places <= high + reach)).all(axis=-1)
-    return centres[near]
+    positions = turn(centres, angle) + np.array(phase)
+    is_near: NDArray[np.bool_] = ((positions >= low - reach) & (positions <= high + reach)).all(axis=-1)
+    return centres[is_near]
 
 
 def clip(lines: Iterable[shapely.Geometry] | NDArray[np.object_], region: Polygon | MultiPolygon) -> MultiLineString:
-    """Return the parts of `lines` inside `region`; parts that merely touch it in a point are dropped."""
+    """Clip `lines` to `region`; parts that merely touch it in a point are dropped."""
     shapely.prepare(region)
     candidates = np.asarray(lines, dtype=object)
     candidates = candidates[shapely.intersects(candidates, region)]
     inside = shapely.contains(region, candidates)
     cut = shapely.get_parts(shapely.intersection(candidates[~inside], region))
     cut = shapely.get_parts(cut)  # a GeometryCollection is nested once
-    kept = np.concatenate([candidates[inside], cut[(shapely.get_type_id(cut) == 1) & (shapely.length(cut) > 0)]])
-    return MultiLineString(list(kept))
+    parts = np.concatenate([candidates[inside], cut[(shapely.get_type_id(cut) == 1) & (shapely.length(cut) > 0)]])
+    return MultiLineString(list(parts))
 
 
 def joined(lines: MultiLineString) -> MultiLineString:
-    """Return `lines` with those that share an end in pairs joined: clipping also cuts a ring where it begins.
+    """Join `lines` that share an end in pairs: clipping also cuts a ring where it begins.
 
     >>> len(joined(MultiLineString([[(0, 0), (1, 0)], [(1, 0), (2, 0)], [(5, 5), (6, 6)]])).geoms)
     2
@@ -97,7 +97,7 @@ def joined(lines: MultiLineString) -> MultiLineString:
 
 
 def framed(lines: MultiLineString, region: Polygon | MultiPolygon) -> MultiLineString:
-    """Return `lines` with the outline of `region` added to them."""
+    """Add the outline of `region` to `lines`."""
     return MultiLineString([*lines.geoms, *shapely.get_parts(shapely.boundary(region))])
 
 
@@ -126,14 +126,14 @@ def bodies(lines: MultiLineString, *, tolerance: float = 1e-6) -> NDArray[np.int
     [0, 0, 1]
     """
     parts = np.array(lines.geoms, dtype=object)
-    one, other = shapely.STRtree(parts).query(parts, predicate="dwithin", distance=tolerance)
-    number = np.arange(len(parts))
+    line, touching_line = shapely.STRtree(parts).query(parts, predicate="dwithin", distance=tolerance)
+    label = np.arange(len(parts))
     while True:  # each line takes the smallest number it touches, then that line's own
-        least = number.copy()
-        np.minimum.at(least, one, number[other])
-        least = least[least]
-        if np.array_equal(least, number):
+        smallest = label.copy()
+        np.minimum.at(smallest, line, label[touching_line])
+        smallest = smallest[smallest]
+        if np.array_equal(smallest, label):
             break
-        number = least
-    unique: NDArray[np.intp] = np.unique(number, return_inverse=True)[1]
-    return unique
+        label = smallest
+    body: NDArray[np.intp] = np.unique(label, return_inverse=True)[1]
+    return body

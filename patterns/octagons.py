@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 FAR = 0.5  # of an octagon's width
 NEAR = FAR * (math.sqrt(2) - 1)  # half a side
-# Of an octagon as wide as 1, about (0, 0): the side to the right, the one on top, and the four that it shares with
-# squares. Those of all octagons are all walls, each once.
+# Of an octagon of width 1 about (0, 0): the side to the right, the one on top, and the four that it shares with
+# squares. Together, those of all octagons are all walls, each once.
 SIDES = (
     ((FAR, -NEAR), (FAR, NEAR)),
     ((-NEAR, FAR), (NEAR, FAR)),
@@ -50,12 +50,14 @@ class Octagons(Pattern):
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
         low, high = (limit(turn(corners, -self.angle), axis=0) for limit in (np.min, np.max))
-        first, last = np.floor(low / self.cell) - 1, np.ceil(high / self.cell) + 1
-        column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
+        low_cell, high_cell = np.floor(low / self.cell) - 1, np.ceil(high / self.cell) + 1
+        column, row = np.meshgrid(
+            np.arange(low_cell[0], high_cell[0] + 1), np.arange(low_cell[1], high_cell[1] + 1), indexing="ij"
+        )
         centres = np.stack([column, row], axis=-1) * self.cell
         centres = drop_distant(centres, region, angle=self.angle, phase=self.phase, reach=2 * self.cell)[:, None, None]
-        own = np.array(SIDES) * self.cell
-        walls = turn((centres + own).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
+        cell_walls = np.array(SIDES) * self.cell
+        walls = turn((centres + cell_walls).reshape(-1, 2, 2), self.angle) + np.array(self.phase)
         lines = clip(shapely.linestrings(walls), region)
         return framed(lines, region) if self.frame else lines
 

@@ -21,21 +21,21 @@ Rows = tuple[tuple[float, float, float], ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Octree:
-    """Walls around cubes, of which the larger have sides twice, four times ... those of the smallest: `cell`.
+    """Walls around cubes: the smallest have the side `cell`, larger ones twice, four times ... that.
 
-    A cube is split into eight, down to the smallest, as long as what the pattern follows comes nearer to its middle
-    than half its side, or than half its diagonal, if its middle is not inside the walls. Cubes that touch, if only at a
-    corner, differ by one level at most.
+    A cube is split into eight, down to the smallest, if the followed surface is nearer to its middle than half its
+    side, or than half its diagonal if its middle is not inside the walls. Cubes that touch, even only at a corner,
+    differ by one level at most.
 
     Parameters
     ----------
     name, summary : str
     roofs : bool
-        Whether it follows only what is above, flatter than 45 degrees, and not all of the inner side of the walls.
+        Whether it follows only surfaces above, flatter than 45 degrees, not the entire inner side of the walls.
     upright : three rows of (x, y, z)
-        How the pattern stands in a part: a rotation from the part to the pattern.
+        Rotation from the part to the pattern.
     levels : int
-        How often a cube may be larger by twice.
+        Most doublings of a cube.
     """
 
     bars: ClassVar[bool] = False
@@ -54,12 +54,12 @@ class Octree:
 
     @property
     def cells(self) -> int:
-        """How many of the smallest cubes lie along the largest."""
+        """Number of smallest cubes along the largest."""
         return 1 << self.levels
 
     @property
     def middle(self) -> int:
-        """Where the pattern begins, along each axis, in the smallest cubes from a corner of one of the largest.
+        """Origin of the pattern, along each axis, in smallest cubes from a corner of a largest one.
 
         In the middle of a cube of twice the side of the smallest, and far from the faces of all larger ones.
         """
@@ -67,17 +67,17 @@ class Octree:
 
 
 def doubled(whole: Sequence[Flags]) -> NDArray[np.uint8]:
-    """Return how often the cube is doubled in which each of the smallest ones lies, (n, m, k).
+    """Return the level of the cube that contains each smallest cube, (n, m, k): its number of doublings.
 
     Parameters
     ----------
     whole : sequence of (n / 2**level, m / 2**level, k / 2**level) bool
-        For each level from 1 on, which cubes need not be split for what the pattern follows.
+        For each level from 1 on, the cubes that need not be split for the followed surface.
 
     Notes
     -----
-    From the smallest upwards: eight cubes become one that is whole, if neither they nor the 56 of their size around
-    them are split themselves. So no cube touches one less than half as large.
+    From the smallest upwards: eight cubes become a single one if neither they nor the 56 cubes of their size around
+    them are split. So no cube touches one less than half as large.
 
     >>> import numpy as np
     >>> fine, coarse = np.ones((6, 2, 2), dtype=bool), np.ones((3, 1, 1), dtype=bool)
@@ -87,19 +87,19 @@ def doubled(whole: Sequence[Flags]) -> NDArray[np.uint8]:
     """
     import numpy as np
 
-    found = np.zeros(tuple(2 * n for n in whole[0].shape), dtype=np.uint8)
-    free = np.ones(found.shape, dtype=bool)
-    for level, own in enumerate(whole, start=1):
-        free = np.pad(free, 1, constant_values=True)
+    levels = np.zeros(tuple(2 * n for n in whole[0].shape), dtype=np.uint8)
+    unsplit = np.ones(levels.shape, dtype=bool)
+    for level, allowed in enumerate(whole, start=1):
+        unsplit = np.pad(unsplit, 1, constant_values=True)
         for axis in range(3):
-            along = np.moveaxis(free, axis, 0)
-            free = np.moveaxis(along[:-3:2] & along[1:-2:2] & along[2:-1:2] & along[3::2], 0, axis)
-        free &= own
-        fine = free
+            moved = np.moveaxis(unsplit, axis, 0)
+            unsplit = np.moveaxis(moved[:-3:2] & moved[1:-2:2] & moved[2:-1:2] & moved[3::2], 0, axis)
+        unsplit &= allowed
+        covered = unsplit
         for axis in range(3):
-            fine = fine.repeat(1 << level, axis=axis)
-        found[fine] = level
-    return found
+            covered = covered.repeat(1 << level, axis=axis)
+        levels[covered] = level
+    return levels
 
 
 ADAPTIVE_CUBIC = Octree(

@@ -9,7 +9,7 @@ from patterns.declared import check_parameters, parameter
 from patterns.errors import PatternError
 from patterns.unit_cells import Planes
 
-# A cube stands on one corner: its diagonal is upright, so that each plane is inclined alike.
+# A cube stands on one corner: its diagonal is upright, so that all planes have the same slope.
 UP, ACROSS = 1 / math.sqrt(3), (1 / math.sqrt(2), 1 / math.sqrt(6))
 ON_A_CORNER = (
     (ACROSS[0], ACROSS[1], UP),
@@ -41,9 +41,9 @@ LEAST_APART = 15.0  # degrees: walls that cross at less leave slivers
 
 @dataclass(frozen=True, kw_only=True)
 class LateralLattice(Planes):
-    """Walls that lean this way and that, around tubes along x; `cell` is how far those of a family are apart, level.
+    """Walls that lean to both sides, around tubes along x; `cell` is the horizontal distance within a family.
 
-    A wing or a blade is printed standing: such walls run across it, and meet its skin at an angle of one's own.
+    A wing or a blade is printed standing: such walls run across it, and meet its skin at a chosen angle.
     """
 
     name: str = "lateral-lattice"
@@ -53,15 +53,15 @@ class LateralLattice(Planes):
     second: float = parameter(45.0, "how far those the other way lean", unit="deg", low=-75.0, high=75.0)
 
     def __post_init__(self) -> None:
-        """Check the parameters, and lay the planes."""
+        """Check the parameters, and derive the normals of the planes."""
         check_parameters(self)
         if abs(self.first - self.second) < LEAST_APART:
             raise PatternError(
                 f"first and second of {self.name} are {self.first:g} and {self.second:g} degrees; they must be at "
                 f"least {LEAST_APART:g} degrees apart"
             )
-        leaning = (self.first, self.second)
-        normals = tuple((0.0, 1.0, round(math.tan(math.radians(each)), 12)) for each in leaning)
+        angles = (self.first, self.second)
+        normals = tuple((0.0, 1.0, round(math.tan(math.radians(angle)), 12)) for angle in angles)
         object.__setattr__(self, "normals", normals)
 
 

@@ -1,4 +1,4 @@
-"""Walls around closed cells that are all alike, and fill space."""
+"""Walls around congruent closed cells that fill space."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class Polyhedra:
     ----------
     name, summary : str
     normals : tuple of (x, y, z)
-        Of length 1, one for each pair of faces.
+        Unit vectors, one for each pair of faces.
     halves : tuple of float
-        How far the faces of each pair are from the middle, in cells.
+        Distance of the faces of each pair from the middle, in cells.
     period : (x, y, z)
         The sides of a box that repeats, in cells; a polyhedron fits into it.
     middles : tuple of tuple of (x, y, z)
-        Of the polyhedra of each class in the box, as many in every class, in cells. Polyhedra of one class do not
-        touch, not even at a corner.
+        Middles of the polyhedra of each class in the box, the same number in every class, in cells. Polyhedra of one
+        class do not touch, not even at a corner.
     """
 
     bars: ClassVar[bool] = False
@@ -44,11 +44,11 @@ class Polyhedra:
 
     @property
     def classes(self) -> int:
-        """How many classes of cells there are."""
+        """Number of classes of cells."""
         return len(self.lattice()[1])
 
     def faces(self) -> tuple[Floats, Floats]:
-        """Return the normals (F, 3), and how far the faces are from the middle (F,), in cells."""
+        """Return the normals (F, 3), and the distances of the faces from the middle (F,), in cells."""
         import numpy as np
 
         return np.array(self.normals, dtype=np.float64), np.array(self.halves, dtype=np.float64)
@@ -60,7 +60,7 @@ class Polyhedra:
         return np.array(self.period, dtype=np.float64), np.array(self.middles, dtype=np.float64)
 
     def distance(self, points: Floats) -> Floats:
-        """Return how far points (N, 3), in cells, lie from the nearest wall: (N,), in cells.
+        """Return the distance of points (N, 3), in cells, from the nearest wall: (N,), in cells.
 
         >>> from patterns.honeycombs import HONEYCOMB_3D
         >>> import numpy as np
@@ -69,11 +69,11 @@ class Polyhedra:
         """
         import numpy as np
 
-        found: Floats = np.max([self.depth(points, which) for which in range(self.classes)], axis=0)
-        return found
+        nearest: Floats = np.max([self.depth(points, which) for which in range(self.classes)], axis=0)
+        return nearest
 
     def depth(self, points: Floats, which: int) -> Floats:
-        """Return how deep points (N, 3), in cells, lie in the polyhedra of a class: (N,) in cells, below 0 outside.
+        """Return the depth of points (N, 3), in cells, in the polyhedra of a class: (N,) in cells, below 0 outside.
 
         Outside, a point may be further away than this.
         """
@@ -81,9 +81,9 @@ class Polyhedra:
 
         points = np.asarray(points, dtype=np.float64)
         (normals, halves), (period, middles) = self.faces(), self.lattice()
-        found = np.full(len(points), -np.inf)
+        deepest = np.full(len(points), -np.inf)
         for middle in middles[which]:
-            beside = points - middle
-            beside = beside - period * np.floor(beside / period + 0.5)
-            found = np.maximum(found, (halves - np.abs(beside @ normals.T)).min(axis=1))
-        return found
+            offset = points - middle
+            offset = offset - period * np.floor(offset / period + 0.5)
+            deepest = np.maximum(deepest, (halves - np.abs(offset @ normals.T)).min(axis=1))
+        return deepest

@@ -1,4 +1,4 @@
-"""What a pattern is: lines in a plane at height z, a level set in space, or both."""
+"""The protocol of a pattern: lines in a plane at height z, a level set in space, or both."""
 
 from __future__ import annotations
 
@@ -37,9 +37,9 @@ class Pattern(Protocol):
 
     Notes
     -----
-    Lines suit whatever is drawn: strokes, tiles, curves; ends and corners stay as they are given. A level
-    set (see `LevelSet`) suits whatever is a formula: waves, gyroids; its lines have no ends inside the
-    region and never cross. A pattern that provides both describes the same shape with both.
+    Lines suit drawings: strokes, tiles, curves; ends and corners stay as they are drawn. A level set (see
+    `LevelSet`) suits formulas: waves, gyroids; its lines have no ends inside the region and never cross.
+    A pattern that provides both describes the same shape with both.
     """
 
     name: ClassVar[str]
@@ -101,13 +101,13 @@ class Pattern(Protocol):
         return sample(self.lines(region, z), spacing)
 
     def __post_init__(self) -> None:
-        """Check the parameters; a subclass with a `__post_init__` of its own calls this first."""
+        """Check the parameters; a subclass that defines `__post_init__` calls this first."""
         check_parameters(self)
 
 
 @runtime_checkable
 class LevelSet(Protocol):
-    """What a pattern defined by a formula provides, in addition to `Pattern` or in place of its lines."""
+    """The level set of a pattern defined by a formula, in addition to its lines or instead of them."""
 
     def level_set(self, x: NDArray[np.float64], y: NDArray[np.float64], z: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the value of a continuous function at points in space.
@@ -128,33 +128,33 @@ class LevelSet(Protocol):
 
 
 def lines_of(pattern: Pattern, region: Polygon | MultiPolygon, z: float = 0.0) -> MultiLineString:
-    """Return the lines of a pattern, or raise PatternError that names it: a plug-in's code may do anything."""
+    """Return the lines of a pattern; wrap any error, which may come from a plug-in, in a PatternError that names it."""
     try:
         return pattern.lines(region, z)
     except Exception as error:
         if isinstance(error, PatternError):
             raise
-        said = " ".join(str(error).split())
-        raise PatternError(f"the pattern {pattern.name} failed: {type(error).__name__}: {said}") from error
+        message = " ".join(str(error).split())
+        raise PatternError(f"the pattern {pattern.name} failed: {type(error).__name__}: {message}") from error
 
 
 def gives(pattern: object) -> tuple[str, ...]:
-    """Return what a pattern, or a class of patterns, itself provides: "lines", "level set", or both.
+    """List the descriptions that a pattern, or a class of patterns, provides: "lines", "level set", or both.
 
     >>> from patterns import Honeycomb
     >>> gives(Honeycomb)
     ('lines',)
     """
-    kind = pattern if isinstance(pattern, type) else type(pattern)
-    drawn = hasattr(pattern, "lines") and getattr(kind, "lines", None) is not Pattern.lines
-    return (LINES,) * drawn + (LEVEL_SET,) * callable(getattr(pattern, "level_set", None))
+    pattern_class = pattern if isinstance(pattern, type) else type(pattern)
+    has_lines = hasattr(pattern, "lines") and getattr(pattern_class, "lines", None) is not Pattern.lines
+    return (LINES,) * has_lines + (LEVEL_SET,) * callable(getattr(pattern, "level_set", None))
 
 
 def lacking(pattern: object) -> list[str]:
-    """Return what a pattern, or a class of patterns, is required to have but lacks.
+    """List the required attributes that a pattern, or a class of patterns, lacks.
 
     >>> lacking("honeycomb")[:2]
     ['name', 'summary']
     """
-    missing = [word for word in NEEDED if not hasattr(pattern, word)]
+    missing = [attribute for attribute in NEEDED if not hasattr(pattern, attribute)]
     return missing if gives(pattern) else [*missing, "lines or level_set"]

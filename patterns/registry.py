@@ -47,56 +47,56 @@ class Registry(Mapping[str, type[Pattern]]):
         self._plugins = plugins
         self._all: dict[str, type[Pattern]] | None = None
 
-    def _loaded(self) -> dict[str, type[Pattern]]:
+    def _load_all(self) -> dict[str, type[Pattern]]:
         if self._all is None:
-            found = dict(self.built_in)
+            classes = dict(self.built_in)
             for entry in self._plugins():
                 try:
-                    found[entry.name] = _load(entry, found)
+                    classes[entry.name] = _load(entry, classes)
                 except PatternError as error:
                     warnings.warn(str(error), PatternWarning, stacklevel=3)
-            self._all = found
+            self._all = classes
         return self._all
 
     def __getitem__(self, name: str) -> type[Pattern]:
         if name in self.built_in:
             return self.built_in[name]
-        return self._loaded()[name]
+        return self._load_all()[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._loaded())
+        return iter(self._load_all())
 
     def __len__(self) -> int:
-        return len(self._loaded())
+        return len(self._load_all())
 
     def find(self, name: str) -> type[Pattern]:
         """Return the pattern called `name`, or raise PatternError suggesting the nearest name."""
         if name in self:
             return self[name]
-        near = difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
-        advice = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(self)}"
+        matches = difflib.get_close_matches(name.lower(), self, n=1, cutoff=0.4)
+        advice = f"did you mean {matches[0]!r}?" if matches else f"there are {', '.join(self)}"
         raise PatternError(f"there is no pattern {name!r}; {advice} ('infill list' shows all)")
 
 
-def _load(entry: EntryPoint, taken: Mapping[str, type[Pattern]]) -> type[Pattern]:
+def _load(entry: EntryPoint, used_names: Mapping[str, type[Pattern]]) -> type[Pattern]:
     """Return the class behind `entry`, or raise PatternError that names the plug-in."""
-    where = f"plug-in pattern {entry.name!r} ({entry.value}) is left out:"
-    if entry.name in taken:
-        raise PatternError(f"{where} the name is taken; rename the entry point")
+    prefix = f"plug-in pattern {entry.name!r} ({entry.value}) is left out:"
+    if entry.name in used_names:
+        raise PatternError(f"{prefix} the name is taken; rename the entry point")
     try:
         pattern = entry.load()
         _check_class(pattern, entry.name)
         pattern()
     except (Exception, SystemExit) as error:
-        said = " ".join(str(error).split())
+        message = " ".join(str(error).split())
         kind = "" if isinstance(error, PatternError) else f"{type(error).__name__}: "
-        raise PatternError(f"{where} {kind}{said}; mend or uninstall it") from error
-    found: type[Pattern] = pattern
-    return found
+        raise PatternError(f"{prefix} {kind}{message}; mend or uninstall it") from error
+    loaded_class: type[Pattern] = pattern
+    return loaded_class
 
 
 def _check_class(pattern: Any, name: str) -> None:  # noqa: ANN401 - whatever a plug-in offers
-    """Raise PatternError if `pattern` is not a pattern class that can be called `name`."""
+    """Raise PatternError if `pattern` is not a pattern class with the name `name`."""
     missing = lacking(pattern)
     if not isinstance(pattern, type) or missing:
         raise PatternError(f"it is not a pattern class ({', '.join(missing) or 'no class'} missing)")

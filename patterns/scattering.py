@@ -1,4 +1,4 @@
-"""Points at random that are always the same ones: a place and a number say them, not the order they are asked in."""
+"""Reproducible random points: they depend on a seed and their place, not on the order of calls."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ def scattered(low: NDArray[np.int64], high: NDArray[np.int64], seed: int) -> NDA
     True
     """
     squares = np.stack(np.meshgrid(*map(np.arange, low, high), indexing="ij"), axis=-1).reshape(-1, len(low))
-    number = mixed(np.full(len(squares), seed, dtype=np.uint64))
-    for along in squares.T:
-        number = mixed(number + along.astype(np.uint64))
-    shares = np.stack([mixed(number + np.uint64(axis)) for axis in range(len(low))], axis=-1) / 2.0**64
-    found: NDArray[np.float64] = squares + shares
-    return found
+    hashed = mixed(np.full(len(squares), seed, dtype=np.uint64))
+    for coordinate in squares.T:
+        hashed = mixed(hashed + coordinate.astype(np.uint64))
+    shares = np.stack([mixed(hashed + np.uint64(axis)) for axis in range(len(low))], axis=-1) / 2.0**64
+    points: NDArray[np.float64] = squares + shares
+    return points
 
 
 def mixed(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Return a number that looks random for each number, always the same: splitmix64.
+    """Hash each number to a pseudorandom one: splitmix64.
 
     Source: Steele, Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 

@@ -7,7 +7,7 @@
         phase: tuple[float, float] = phase_parameter()
         frame: bool = frame_parameter(default=True)
 
-They are flags on the command line. A pattern has those that make sense for it.
+They are flags on the command line. A pattern declares those that make sense for it.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ def phase_parameter(default: tuple[float, float] = (0.0, 0.0)) -> Any:  # noqa: 
 
 
 def seed_parameter() -> Any:  # noqa: ANN401 - a field of type int
-    """Return the field that says which of all patterns of a kind, scattered at random, one is."""
+    """Return the field for the seed of a random pattern."""
     return parameter(0, "which of all such patterns", unit="", low=0, high=2**31 - 1, whole=True)
 
 
 def frame_parameter(*, default: bool = True) -> Any:  # noqa: ANN401 - a field of type bool
-    """Return the field that says whether the outline of the region is a wall too."""
+    """Return the field for the frame: whether the outline of the region is a wall too."""
     return parameter(default, "a wall around the block", unit="")

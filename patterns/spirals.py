@@ -1,8 +1,8 @@
-"""Spirals of two arms that lie evenly: in from the edge of the region, and from its middle out again, in one line.
+"""Evenly spaced spirals of two arms: one line from the edge of the region to its middle and out again.
 
 Nested rings become a spiral when their upper halves are moved half a gap to the right, and their lower halves half a
-gap to the left: each half then ends where another begins. Neighbours stay as far apart as they were, and the line has
-no end inside a region: everywhere it is a wall between two voids.
+gap to the left: each half then ends where another begins. Neighbours keep their distance, and the line has no end
+inside a region: everywhere it is a wall between two voids.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-SAGITTA = 5e-4  # of a cell, that a chord may depart from its arc
+SAGITTA = 5e-4  # of a cell: deviation of a chord from its arc
 TIPS = 8  # of an octagram
-BEYOND = 2  # turns more than the farthest corner needs
+BEYOND = 2  # turns beyond the farthest corner
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class Spiral(Pattern):
     Attributes
     ----------
     half : callable
-        Takes how many rings are inside a ring, and returns the upper half of it: (N, 2), from (1, 0) to (-1, 0).
+        Takes the number of rings inside a ring, and returns its upper half: (N, 2), from (1, 0) to (-1, 0).
     inscribed : float
         Radius of the circle that the sides of such a ring touch.
     """
@@ -65,7 +65,7 @@ class Spiral(Pattern):
         return self.cell
 
     def drawn(self, reach: float) -> NDArray[np.float64]:
-        """Return a spiral whose turns are 1 apart, about (0, 0), as far as `reach` and further: (N, 2)."""
+        """Return a spiral whose turns are 1 apart, about (0, 0), to beyond `reach`: (N, 2)."""
         import numpy as np
 
         gap = 1 / self.inscribed  # along the axis
@@ -78,8 +78,8 @@ class Spiral(Pattern):
                 ring = ring * np.array([1.0, -1.0]) - np.array([gap / 2, 0.0])
             ring[[0, -1]] = np.round(ring[[0, -1]] / gap) * gap  # on the axis, to the last bit
             arm.append(ring[1:])
-        one = np.concatenate(arm)
-        return np.concatenate([-one[::-1], [(0.0, 0.0)], one])
+        half_line = np.concatenate(arm)
+        return np.concatenate([-half_line[::-1], [(0.0, 0.0)], half_line])
 
 
 def half_circle(inside: int) -> NDArray[np.float64]:
@@ -101,9 +101,9 @@ def half_star(inside: int = 0) -> NDArray[np.float64]:  # noqa: ARG001 - all are
 
     angle = np.arange(TIPS + 1) * math.pi / TIPS
     notch = math.cos(math.pi / 4) / math.cos(math.pi / TIPS)
-    away = np.where(np.arange(TIPS + 1) % 2 == 0, 1.0, notch)
-    found: NDArray[np.float64] = away[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return found
+    radius = np.where(np.arange(TIPS + 1) % 2 == 0, 1.0, notch)
+    tips: NDArray[np.float64] = radius[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return tips
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,7 +111,7 @@ class ArchimedeanChords(Spiral):
     """A round spiral in a frame: half circles about two middles.
 
     From its second turn on it is nowhere more than 0.15 `cell` away from Archimedes' spiral of two arms, whose radius
-    is `cell` / pi times the angle. The arms of that one draw together in the middle; these are evenly apart.
+    is `cell` / pi times the angle. The arms of that spiral converge in the middle; these are evenly spaced.
     """
 
     name: ClassVar[str] = "archimedean-chords"

@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-Direction = tuple[float, float]  # degrees, and by how many distances lines are shifted to their left
+Direction = tuple[float, float]  # degrees, and the shift of lines to their left, in distances
 
 
 @dataclass(frozen=True, kw_only=True)
 class Straight(Pattern):
-    """Parallel lines, `cell` apart, in every one of some directions.
+    """Parallel lines, `cell` apart, in one or several directions.
 
     There are `len(directions)` / `cell` mm of line per square millimetre.
     """
@@ -38,11 +38,11 @@ class Straight(Pattern):
         from patterns.linework import clip, framed
 
         corners = shapely.get_coordinates(shapely.envelope(region)) - self.phase
-        drawn = [
-            parallels(corners, distance=self.cell, angle=self.angle + turned, shift=shift)
-            for turned, shift in self.directions
+        line_sets = [
+            parallels(corners, distance=self.cell, angle=self.angle + direction, shift=shift)
+            for direction, shift in self.directions
         ]
-        lines = clip(shapely.linestrings(np.concatenate(drawn) + np.array(self.phase)), region)
+        lines = clip(shapely.linestrings(np.concatenate(line_sets) + np.array(self.phase)), region)
         return framed(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
@@ -53,16 +53,16 @@ class Straight(Pattern):
 def parallels(
     corners: NDArray[np.float64], *, distance: float, angle: float, shift: float = 0.0
 ) -> NDArray[np.float64]:
-    """Return parallel lines that cross the box around some points (N, 2): (L, 2, 2), of the unit of the points.
+    """Return parallel lines that cross the box around points (N, 2): (L, 2, 2), in the unit of the points.
 
     Parameters
     ----------
     distance : float
-        Between neighbours.
+        Distance between neighbours.
     angle : float
-        Of the lines to the x axis, degrees.
+        Angle of the lines to the x axis, degrees.
     shift : float
-        How many distances the lines are to the left of one through (0, 0).
+        Shift of the lines to the left of a line through (0, 0), in distances.
 
     >>> import numpy as np
     >>> parallels(np.array([[0.0, 0.0], [2.0, 1.0]]), distance=1, angle=0, shift=0.5)[:, 0, 1].tolist()
@@ -73,9 +73,9 @@ def parallels(
     from patterns.linework import turn
 
     along, across = turn(np.asarray(corners, dtype=np.float64), -angle).T
-    first, last = (np.floor(across.min() / distance - shift), np.ceil(across.max() / distance - shift))
-    at = (np.arange(first, last + 1) + shift) * distance
-    ends = np.stack(np.broadcast_arrays([along.min() - distance, along.max() + distance], at[:, None]), axis=-1)
+    low_number, high_number = (np.floor(across.min() / distance - shift), np.ceil(across.max() / distance - shift))
+    position = (np.arange(low_number, high_number + 1) + shift) * distance
+    ends = np.stack(np.broadcast_arrays([along.min() - distance, along.max() + distance], position[:, None]), axis=-1)
     return turn(ends, angle)
 
 

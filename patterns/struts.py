@@ -13,14 +13,14 @@ Node = tuple[float, float, float]
 Edge = tuple[Node, Node]
 
 
-def _between(one: Iterable[Node], other: Iterable[Node], length: float) -> tuple[Edge, ...]:
+def _edges_between(nodes: Iterable[Node], end_nodes: Iterable[Node], length: float) -> tuple[Edge, ...]:
     """Return the edges of a length between two sets of nodes, each once."""
-    found = {
+    edges = {
         tuple(sorted((a, b)))
-        for a, b in itertools.product(one, other)
+        for a, b in itertools.product(nodes, end_nodes)
         if math.isclose(math.dist(a, b), length, abs_tol=1e-9)
     }
-    return tuple(sorted((a, b) for a, b in found))
+    return tuple(sorted((a, b) for a, b in edges))
 
 
 CORNERS: tuple[Node, ...] = tuple((float(x), float(y), float(z)) for x, y, z in itertools.product((0, 1), repeat=3))
@@ -51,23 +51,25 @@ CUBIC = Bars(
 OCTET = Bars(
     name="octet",
     summary="octahedra and tetrahedra: the stiffest for its weight",
-    edges=_between((*CORNERS, *FACES), FACES, math.sqrt(0.5)),
+    edges=_edges_between((*CORNERS, *FACES), FACES, math.sqrt(0.5)),
 )
-BCC = Bars(name="bcc", summary="bars to the corners of a cube", edges=_between(CORNERS, [CENTRE], math.sqrt(0.75)))
+BCC = Bars(
+    name="bcc", summary="bars to the corners of a cube", edges=_edges_between(CORNERS, [CENTRE], math.sqrt(0.75))
+)
 FCC = Bars(
     name="fcc",
     summary="bars across the faces of a cube",
-    edges=_between(CORNERS, FACES, math.sqrt(0.5)),
+    edges=_edges_between(CORNERS, FACES, math.sqrt(0.5)),
 )
 DIAMOND = Bars(
     name="diamond",
     summary="four bars at every node; soft, and prints without support",
-    edges=_between((*CORNERS, *FACES), QUARTERS, math.sqrt(3) / 4),
+    edges=_edges_between((*CORNERS, *FACES), QUARTERS, math.sqrt(3) / 4),
 )
 KELVIN = Bars(
     name="kelvin",
     summary="truncated octahedra, as foam has them",
-    edges=_between(OCTAHEDRON, OCTAHEDRON, math.sqrt(0.125)),
+    edges=_edges_between(OCTAHEDRON, OCTAHEDRON, math.sqrt(0.125)),
 )
 
 FOAM = Foam(name="voronoi-foam", summary="irregular cells, as in sponge and bone; no direction is weaker than another")

@@ -84,7 +84,7 @@ def _network(surfaces: Surfaces, summary: str, *, thinnest: float, side: int = 1
     return Network(name=name, summary=summary, surfaces=surfaces, side=side, thinnest=thinnest)
 
 
-# Neovius's surface and the lidinoid have none: bars along their channels break at densities that are asked for.
+# Neovius's surface and the lidinoid have no network: bars along their channels break at usual densities.
 NETWORKS = (
     _network(GYROID, "bars that wind, three at every node; prints without support", thinnest=0.02),
     _network(SCHWARZ_P, "thick bars along x, y and z that flow into one another", thinnest=0.08),

@@ -1,6 +1,6 @@
 """Patterns that repeat in space: walls along a minimal surface or planes, one side of it, or bars along edges.
 
-They are given for one unit cell, of side 1, that repeats along x, y and z; whoever fills a part scales and turns it.
+They are defined for one unit cell, of side 1, that repeats along x, y and z; to fill a part, it is scaled and turned.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ if TYPE_CHECKING:
 
 STEPS, AGAIN = 3, 2  # of Newton's method, from near the surface to it, and from nearer
 SHEET, SHIFT = 40, 0.0093  # nodes along a cell, between which the surface is looked for; where they begin
-JUMPS = (16, 8, 4, 2, 1, 1)  # nodes away, where others are asked: half a cell at first, the next ones twice
-ROUNDS = 3  # in which the point of the surface that is nearest is looked for
+JUMPS = (16, 8, 4, 2, 1, 1)  # distances of jump flooding, in nodes: from half a cell to direct neighbours, twice
+ROUNDS = 3  # of the search for the nearest point of the surface
 NEAR = 1e-3  # values that count as 0
 DIFFERENCE = 1e-6  # of a cell, for slopes
-LONGEST, MOVED = 0.2, 2e-3  # steps, in cells: the longest, and what changes nothing
+LONGEST, MOVED = 0.2, 2e-3  # steps, in cells: the longest, and the shortest that matters
 STEEPEST = 0.5  # of a cell: distances beyond this are cut off
 REACH = 0.8  # of a period: further from the unit cell, no bar is the nearest of any point in it
-FURTHEST = 1.5  # cells: nor is one this far
+FURTHEST = 1.5  # cells: such a bar is not the nearest either
 DEEPEST = 48  # points along a cell, among which the deepest is looked for
 ROUNDING = 1e-9
 BINS, BINS_PER_CELL = 12, 6  # along a period, in each of which the edges that may be the nearest are known, at least
@@ -54,9 +54,9 @@ class Surfaces:
     value: Callable[[Floats, Floats, Floats], Floats]
 
     def distance(self, points: Floats) -> Floats:
-        """Return how far points (N, 3), in cells, lie from the surface: (N,) in cells, above 0 where the value is.
+        """Return the distance of points (N, 3), in cells, from the surface: (N,) in cells, with the sign of the value.
 
-        Cut off half a cell away from it. From the nearest of many points of the surface, the nearest of all is near.
+        It is cut off half a cell away. The search begins at the nearest of many sample points of the surface.
 
         >>> from patterns.tpms import SCHWARZ_P
         >>> import numpy as np
@@ -67,45 +67,47 @@ class Surfaces:
 
         points = np.asarray(points, dtype=np.float64)
         foot = points + self._towards(points)
-        away = np.minimum(np.linalg.norm(points - foot, axis=1), STEEPEST)
-        some = np.flatnonzero(away < STEEPEST)
-        foot = foot[some]
+        nearest = np.minimum(np.linalg.norm(points - foot, axis=1), STEEPEST)
+        active = np.flatnonzero(nearest < STEEPEST)
+        foot = foot[active]
         for _ in range(ROUNDS):
-            # To where the plane across the slope at the foot is nearest to the point, and back to the surface.
-            beside, normal = points[some] - foot, _unit(self._slope(foot, self._at(foot)))
-            across = beside - (beside * normal).sum(axis=1, keepdims=True) * normal
+            # Project the point onto the tangent plane at the foot, and return to the surface.
+            offset, normal = points[active] - foot, _unit(self._slope(foot, self._at(foot)))
+            across = offset - (offset * normal).sum(axis=1, keepdims=True) * normal
             moving = np.linalg.norm(across, axis=1) > MOVED
-            some, foot = some[moving], foot[moving]
+            active, foot = active[moving], foot[moving]
             foot, value = self._on_surface(foot + across[moving], AGAIN)
-            there = np.linalg.norm(points[some] - foot, axis=1)
-            away[some] = np.where(np.abs(value) < NEAR, np.minimum(away[some], there), away[some])
-        signed: Floats = np.where(self._at(points) < 0, -1.0, 1.0) * away
+            foot_distance = np.linalg.norm(points[active] - foot, axis=1)
+            nearest[active] = np.where(
+                np.abs(value) < NEAR, np.minimum(nearest[active], foot_distance), nearest[active]
+            )
+        signed: Floats = np.where(self._at(points) < 0, -1.0, 1.0) * nearest
         return signed
 
     def _towards(self, points: Floats) -> Floats:
-        """Return the way from points (N, 3) to the nearest of those that the nodes around them know, (N, 3)."""
+        """Return the offset from points (N, 3) to the nearest surface point of the nodes around them, (N, 3)."""
         import numpy as np
 
-        ways, places = feet_of(self), (points - SHIFT) * SHEET
-        low = np.floor(places).astype(np.int64)
+        offsets, position = feet_of(self), (points - SHIFT) * SHEET
+        low = np.floor(position).astype(np.int64)
         best = np.full(points.shape, np.inf)
         for corner in itertools.product((0, 1), repeat=3):
             node = low + corner
-            way = ways[tuple((node % SHEET).T)] + (node - places) / SHEET
-            nearer = (way**2).sum(axis=1) < (best**2).sum(axis=1)
-            best[nearer] = way[nearer]
+            offset = offsets[tuple((node % SHEET).T)] + (node - position) / SHEET
+            nearer = (offset**2).sum(axis=1) < (best**2).sum(axis=1)
+            best[nearer] = offset[nearer]
         return best
 
     def _on_surface(self, points: Floats, steps: int) -> tuple[Floats, Floats]:
-        """Return points (N, 3) moved to the surface by Newton's method, and what values are left there."""
+        """Move points (N, 3) to the surface by Newton's method; return them and the values there."""
         import numpy as np
 
         foot, value = points.copy(), self._at(points)
         for _ in range(steps):
             slope = self._slope(foot, value)
             step = (value / np.maximum((slope**2).sum(axis=1), 1e-12))[:, None] * slope
-            far = np.linalg.norm(step, axis=1, keepdims=True)
-            foot -= step * np.minimum(1, LONGEST / np.maximum(far, 1e-12))
+            length = np.linalg.norm(step, axis=1, keepdims=True)
+            foot -= step * np.minimum(1, LONGEST / np.maximum(length, 1e-12))
             value = self._at(foot)
         return foot, value
 
@@ -113,11 +115,11 @@ class Surfaces:
         import numpy as np
 
         x, y, z = (2 * np.pi * points).T
-        found: Floats = self.value(x, y, z)
-        return found
+        value: Floats = self.value(x, y, z)
+        return value
 
     def _slope(self, points: Floats, value: Floats) -> Floats:
-        """Return how the value at points (N, 3), which is known, changes along x, y and z: (N, 3)."""
+        """Return the gradient of the value at points (N, 3), where the value is given: (N, 3)."""
         import numpy as np
 
         out = np.empty_like(points)
@@ -128,51 +130,52 @@ class Surfaces:
 
 @cache
 def feet_of(surfaces: Surfaces) -> Floats:
-    """Return the way from each node of a period to about the nearest point of the surface, (n, n, n, 3), in cells.
+    """Return the offset from each node of a period to about the nearest point of the surface, (n, n, n, 3), in cells.
 
-    Where the value changes sign between two nodes, there is such a point; from these on, nodes ask others further and
-    nearer away for theirs: jump flooding (Rong and Tan 2006, doi:10.1145/1111411.1111431). Infinite if there is none.
+    Where the value changes sign between two nodes, there is such a point; from there, nodes take over the points of
+    other nodes at several distances: jump flooding (Rong and Tan 2006, doi:10.1145/1111411.1111431). Without any
+    such point, the offsets are infinite.
     """
     import numpy as np
 
     line = np.arange(SHEET) / SHEET + SHIFT
     nodes = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1)
     value = surfaces._at(nodes.reshape(-1, 3)).reshape(nodes.shape[:3])
-    ways, least = np.full(nodes.shape, np.inf), np.full(value.shape, np.inf)
+    offsets, least_squared = np.full(nodes.shape, np.inf), np.full(value.shape, np.inf)
 
-    def nearer(found: Floats) -> None:
-        squared = np.einsum("...i,...i", found, found)
-        better = squared < least
-        ways[better], least[better] = found[better], squared[better]
+    def nearer(candidate: Floats) -> None:
+        squared = np.einsum("...i,...i", candidate, candidate)
+        better = squared < least_squared
+        offsets[better], least_squared[better] = candidate[better], squared[better]
 
     for axis, step in enumerate(np.eye(3) / SHEET):
-        beyond = np.roll(value, -1, axis=axis)
-        crossed = (value < 0) != (beyond < 0)
-        share = value[crossed] / (value[crossed] - beyond[crossed])
-        foot, left = surfaces._on_surface(nodes[crossed] + share[:, None] * step, STEPS)
-        found = np.full(nodes.shape, np.inf)
-        found[crossed] = np.where((np.abs(left) < NEAR)[:, None], foot - nodes[crossed], np.inf)
-        nearer(found)
-        nearer(np.roll(found - step, 1, axis=axis))
-    around = [np.array(each) for each in itertools.product((-1, 0, 1), repeat=3) if any(each)]
+        next_value = np.roll(value, -1, axis=axis)
+        crossed = (value < 0) != (next_value < 0)
+        share = value[crossed] / (value[crossed] - next_value[crossed])
+        foot, residual = surfaces._on_surface(nodes[crossed] + share[:, None] * step, STEPS)
+        candidate = np.full(nodes.shape, np.inf)
+        candidate[crossed] = np.where((np.abs(residual) < NEAR)[:, None], foot - nodes[crossed], np.inf)
+        nearer(candidate)
+        nearer(np.roll(candidate - step, 1, axis=axis))
+    directions = [np.array(direction) for direction in itertools.product((-1, 0, 1), repeat=3) if any(direction)]
     for jump in JUMPS:
-        for each in around:
-            nearer(np.roll(ways, tuple(-jump * each), axis=(0, 1, 2)) + jump * each / SHEET)
-    return ways
+        for direction in directions:
+            nearer(np.roll(offsets, tuple(-jump * direction), axis=(0, 1, 2)) + jump * direction / SHEET)
+    return offsets
 
 
 def _unit(vectors: Floats) -> Floats:
     import numpy as np
 
-    found: Floats = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
-    return found
+    unit_vectors: Floats = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-12)
+    return unit_vectors
 
 
 @dataclass(frozen=True, kw_only=True)
 class Network:
-    """One side of a surface that repeats: solid where it is deepest, with one void around all of it.
+    """One side of a periodic surface: solid where it is deepest, with one void around all of it.
 
-    What is called its width is twice how far the void is from the deepest places: how thick it is where it is thickest.
+    Its width is twice the distance of the void from the deepest places: the largest thickness.
 
     Parameters
     ----------
@@ -194,27 +197,27 @@ class Network:
     thinnest: float
 
     def distance(self, points: Floats) -> Floats:
-        """Return how much less deep points (N, 3), in cells, lie than the deepest of a grid: (N,), in cells."""
+        """Return the depth of the deepest point of a grid minus that of points (N, 3), in cells: (N,), in cells."""
         import numpy as np
 
         line = np.arange(DEEPEST) / DEEPEST
         grid = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-        found: Floats = self._deep(grid).max() - self._deep(np.asarray(points, dtype=np.float64))
-        return found
+        shortfall: Floats = self._deep(grid).max() - self._deep(np.asarray(points, dtype=np.float64))
+        return shortfall
 
     def _deep(self, points: Floats) -> Floats:
         return self.side * self.surfaces.distance(points)
 
 
 class Binned(NamedTuple):
-    """Edges, and which of them may be the nearest of a point in each of equal cubes that make up a period.
+    """Edges, and for each of the equal cubes of a period those that may be the nearest to a point in it.
 
     Parameters
     ----------
     edges : (E, 2, 3) float64
         In periods.
     first : (n³ + 1,) int32
-        Where the numbers of the edges of each cube begin.
+        Start of the edge numbers of each cube in `which`.
     which : (M,) int32
     """
 
@@ -233,7 +236,7 @@ class Bars:
     edges : tuple of ((x, y, z), (x, y, z))
         In periods; each repeats along x, y and z.
     cells : int
-        How many cells lie along a period.
+        Number of cells along a period.
     """
 
     bars: ClassVar[bool] = True
@@ -260,31 +263,31 @@ class Bars:
 
         shifts = np.array(list(itertools.product((-1, 0, 1), repeat=3)), dtype=np.float64)
         axes = self.axes()
-        axes = axes - np.floor(axes.mean(axis=1, keepdims=True))  # to where their middles lie in the unit cell
-        every = (axes[None] + shifts[:, None, None]).reshape(-1, 2, 3)
+        axes = axes - np.floor(axes.mean(axis=1, keepdims=True))  # move their middles into the unit cell
+        edges = (axes[None] + shifts[:, None, None]).reshape(-1, 2, 3)
         reach = min(REACH, FURTHEST / self.cells)
-        near = ((every.max(axis=1) > -reach) & (every.min(axis=1) < 1 + reach)).all(axis=1)
-        every = every[near]
+        is_near = ((edges.max(axis=1) > -reach) & (edges.min(axis=1) < 1 + reach)).all(axis=1)
+        edges = edges[is_near]
         bins = max(BINS, BINS_PER_CELL * self.cells)
         line = (np.arange(bins) + 0.5) / bins
         centres = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
-        away = np.sqrt([_squared(centres, edge) for edge in every])
-        # From the centre to a corner of a cube, and once more as much, may speak for an edge further away.
-        close = away <= away.min(axis=0) + math.sqrt(3) / bins + ROUNDING
-        used = close.any(axis=1)
-        cube, which = np.nonzero(close[used].T)
+        edge_distance = np.sqrt([_squared_distance(centres, edge) for edge in edges])
+        # An edge may be further from the centre than the nearest by twice the distance from the centre to a corner.
+        is_close = edge_distance <= edge_distance.min(axis=0) + math.sqrt(3) / bins + ROUNDING
+        is_used = is_close.any(axis=1)
+        cube, edge_number = np.nonzero(is_close[is_used].T)
         first = np.searchsorted(cube, np.arange(len(centres) + 1))
-        return Binned(edges=every[used], first=first.astype(np.int32), which=which.astype(np.int32))
+        return Binned(edges=edges[is_used], first=first.astype(np.int32), which=edge_number.astype(np.int32))
 
 
-def _squared(points: Floats, edge: Floats) -> Floats:
+def _squared_distance(points: Floats, edge: Floats) -> Floats:
     """Return the squared distance of points (N, 3) from an edge (2, 3)."""
     import numpy as np
 
-    along, beside = edge[1] - edge[0], points - edge[0]
-    share = np.clip(beside @ along / (along @ along), 0, 1)
-    found: Floats = ((beside - share[:, None] * along) ** 2).sum(axis=1)
-    return found
+    along, offset = edge[1] - edge[0], points - edge[0]
+    share = np.clip(offset @ along / (along @ along), 0, 1)
+    squared: Floats = ((offset - share[:, None] * along) ** 2).sum(axis=1)
+    return squared
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -299,7 +302,7 @@ class Planes:
     offsets : tuple of float
         0 for all of them unless given.
     upright : three rows of (x, y, z)
-        How the pattern stands in a part: a rotation from the part to the pattern.
+        Rotation from the part to the pattern.
     """
 
     bars: ClassVar[bool] = False
@@ -313,7 +316,7 @@ class Planes:
 
     @property
     def classes(self) -> int:
-        """How many classes of cells there are: cells of one class do not touch, not even at a corner."""
+        """Number of classes of cells: cells of one class do not touch, not even at a corner."""
         return 1 << len(self.normals)
 
     def families(self) -> tuple[Floats, Floats]:
@@ -324,37 +327,37 @@ class Planes:
         return np.array(self.normals, dtype=np.float64), np.array(offsets, dtype=np.float64)
 
     def distance(self, points: Floats) -> Floats:
-        """Return how far points (N, 3), in cells, lie from the nearest plane: (N,), in cells.
+        """Return the distance of points (N, 3), in cells, from the nearest plane: (N,), in cells.
 
         >>> from patterns.planes import CUBIC
         >>> import numpy as np
         >>> CUBIC.distance(np.array([[0.5, 0.5, 0.5], [0.5, 0.1, 0.5]])).tolist()
         [0.5, 0.1]
         """
-        found: Floats = abs(self._beside(points)[0]).min(axis=1)
-        return found
+        nearest: Floats = abs(self._beside(points)[0]).min(axis=1)
+        return nearest
 
     def depth(self, points: Floats, which: int) -> Floats:
-        """Return how deep points (N, 3), in cells, lie in the cells of a class: (N,) in cells, below 0 outside.
+        """Return the depth of points (N, 3), in cells, in the cells of a class: (N,) in cells, below 0 outside.
 
-        Bit f of the number of a class says on which side of the planes of family f its cells lie, in turn. Outside,
-        a point may be further away than this.
+        Bit f of the number of a class is the side of the planes of family f on which its cells lie, alternately.
+        Outside, a point may be further away than this.
         """
         import numpy as np
 
-        away, slab = self._beside(points)
+        plane_distance, slab = self._beside(points)
         bits = which >> np.arange(len(self.normals)) & 1
-        found: Floats = np.where(slab % 2 == bits, away, -away).min(axis=1)
-        return found
+        inside_distance: Floats = np.where(slab % 2 == bits, plane_distance, -plane_distance).min(axis=1)
+        return inside_distance
 
     def _beside(self, points: Floats) -> tuple[Floats, NDArray[np.int64]]:
-        """Return how far points (N, 3) lie from the nearest plane of each family, and between which: (N, F) each."""
+        """Return the distance of points (N, 3) from the nearest plane of each family, and their slab: (N, F) each."""
         import numpy as np
 
         normals, offsets = self.families()
-        at = np.asarray(points, dtype=np.float64) @ normals.T + offsets
-        away: Floats = np.abs(at - np.round(at)) / np.linalg.norm(normals, axis=1)
-        return away, np.floor(at).astype(np.int64)
+        level = np.asarray(points, dtype=np.float64) @ normals.T + offsets
+        plane_distance: Floats = np.abs(level - np.round(level)) / np.linalg.norm(normals, axis=1)
+        return plane_distance, np.floor(level).astype(np.int64)
 
 
 Cellular = Surfaces | Planes | Polyhedra | Network | Bars

@@ -1,4 +1,4 @@
-"""Voronoi cells of seeds scattered at random, the same wherever and however large the region is."""
+"""Voronoi cells of random seeds, which do not depend on the place and size of the region."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely import MultiLineString, MultiPolygon, Polygon
 
-BEYOND, PER_ROUND = 4, 3  # cells around a region in which seeds have a say, and more for every round that evens them
+BEYOND, PER_ROUND = 4, 3  # cells around a region in which seeds have an effect, and more for every Lloyd step
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,35 +44,37 @@ class Voronoi(Pattern):
         corners = turn(shapely.get_coordinates(shapely.envelope(region)) - self.phase, -self.angle) / self.cell
         points = evened(np.floor(corners.min(axis=0)), np.ceil(corners.max(axis=0)), seed=self.seed, even=self.even)
         borders = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points), only_edges=True))
-        placed = shapely.transform(borders, lambda ends: turn(ends * self.cell, self.angle) + np.array(self.phase))
-        lines = clip(placed, region)
+        placed_borders = shapely.transform(
+            borders, lambda ends: turn(ends * self.cell, self.angle) + np.array(self.phase)
+        )
+        lines = clip(placed_borders, region)
         return framed(lines, region) if self.frame else lines
 
     def line_spacing(self, region: Polygon | MultiPolygon) -> float:  # noqa: ARG002 - the same everywhere
-        """Return the side of a square as large as a cell is on average, mm."""
+        """Return the side of a square with the mean area of a cell, mm."""
         return self.cell
 
 
 def evened(low: NDArray[np.float64], high: NDArray[np.float64], *, seed: int, even: int) -> NDArray[np.float64]:
-    """Return scattered points, one for every unit square, evened out: (N, 2), from `low` to `high` and beyond.
+    """Return random points, one for every unit square, after Lloyd steps: (N, 2), from `low` to `high` and beyond.
 
     Parameters
     ----------
     low, high : (2,) float64
-        Whole numbers. The cells of points up to one square beyond are the same however far they reach.
+        Whole numbers. The cells of points up to one square beyond do not depend on them.
     seed, even : int
-        Which of all such patterns, and how often points move to the middle of their cell.
+        Seed of the pattern, and number of Lloyd steps, which move points to the centroid of their cell.
     """
     import shapely
 
     from patterns.scattering import scattered
 
-    beyond = BEYOND + PER_ROUND * even
-    low, high = low - beyond, high + beyond
+    margin = BEYOND + PER_ROUND * even
+    low, high = low - margin, high + margin
     points = scattered(low.astype("int64"), high.astype("int64"), seed)
     for _ in range(even):
         cells = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
-        # Cells on the rim reach as far as the box; they are left out, ever further in, as nothing of them is seen.
+        # Cells on the rim reach to the box; every step drops them, far outside of the visible part.
         points = shapely.get_coordinates(shapely.centroid(cells))
         points = points[((points > low) & (points < high)).all(axis=1)]
     return points

@@ -68,7 +68,7 @@ class Zigzag(Pattern):
         return self.cell if self.waves is None else along / self.waves
 
     def _reach(self, region: Polygon | MultiPolygon, direction: float) -> tuple[float, float]:
-        """Return how far the region extends from the middle of the wave, along and across it."""
+        """Return the extent of the region from the middle of the wave, along and across it."""
         import numpy as np
         import shapely
 

@@ -16,17 +16,17 @@ import time
 from types import FrameType
 
 INTERRUPTED, TERMINATED = 130, 143
-OBJECTS = 100_000  # that are new before unused ones are looked for: what a command loads stays to its end
-READ = 0.3  # seconds in which a slicer reads what its script said: once that has ended, it stops reading
+OBJECTS = 100_000  # new objects before a garbage collection: objects that a command loads stay to its end
+READ = 0.3  # seconds in which a slicer reads the messages of its script: it stops reading when the script ends
 
 
 def program() -> None:
-    """Run the command line as a process of its own, and end it.
+    """Run the command line as a separate process, and end it.
 
-    What it has loaded is not taken apart, object by object, only to end: with a compiler, that takes 0.3 s.
+    Loaded objects are not freed one by one at the end: with a compiler, that takes 0.3 s.
     """
     gc.set_threshold(OBJECTS, *gc.get_threshold()[1:])
-    codes = [1]  # what an error that nobody expects ends with
+    codes = [1]  # exit status of an unexpected error
     atexit.register(lambda: _end(codes[-1]))  # the first to be registered, so the last to be done
     try:
         main(alone=True)
@@ -37,16 +37,16 @@ def program() -> None:
 
 
 def main(*, alone: bool = False) -> None:
-    """Run the command line: exit 0 on success, 1 for our errors, 2 for usage errors, 130 when interrupted.
+    """Run the command line: exit 0 on success, 1 for errors of the library, 2 for usage errors, 130 when interrupted.
 
-    If it is `alone` in the process, what nobody else will ask for is not loaded.
+    If it is `alone` in the process, modules that only other code would need are not loaded.
     """
     for name in ("SIGTERM", "SIGHUP"):
         with contextlib.suppress(AttributeError, ValueError):  # no such signal here, or not the main thread
             signal.signal(getattr(signal, name), _terminate)
     _open_missing_streams()
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a name that the console cannot show is no reason to fail
+        if isinstance(stream, io.TextIOWrapper):  # a name that the console cannot show must not fail
             stream.reconfigure(errors="backslashreplace")
     try:
         _run(alone=alone)
@@ -57,10 +57,10 @@ def main(*, alone: bool = False) -> None:
         if end.code in (INTERRUPTED, TERMINATED):
             _leave(end.code)
         raise
-    except OSError as error:  # stdout or stderr is full or gone; files have errors of their own
+    except OSError as error:  # stdout or stderr is full or gone; errors of files are OutputError
         with contextlib.suppress(OSError):
             sys.stderr.write(f"error: cannot write to stdout: {error.strerror or error}\n")
-        # Whatever is still buffered for stdout would fail again when Python exits.
+        # Text still buffered for stdout would fail again when Python exits.
         sys.stdout = None
         sys.exit(1)
 
@@ -68,7 +68,7 @@ def main(*, alone: bool = False) -> None:
 def _open_missing_streams() -> None:
     """Open the null device in place of standard streams that do not exist: under pythonw, or after `2>&-`.
 
-    Their numbers are taken first: a file that got number 2 would receive what compiled libraries print.
+    Their numbers are taken first: a file that got number 2 would receive messages of compiled libraries.
     """
     for number in range(3):
         with contextlib.suppress(OSError):
@@ -82,7 +82,7 @@ def _open_missing_streams() -> None:
 
 
 def _end(code: int) -> None:
-    """Exit; after an error told to a slicer of PrusaSlicer's family, not before it was read."""
+    """Exit; after an error under a slicer of the PrusaSlicer family, wait until the slicer has read it."""
     if code and "SLIC3R_PP_OUTPUT_NAME" in os.environ:
         with contextlib.suppress(OSError, ValueError, AttributeError):
             sys.stderr.flush()
@@ -91,7 +91,7 @@ def _end(code: int) -> None:
 
 
 def _leave(code: int) -> None:
-    """Exit at once. Files are removed by now; a thread may wait for ever for a lock that the interrupt left held."""
+    """Exit at once: a thread may wait for ever for a lock that the interrupt left locked. Files are removed by now."""
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(OSError, ValueError, AttributeError):  # full, closed, or None
             stream.flush()

@@ -32,8 +32,8 @@ COMMANDS: dict[str, tuple[Callable[..., Any], str]] = {
 }
 
 
-def build(asked: str = "") -> typer.Typer:
-    """Return the app; if the name of a command is asked for, with that one alone, which begins sooner."""
+def build(command_name: str = "") -> typer.Typer:
+    """Build the app; given the name of a command, only with that command, which starts sooner."""
     app = typer.Typer(
         name="infill",
         cls=Group,
@@ -51,13 +51,13 @@ def build(asked: str = "") -> typer.Typer:
         ] = False,
     ) -> None: ...
 
-    for name in [asked] if asked in COMMANDS else COMMANDS:
+    for name in [command_name] if command_name in COMMANDS else COMMANDS:
         function, example = COMMANDS[name]
         app.command(name, cls=Command, no_args_is_help=name != "list", epilog=f"Example: {example}")(function)
     return app
 
 
-def _version(asked: bool) -> None:
-    if asked:
+def _version(requested: bool) -> None:
+    if requested:
         typer.echo(f"infill {__version__} (phasefill)")
         raise typer.Exit

@@ -40,112 +40,112 @@ def check(
     from infill.inspection.printability import check as inspect
 
     if len(meshes) == 1:
-        found = inspect(meshes[0])
+        inspection = inspect(meshes[0])
         if as_json:
-            print_json(found.to_dict())
+            print_json(inspection.to_dict())
         else:
-            typer.echo(_described(found, str(meshes[0])))
-        if not _passes(found, strict=strict):
+            typer.echo(_inspection_table(inspection, str(meshes[0])))
+        if not _passes(inspection, strict=strict):
             raise typer.Exit(1)
         return
-    passed, told = True, []
+    passed, results = True, []
     width = max(len(str(path)) for path in meshes)
     for path in meshes:
-        each: dict[str, Any] = {"file": str(path)}
+        entry: dict[str, Any] = {"file": str(path)}
         try:
-            found = inspect(path)
+            inspection = inspect(path)
         except InfillError as error:
             say(f"error: {error}")
             passed = False
-            told.append(each | {"error": str(error)})
+            results.append(entry | {"error": str(error)})
             continue
-        passed &= _passes(found, strict=strict)
-        told.append(each | found.to_dict())
+        passed &= _passes(inspection, strict=strict)
+        results.append(entry | inspection.to_dict())
         if not as_json:  # each as soon as it is known
-            typer.echo(f"{path!s:<{width}}  {_in_a_line(found)}")
+            typer.echo(f"{path!s:<{width}}  {_verdict_line(inspection)}")
     if as_json:
-        print_json(told)
+        print_json(results)
     if not passed:
         raise typer.Exit(1)
 
 
 def _check_projects(paths: list[Path], slicer: Slicer, *, strict: bool, as_json: bool) -> None:
-    """Say what a slicer will do with projects, and exit 1 if one of them is not as it should be."""
+    """Check projects for a slicer and print the diagnoses; exit 1 if one of them fails."""
     from infill.projects.doctor import check_project
 
-    passed, told = True, []
+    passed, results = True, []
     for path in paths:
         try:
-            found = check_project(path, slicer)
+            diagnosis = check_project(path, slicer)
         except InfillError as error:
             if len(paths) == 1:
                 raise
             say(f"error: {error}")
             passed = False
-            told.append({"file": str(path), "error": str(error)})
+            results.append({"file": str(path), "error": str(error)})
             continue
-        passed &= found.fine and not (strict and found.warnings)
-        told.append({"file": str(path), **found.to_dict()})
+        passed &= diagnosis.fine and not (strict and diagnosis.warnings)
+        results.append({"file": str(path), **diagnosis.to_dict()})
         if not as_json:
-            typer.echo(_diagnosed(found, str(path)))
+            typer.echo(_diagnosis_table(diagnosis, str(path)))
     if as_json:
-        print_json(told if len(paths) > 1 else told[0])
+        print_json(results if len(paths) > 1 else results[0])
     if not passed:
         raise typer.Exit(1)
 
 
-def _diagnosed(found: Diagnosis, name: str) -> str:
-    """Return what a slicer will do with a project, as a table."""
-    rows = {"fine": "yes" if found.fine else "NO"}
-    rows |= {f"problem {i}": text for i, text in enumerate(found.problems, 1)}
-    rows |= {f"warning {i}": text for i, text in enumerate(found.warnings, 1)}
-    for number, volume in enumerate(found.volumes, 1):
+def _diagnosis_table(diagnosis: Diagnosis, name: str) -> str:
+    """Format the diagnosis of a project for a slicer as a table."""
+    rows = {"fine": "yes" if diagnosis.fine else "NO"}
+    rows |= {f"problem {i}": text for i, text in enumerate(diagnosis.problems, 1)}
+    rows |= {f"warning {i}": text for i, text in enumerate(diagnosis.warnings, 1)}
+    for number, volume in enumerate(diagnosis.volumes, 1):
         settings = ", ".join(f"{key} {value}" for key, value in volume.settings.items())
         closed = "closed" if volume.closed else "NOT CLOSED"
         rows[f"volume {number}"] = f"{volume.name}: {volume.role}, {volume.triangles:,} triangles, {closed}"
         if settings:
             rows[f"settings {number}"] = settings
-    rows["written by"] = found.application or "nobody, as it says"
-    return table(rows, title=f"{name}, for {found.slicer}")
+    rows["written by"] = diagnosis.application or "nobody, as it says"
+    return table(rows, title=f"{name}, for {diagnosis.slicer}")
 
 
-def _passes(found: Inspection, *, strict: bool) -> bool:
-    return found.printable and not (strict and found.warnings)
+def _passes(inspection: Inspection, *, strict: bool) -> bool:
+    return inspection.printable and not (strict and inspection.warnings)
 
 
-def _in_a_line(found: Inspection) -> str:
-    """Return the verdict on one of several meshes, and what it rests on."""
-    if not found.printable:
-        return f"NO   {'; '.join(found.problems)}"
-    size = " x ".join(f"{length:.4g}" for length in found.extents)
-    text = f"yes  {found.triangles:,} triangles, {found.components} component(s), {size}"
-    return "; ".join([text, *(f"warning: {each}" for each in found.warnings)])
+def _verdict_line(inspection: Inspection) -> str:
+    """Format the verdict on one of several meshes as a line, with its reasons."""
+    if not inspection.printable:
+        return f"NO   {'; '.join(inspection.problems)}"
+    size = " x ".join(f"{length:.4g}" for length in inspection.extents)
+    text = f"yes  {inspection.triangles:,} triangles, {inspection.components} component(s), {size}"
+    return "; ".join([text, *(f"warning: {warning}" for warning in inspection.warnings)])
 
 
-def _described(found: Inspection, name: str) -> str:
-    """Return all that there is to say of a mesh, as a table."""
+def _inspection_table(inspection: Inspection, name: str) -> str:
+    """Format the inspection of a mesh as a table."""
     rows = {
-        "printable": "yes" if found.printable else "NO",
-        **{f"problem {i}": text for i, text in enumerate(found.problems, 1)},
-        **{f"warning {i}": text for i, text in enumerate(found.warnings, 1)},
-        "closed": f"{_yes(found.closed)}, {found.open_edges} open edge(s)",
-        "outward": _yes(found.outward),
-        "manifold3d": found.manifold,
-        "self-intersections": str(found.self_intersections),
-        "components": str(found.components),
-        "sealed voids": _sealed(found.sealed_voids),
-        "triangles": f"{found.triangles:,}, {found.degenerate} degenerate, {found.duplicate} duplicate",
-        "volume, area": f"{found.volume:.6g}, {found.area:.6g}",
-        "extents": " x ".join(f"{length:.4g}" for length in found.extents),
+        "printable": "yes" if inspection.printable else "NO",
+        **{f"problem {i}": text for i, text in enumerate(inspection.problems, 1)},
+        **{f"warning {i}": text for i, text in enumerate(inspection.warnings, 1)},
+        "closed": f"{_yes_or_no(inspection.closed)}, {inspection.open_edges} open edge(s)",
+        "outward": _yes_or_no(inspection.outward),
+        "manifold3d": inspection.manifold,
+        "self-intersections": str(inspection.self_intersections),
+        "components": str(inspection.components),
+        "sealed voids": _sealed_text(inspection.sealed_voids),
+        "triangles": f"{inspection.triangles:,}, {inspection.degenerate} degenerate, {inspection.duplicate} duplicate",
+        "volume, area": f"{inspection.volume:.6g}, {inspection.area:.6g}",
+        "extents": " x ".join(f"{length:.4g}" for length in inspection.extents),
     }
     return table(rows, title=name)
 
 
-def _sealed(voids: int | None) -> str:
+def _sealed_text(voids: int | None) -> str:
     if voids is None:
         return "unknown: the mesh is not closed"
     return f"{voids}, in which resin and powder stay" if voids else "none"
 
 
-def _yes(holds: bool) -> str:
+def _yes_or_no(holds: bool) -> str:
     return "yes" if holds else "no"

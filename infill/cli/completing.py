@@ -1,4 +1,4 @@
-"""What a shell offers to complete a word with; the catalogue is loaded only when it asks."""
+"""Completions of words in a shell; the catalogue is loaded only on request."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ def pattern_names(incomplete: str) -> list[tuple[str, str]]:
 
 
 def fill_names(incomplete: str) -> list[tuple[str, str]]:
-    """Return all patterns, those that repeat in space too, each with its summary."""
+    """Return all patterns whose names begin with the word, also those in space, each with its summary."""
     from patterns.cellular import CELLULAR
 
-    in_space = [(name, each.summary) for name, each in CELLULAR.items() if name.startswith(incomplete)]
+    in_space = [(name, pattern.summary) for name, pattern in CELLULAR.items() if name.startswith(incomplete)]
     return [*pattern_names(incomplete), *in_space]
 
 
 def fill_assignments(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
-    """Return ``name=`` for the parameters of the pattern that a part is filled with."""
+    """Return ``name=`` for the parameters of the pattern of a fill."""
     from patterns import PATTERNS, parameters
 
     pattern = str(context.params.get("pattern"))
@@ -69,10 +69,10 @@ def placement_assignments(context: typer.Context, incomplete: str) -> list[tuple
     return _assignments(parameters(unplaced(context.params.get("pattern") or "keep")), incomplete)
 
 
-def _assignments(known: dict[str, Described], incomplete: str) -> list[tuple[str, str]]:
-    offered = []
-    for name, (field, described) in known.items():
+def _assignments(declared: dict[str, Described], incomplete: str) -> list[tuple[str, str]]:
+    candidates = []
+    for name, (field, described) in declared.items():
         word = f"{name if '_' in incomplete else name.replace('_', '-')}="
         values = ("true", "false") if isinstance(field.default, bool) and incomplete.startswith(word) else ("",)
-        offered += [(word + value, described.help) for value in values if (word + value).startswith(incomplete)]
-    return offered
+        candidates += [(word + value, described.help) for value in values if (word + value).startswith(incomplete)]
+    return candidates

@@ -31,7 +31,7 @@ ByComponent = Annotated[
 
 
 def check_fields(outputs: Sequence[Path]) -> None:
-    """Raise BadParameter for an output that is a field: components have none in common."""
+    """Raise BadParameter for an output that is a field: components do not share a field."""
     from infill.imaging.volume_files import FIELD_WRITERS
 
     for path in outputs:
@@ -42,7 +42,7 @@ def check_fields(outputs: Sequence[Path]) -> None:
 def component_writer(
     path: Path, result: Result[ComponentStages, ComponentsReport], *, ascii_stl: bool
 ) -> Callable[[BinaryIO], object]:
-    """Return what writes all components into one file: by name if it can hold names, else one after the other."""
+    """Return a function that writes all components to one file: by name if its format has names, else in a row."""
     from infill.formats.mesh_files import PART_WRITERS, writer
     from infill.result import parts_of
 
@@ -52,19 +52,19 @@ def component_writer(
 
 
 def component_summary(result: Result[ComponentStages, ComponentsReport], files: Sequence[str], name: str) -> str:
-    """Return the short table for stderr: a row for each component, and what is wrong."""
+    """Return the short table for stderr: a row for each component, and failures."""
     report = result.report
     rows = {}
-    for each in report["components"][:MOST_ROWS]:
-        own = each["report"]
-        changes = "; ".join([own["verdict"]["word"], *own["verdict"]["changes"]])
-        rows[each["name"]] = (
-            f"{own['triangles']:,} triangles, {own['volume']:.6g} mm³, {own['volume_change']:+.4%}; {changes}"
+    for component in report["components"][:MOST_ROWS]:
+        part = component["report"]
+        changes = "; ".join([part["verdict"]["word"], *part["verdict"]["changes"]])
+        rows[component["name"]] = (
+            f"{part['triangles']:,} triangles, {part['volume']:.6g} mm³, {part['volume_change']:+.4%}; {changes}"
         )
     if len(report["components"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['components']) - MOST_ROWS} more"
-    for lost in report["failed"]:
-        rows[f"FAILED {lost['name']}"] = lost["error"]
+    for failure in report["failed"]:
+        rows[f"FAILED {failure['name']}"] = failure["error"]
     if report["sheets"]:
         rows["left out"] = f"{report['sheets']} components that enclose nothing"
     rows["verdict"] = report["verdict"]["word"]

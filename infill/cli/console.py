@@ -1,4 +1,4 @@
-"""What every command prints with: messages, a progress bar, plain-text tables."""
+"""Output of all commands: messages, a progress bar, plain-text tables."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ UNITS = ("B", "kB", "MB", "GB")
 
 
 def say(text: str) -> None:
-    """Print a message to stderr; what it quotes of a file or its name cannot steer the terminal."""
+    """Print a message to stderr; control characters that it quotes from a file or a name are made harmless."""
     typer.echo("\n".join(printable(line) for line in text.split("\n")), err=True)
 
 
@@ -35,7 +35,7 @@ def warn(
 
 @contextlib.contextmanager
 def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None]:
-    """Yield a function (stage, share done) that moves a bar on stderr, or None where nobody sees it."""
+    """Yield a function (stage, share done) that moves a bar on stderr, or None if stderr is not a terminal."""
     if not shown or not sys.stderr.isatty():
         yield None
         return
@@ -50,22 +50,22 @@ def progress_bar(*, shown: bool) -> Iterator[Callable[[str, float], None] | None
 
 @contextlib.contextmanager
 def log_said(*, shown: bool) -> Iterator[None]:
-    """Print what the library logs, hints too, or nothing."""
+    """Print messages that the library logs, including hints, or none."""
     log = logging.getLogger("infill")
-    told = _Said() if shown else logging.NullHandler()
-    spreads, level = log.propagate, log.level
-    log.addHandler(told)
+    handler = _PrintHandler() if shown else logging.NullHandler()
+    propagates, level = log.propagate, log.level
+    log.addHandler(handler)
     log.propagate = False
     log.setLevel(logging.INFO)
     try:
         yield
     finally:
-        log.removeHandler(told)
-        log.propagate = spreads
+        log.removeHandler(handler)
+        log.propagate = propagates
         log.setLevel(level)
 
 
-class _Said(logging.Handler):
+class _PrintHandler(logging.Handler):
     """A handler that prints every record on stderr."""
 
     def emit(self, record: logging.LogRecord) -> None:
@@ -74,24 +74,24 @@ class _Said(logging.Handler):
 
 
 def is_typed(context: typer.Context, name: str) -> bool:
-    """Return whether an option was given, even if its value is the default; `name` is that of its longest flag."""
+    """Tell whether an option was typed, even with its default value; `name` is that of its longest flag."""
     flag = f"--{name.replace('_', '-')}"
-    for each in context.command.params:
-        if flag in each.opts and each.name is not None:
-            source = context.get_parameter_source(each.name)
+    for parameter in context.command.params:
+        if flag in parameter.opts and parameter.name is not None:
+            source = context.get_parameter_source(parameter.name)
             return source is not None and source.name != "DEFAULT"
     return False
 
 
 def table(rows: Mapping[str, str], title: str = "") -> str:
-    """Return rows of a name and a text, with the texts aligned below each other."""
+    """Format rows of a name and a text, with aligned texts."""
     width = max(len(name) for name in rows)
     lines = [f"  {name:<{width}}  {text}" for name, text in rows.items()]
     return "\n".join([title, *lines] if title else lines)
 
 
 def can_show(text: str) -> bool:
-    """Return whether stdout can show the characters of a text."""
+    """Tell whether stdout can show the characters of a text."""
     try:
         text.encode(sys.stdout.encoding or "ascii")
     except (UnicodeEncodeError, LookupError):
@@ -105,7 +105,7 @@ def print_json(value: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> None:
 
 
 def as_bytes(count: float) -> str:
-    """Return a number of bytes in readable form.
+    """Format a number of bytes in a readable unit.
 
     >>> as_bytes(10_625_284)
     '10.6 MB'

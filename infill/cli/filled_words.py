@@ -1,4 +1,4 @@
-"""What ``infill fill`` says: of its plan, and of what it made."""
+"""Texts of ``infill fill``: its plan, and its summary."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ENDS = {"top": "top", "bottom": "bottom", "both": "top and bottom"}
 
 
 def show_plan(plan: dict[str, Any], name: str, *, as_json: bool) -> None:
-    """Print what a part would be filled with, on which grid."""
+    """Print the plan of a fill: infill, grid and memory."""
     if as_json:
         print_json(plan)
         return
@@ -56,7 +56,7 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         "density": f"{report['density']:.1%} inside the walls: cells of {infill['cell']:.4g} mm, lines of "
         f"{infill['line_width']:.3g} mm",
         "walls": f"{walls['least'] or 0.0:.3g} mm at least, {walls['requested']:g} asked for",
-        "voids": f"{voids['count']:,}, {_drained(report)}",
+        "voids": f"{voids['count']:,}, {_drain_text(report)}",
     }
     if request["form"] != "solid":
         rows["mesh"] = f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}"
@@ -64,13 +64,13 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
         del rows["walls"], rows["voids"]
     if graded:
         ends = f"{graded[0]['density']:.0%} to {graded[-1]['density']:.0%}"
-        wanted = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
-        rows["graded"] = f"{ends} by {request['by']}, where {wanted} was asked for"
+        requested = f"{graded[0]['wanted']:.0%} to {graded[-1]['wanted']:.0%}"
+        rows["graded"] = f"{ends} by {request['by']}, where {requested} was asked for"
         if request["grade"] == "cell":
             (small, large), (narrow, wide) = infill["cells"] or (0, 0), infill["widths"] or (0, 0)
             rows["graded"] += f"; cells of {small:.3g} to {large:.3g} mm, lines of {narrow:.2g} to {wide:.2g} mm"
     if infill["phase"] != request["phase"]:
-        shift = ", ".join(f"{each:.3g}" for each in infill["phase"])
+        shift = ", ".join(f"{length:.3g}" for length in infill["phase"])
         rows["shifted"] = f"by {shift} mm in x, y and z: slicers print more of it there"
     if request["form"] == "project" and infill["left_out"]:
         rows["too narrow"] = f"{infill['left_out']:.3g} mm³ of infill, left out: slicers would print none of it"
@@ -88,17 +88,17 @@ def summary(report: FillReport, files: list[str], name: str, *, verbose: bool) -
     return table(rows, title=f"{name}, {request['pattern']}")
 
 
-def _drained(report: FillReport) -> str:
+def _drain_text(report: FillReport) -> str:
     closed, side = len(report["voids"]["closed"]), report["request"]["open"]
     holes = report["drains"]["holes"]
     if not (holes or side):
         return "closed: nothing drains from them"
-    said = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
-    for kinds, words in ((("drain", "place"), "drain(s)"), (("vent",), "vent(s)"), (("branch",), "branch(es)")):
+    phrases = [f"{report['voids']['open']:,} open at the {ENDS[side]}"] if side else []
+    for kinds, noun in ((("drain", "place"), "drain(s)"), (("vent",), "vent(s)"), (("branch",), "branch(es)")):
         widths = [hole["diameter"] for hole in holes if hole["kind"] in kinds]
         if widths:
             low, high = min(widths), max(widths)
-            said.append(f"{len(widths):,} {words} of {low:g}{'' if low == high else f' to {high:g}'} mm")
+            phrases.append(f"{len(widths):,} {noun} of {low:g}{'' if low == high else f' to {high:g}'} mm")
     if closed:
-        said.append(f"{closed:,} still closed" if holes else f"{closed:,} closed")
-    return "; ".join(said)
+        phrases.append(f"{closed:,} still closed" if holes else f"{closed:,} closed")
+    return "; ".join(phrases)

@@ -364,7 +364,7 @@ def fill(
         from infill.pictures.preview import check_preview
 
         check_preview(preview)
-    cuts = _cuts(cut or [], drawn=preview is not None and not dry_run)
+    cuts = _parse_cuts(cut or [], drawn=preview is not None and not dry_run)
     limit = None if max_memory is None else parse_bytes(max_memory)
     saved: dict[Path, Callable[[BinaryIO], object]] = {}
     if save_config is not None:
@@ -384,23 +384,23 @@ def fill(
         if progress is not None:
             progress("read", 0.0)
         with log_said(shown=not quiet):
-            given: Any = read_source(part, kind="mesh", units=settings.units)
+            mesh: Any = read_source(part, kind="mesh", units=settings.units)
             if cuts:
                 from infill.pictures.sections import check_cuts
 
-                check_cuts(cuts, given.bounds)
+                check_cuts(cuts, mesh.bounds)
             if dry_run:
-                show_plan(planned_fill(given, settings.request, threads=threads), str(part), as_json=as_json)
+                show_plan(planned_fill(mesh, settings.request, threads=threads), str(part), as_json=as_json)
                 return
-            result = filled(given, settings.request, threads=threads, max_memory=limit, progress=progress)
+            result = filled(mesh, settings.request, threads=threads, max_memory=limit, progress=progress)
         if progress is not None:
             progress("write", 0.95)
         parts: dict[Path, Callable[[BinaryIO], object]] = {
             path: partial(write, result, part.stem) for path, write in writers.items()
         }
         if preview is not None:
-            shown = replace(result, stages=replace(result.stages, cuts=cuts))
-            parts[preview] = shown.write_picture
+            pictured = replace(result, stages=replace(result.stages, cuts=cuts))
+            parts[preview] = pictured.write_picture
         files = deliver_all({**parts, **saved})
     if not quiet:
         say(summary(result.report, files, str(part), verbose=verbose))
@@ -408,13 +408,13 @@ def fill(
         print_json({**result.report, "files": files})
 
 
-def _cuts(given: list[str], *, drawn: bool) -> tuple[Cut, ...]:
-    """Return where a preview is cut open, or raise UsageError."""
-    if not given:
+def _parse_cuts(texts: list[str], *, drawn: bool) -> tuple[Cut, ...]:
+    """Parse the cuts of a preview, or raise UsageError."""
+    if not texts:
         return ()
     from infill.pictures.sections import parse_cut
 
-    cuts = tuple(parse_cut(each) for each in given)
+    cuts = tuple(parse_cut(text) for text in texts)
     if not drawn:
         raise typer.BadParameter("--cut says where a preview is cut open; give --preview FILE.png too, or leave it out")
     return cuts
@@ -423,7 +423,7 @@ def _cuts(given: list[str], *, drawn: bool) -> tuple[Cut, ...]:
 def _writer(
     path: Path, settings: FillSettings, *, ascii_stl: bool
 ) -> Callable[[Result[Any, FillReport], str, BinaryIO], object]:
-    """Return what writes a result with a title to a file of this format, or raise FormatError."""
+    """Return a function that writes a result with a title in the format of a file, or raise FormatError."""
     from infill.formats.mesh_files import writer
 
     write = writer(path, ascii=ascii_stl)

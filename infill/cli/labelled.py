@@ -1,4 +1,4 @@
-"""``infill smooth`` with ``{label}`` in a name, or with ``--each-label``: every label of a segmentation in one run."""
+"""``infill smooth`` with ``{label}`` in a name or ``--each-label``: every label of a segmentation in one run."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ Roi = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class Given:
-    """What is read, and how: see `infill.smoothing.sources.read_labelled`."""
+    """The input and its options: see `infill.smoothing.sources.read_labelled`."""
 
     source: Path
     kind: str | None
@@ -85,7 +85,7 @@ class Given:
 
 @dataclass(frozen=True, kw_only=True)
 class Written:
-    """Where the results go, and what is said."""
+    """The outputs of a run, and their options."""
 
     outputs: Sequence[Path]
     ascii_stl: bool
@@ -97,71 +97,71 @@ class Written:
 
 
 def wants_each(outputs: Sequence[Path], *, each_label: bool, labels: Path | None, keep_going: bool) -> bool:
-    """Return whether every label is asked for; raise BadParameter for options that make no sense otherwise."""
+    """Tell whether every label is requested; raise BadParameter for options that make no sense otherwise."""
     from infill.imaging.name_templates import is_template
 
     if each_label or any(is_template(path) for path in outputs):
         return True
-    for name, given in (("--labels", labels is not None), ("--keep-going", keep_going)):
-        if given:
+    for name, is_given in (("--labels", labels is not None), ("--keep-going", keep_going)):
+        if is_given:
             raise typer.BadParameter(f"{name} goes with --each-label, or with {{label}} in the name of an output")
     return False
 
 
 def refuse(**given: bool) -> None:
-    """Raise BadParameter for the first option that was given though it says nothing about labels."""
+    """Raise BadParameter for the first option that is given but does not apply to labels."""
     for name, used in given.items():
         if used:
             option = name.strip("_").replace("_", "-")
             raise typer.BadParameter(f"--{option} does not go with --each-label or {{label}}; leave one of them out")
 
 
-def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None, options: Options) -> None:
-    """Smooth every label, write the files and say what was done."""
+def smooth_each(label_input: Given, output: Written, *, label: tuple[int, ...] | None, options: Options) -> None:
+    """Smooth every label, write the files and print a summary."""
     from infill.cli.piping import check_outputs, deliver_all
     from infill.formats.mesh_files import parts_writer, writer
     from infill.imaging.name_templates import is_template
 
-    single = [path for path in written.outputs if not is_template(path)]
-    for path in written.outputs:
-        writer(path, ascii=written.ascii_stl)
+    single = [path for path in output.outputs if not is_template(path)]
+    for path in output.outputs:
+        writer(path, ascii=output.ascii_stl)
         if path in single:
             parts_writer(path)
-    text = next(iter(written.saved), None)
-    check_outputs(single, text=text, overwrite=written.force, as_json=written.as_json)
-    with progress_bar(shown=not written.quiet) as progress, log_said(shown=not written.quiet):
+    text = next(iter(output.saved), None)
+    check_outputs(single, text=text, overwrite=output.force, as_json=output.as_json)
+    with progress_bar(shown=not output.quiet) as progress, log_said(shown=not output.quiet):
         from infill.imaging.label_tables import read_labels
         from infill.smoothing.labels import smooth_labels
         from infill.smoothing.sources import read_labelled
 
         if progress is not None:
             progress("read", 0.0)
-        segments = () if given.labels is None else read_labels(given.labels)
+        segments = () if label_input.labels is None else read_labels(label_input.labels)
         segmentation = read_labelled(
-            given.source,
-            kind=given.kind,
-            array=given.array,
-            series=given.series,
-            frame=given.frame,
-            spacing=given.spacing,
-            roi=given.roi,
+            label_input.source,
+            kind=label_input.kind,
+            array=label_input.array,
+            series=label_input.series,
+            frame=label_input.frame,
+            spacing=label_input.spacing,
+            roi=label_input.roi,
         )
-        chosen: Options = {**options, "progress": _nearly(progress)}
+        label_options: Options = {**options, "progress": _scaled_progress(progress)}
         result = smooth_labels(
             segmentation,
             label=label,
             table=segments,
-            keep_going=written.keep_going,
-            **chosen,
+            keep_going=output.keep_going,
+            **label_options,
         )
         if progress is not None:
             progress("write", 0.9)
-        parts = _parts(result, written)
-        check_outputs(parts, text=text, overwrite=written.force, as_json=written.as_json)
-        files = deliver_all(parts | dict(written.saved))
-    if not written.quiet:
-        say(_summary(result, files, str(given.source)))
-    if written.as_json:
+        parts = _parts(result, output)
+        check_outputs(parts, text=text, overwrite=output.force, as_json=output.as_json)
+        files = deliver_all(parts | dict(output.saved))
+    if not output.quiet:
+        say(_summary(result, files, str(label_input.source)))
+    if output.as_json:
         print_json({**result.report, "files": files})
     failed = result.report["failed"]
     if failed:
@@ -169,29 +169,29 @@ def smooth_each(given: Given, written: Written, *, label: tuple[int, ...] | None
         raise typer.Exit(1)
 
 
-def _nearly(progress: Callable[[str, float], None] | None) -> Callable[[str, float], None] | None:
-    """Return a listener that leaves room for what comes after smoothing."""
+def _scaled_progress(progress: Callable[[str, float], None] | None) -> Callable[[str, float], None] | None:
+    """Return a progress listener that leaves room for the stages after smoothing."""
     if progress is None:
         return None
     return lambda stage, share: progress(stage, 0.9 * share)
 
 
 def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[Path, Callable[[BinaryIO], object]]:
-    """Return what writes each file."""
+    """Return a function for each file that writes it."""
     from infill.errors import OutputError
     from infill.formats.mesh_files import parts_writer, writer
     from infill.imaging.name_templates import filled, is_template
     from infill.result import parts_of
 
-    # All names, also of labels that failed: what a file is called does not depend on the others.
-    every = list(result.stages.segments)
+    # All names, also of labels that failed: the name of a file does not depend on the other labels.
+    names = list(result.stages.segments)
     parts: dict[Path, Callable[[BinaryIO], object]] = {}
     for output in written.outputs:
         if not is_template(output):
             parts[output] = partial(parts_writer(output), parts_of(result))
             continue
         write = writer(output, ascii=written.ascii_stl)
-        for name, path in zip(every, filled(output, every, list(result.stages.segments.values())), strict=True):
+        for name, path in zip(names, filled(output, names, list(result.stages.segments.values())), strict=True):
             if name not in result.surfaces:
                 continue
             if path in parts:
@@ -201,18 +201,18 @@ def _parts(result: Result[LabelStages, LabelsReport], written: Written) -> dict[
 
 
 def _summary(result: Result[LabelStages, LabelsReport], files: Sequence[str], name: str) -> str:
-    """Return the short table for stderr: a row for each label, and what is wrong."""
+    """Return the short table for stderr: a row for each label, and failures."""
     report = result.report
     rows = {}
-    for each in report["labels"][:MOST_ROWS]:
-        own = each["report"]
-        rows[f"{each['number']} {each['name']}"] = (
-            f"{own['triangles']:,} triangles, {own['volume']:.6g} mm³, {own['volume_change']:+.4%} of the data"
+    for label in report["labels"][:MOST_ROWS]:
+        part = label["report"]
+        rows[f"{label['number']} {label['name']}"] = (
+            f"{part['triangles']:,} triangles, {part['volume']:.6g} mm³, {part['volume_change']:+.4%} of the data"
         )
     if len(report["labels"]) > MOST_ROWS:
         rows["…"] = f"and {len(report['labels']) - MOST_ROWS} more"
-    for lost in report["failed"]:
-        rows[f"FAILED {lost['number']} {lost['name']}"] = lost["error"]
+    for failure in report["failed"]:
+        rows[f"FAILED {failure['number']} {failure['name']}"] = failure["error"]
     if report["absent"]:
         rows["without a cell"] = ", ".join(report["absent"])
     if report["problems"]:

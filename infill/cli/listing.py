@@ -39,7 +39,7 @@ def list_patterns(
         raise typer.BadParameter("a preview shows a single pattern; name one")
     from patterns.cellular import CELLULAR
 
-    in_space = {name: each.summary for name, each in CELLULAR.items()}
+    in_space = {name: kind.summary for name, kind in CELLULAR.items()}
     if pattern in CELLULAR:
         _show_in_space(str(pattern), CELLULAR[str(pattern)], pictured=preview is not None, as_json=as_json)
         return
@@ -47,18 +47,18 @@ def list_patterns(
     if preview is not None:
         _write_preview(kinds[str(pattern)], preview, overwrite=force)
     if as_json:
-        described = {name: _described(kind) for name, kind in kinds.items()}
-        print_json({"patterns": described} | ({"in_space": in_space} if pattern is None else {}))
+        descriptions = {name: _facts(kind) for name, kind in kinds.items()}
+        print_json({"patterns": descriptions} | ({"in_space": in_space} if pattern is None else {}))
     elif pattern is None:
         typer.echo(table({name: kind.summary for name, kind in kinds.items()}))
         typer.echo("'infill list PATTERN' shows one, with its parameters and a picture.")
         typer.echo(table(in_space, title="\nin space, for 'infill fill':"))
     else:
-        typer.echo(_shown(kinds[pattern]))
+        typer.echo(_pattern_text(kinds[pattern]))
 
 
 def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -> None:
-    """Print what a pattern that repeats in space is for, and its parameters."""
+    """Print the purpose of a pattern in space, and its parameters."""
     from patterns.lightning import Lightning
     from patterns.octree import Octree
 
@@ -67,9 +67,9 @@ def _show_in_space(name: str, kind: InSpace, *, pictured: bool, as_json: bool) -
     if as_json:
         print_json({"patterns": {}, "in_space": {name: kind.summary}})
     else:
-        what = "follows the part" if isinstance(kind, (Octree, Lightning)) else "repeats in space"
-        title = f"{name}: {kind.summary}\n  {what}, for 'infill fill': see its --cell and --line-width\n"
-        typer.echo(_parameters(type(kind), title, own=True).rstrip("\n"))
+        place = "follows the part" if isinstance(kind, (Octree, Lightning)) else "repeats in space"
+        title = f"{name}: {kind.summary}\n  {place}, for 'infill fill': see its --cell and --line-width\n"
+        typer.echo(_parameter_table(type(kind), title, own=True).rstrip("\n"))
 
 
 def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
@@ -82,8 +82,8 @@ def _write_preview(kind: type[Pattern], path: Path, *, overwrite: bool) -> None:
     say(f"wrote {path}")
 
 
-def _described(kind: type[Pattern]) -> dict[str, Any]:
-    """Return what a pattern is for, what it provides, and its parameters, angles in degrees."""
+def _facts(kind: type[Pattern]) -> dict[str, Any]:
+    """Return the summary of a pattern, its descriptions, and its parameters, angles in degrees."""
     from patterns import gives
     from patterns.given import descriptions
 
@@ -95,32 +95,34 @@ def _described(kind: type[Pattern]) -> dict[str, Any]:
     }
 
 
-def _shown(kind: type[Pattern]) -> str:
-    """Return a pattern in a form for the terminal: what it is, its parameters, a picture."""
+def _pattern_text(kind: type[Pattern]) -> str:
+    """Format a pattern for the terminal: its summary, its parameters, a picture."""
     from infill.pictures.drawing import text_drawing
     from patterns import gives
 
     heights = "the same at every height" if kind.prismatic else "changing with height"
     title = f"{kind.name}: {kind.summary}\n  {' and '.join(gives(kind))}, {heights}\n"
     drawing = text_drawing(kind(), braille=can_show(BRAILLE_BLANK))
-    return f"{_parameters(kind, title)}\n{drawing}"
+    return f"{_parameter_table(kind, title)}\n{drawing}"
 
 
-def _parameters(kind: type[Any], title: str, *, own: bool = False) -> str:
-    """Return a table of a pattern's parameters, or its own, with what each may be, or the title alone."""
+def _parameter_table(kind: type[Any], title: str, *, own: bool = False) -> str:
+    """Format a table of the parameters of a pattern, or only of those it does not share, below a title."""
     from patterns import parameters
     from patterns.declared import wanted
     from patterns.given import default_text
     from patterns.shared import SHARED
 
-    found = {name: each for name, each in parameters(kind).items() if not (own and name in SHARED)}
-    if not found:
+    shown_parameters = {name: parameter for name, parameter in parameters(kind).items() if not (own and name in SHARED)}
+    if not shown_parameters:
         return title
-    flags = {name: name.replace("_", "-") for name in found}
+    flags = {name: name.replace("_", "-") for name in shown_parameters}
     words = {name: f"--{flag}" if name in SHARED else f"--set {flag}" for name, flag in flags.items()}
     indent = " " * (max(map(len, words.values())) + 4)
     rows = {
-        words[name]: f"{described.help}\n{indent}{default_text(found[name])}; {wanted(field.default, described)}"
-        for name, (field, described) in found.items()
+        words[
+            name
+        ]: f"{described.help}\n{indent}{default_text(shown_parameters[name])}; {wanted(field.default, described)}"
+        for name, (field, described) in shown_parameters.items()
     }
     return table(rows, title=title) + "\n"

@@ -15,7 +15,7 @@ from infill.cli.console import as_bytes, print_json, progress_bar, say, table
 if TYPE_CHECKING:
     from infill.report_keys import MakeReport
 
-SHOWN = 1e-3  # mm: a block that differs by less from what was asked for is that
+SHOWN = 1e-3  # mm: smaller differences from the requested size are not shown
 STDOUT = Path("-")
 BLOCK, FILES, PATTERN, RUN, ADVANCED = "Block", "Files", "Pattern", "Run", "Advanced"
 
@@ -234,7 +234,7 @@ def make(
     if dry_run:
         _show_plan(block, limit, as_json=as_json)
     else:
-        block.require_grid_memory(limit)  # of what cannot be made, it does not matter how long it takes
+        block.require_grid_memory(limit)  # no warning of a long run for a block that does not fit
     if not quiet and (slow := warning_of(block)):
         say(f"warning: {slow}")
     if dry_run:
@@ -278,7 +278,7 @@ def _show_plan(block: Any, limit: int | None, *, as_json: bool) -> None:  # noqa
     typer.echo(table(rows, title=f"{block.pattern.name}: nothing is written (--dry-run)"))
 
 
-def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *, verbose: bool) -> str:
+def _summary(report: MakeReport, files: list[str], requested_size: tuple[float, float], *, verbose: bool) -> str:
     """Return the short table for stderr."""
     request, grid, topology = report["request"], report["grid"], report["topology"]
     width, change = report["wall_width"], report["changes"]
@@ -304,8 +304,8 @@ def _summary(report: MakeReport, files: list[str], asked: tuple[float, float], *
     }
     if (exact := report["walls"]["exact"]) is not None:
         rows["advice"] = f"--stamp exact makes the walls {exact:.3f} mm wide (measured in the middle of the block)"
-    if any(abs(one - other) > SHOWN for one, other in zip(request["size"], asked, strict=True)):
-        rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in asked)} mm asked for"
+    if any(abs(actual - requested) > SHOWN for actual, requested in zip(request["size"], requested_size, strict=True)):
+        rows["size"] = f"whole cells of the grid; {' x '.join(f'{side:g}' for side in requested_size)} mm asked for"
     if change["pinholes"]:
         share = f"{change['pinhole_share']:.2%} of the void"
         rows["pinholes"] = f"{change['pinholes']} hole(s) or neck(s) narrower than a line closed, {share}"

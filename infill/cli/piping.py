@@ -1,6 +1,6 @@
-"""``-o -``: a file on stdout, so that another program can read it; whole or not at all, as every file.
+"""``-o -``: a file on stdout, so that another program can read it; complete or not at all, like every file.
 
-Its format is what follows the dash, as in ``-o -.3mf``, since everywhere else too the suffix decides.
+The suffix after the dash decides the format, as in ``-o -.3mf``, like that of every file.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def with_suffix(path: Path, suffix: str = ".stl") -> Path:
 
 
 def is_piped(path: Path) -> bool:
-    """Return whether a path stands for stdout.
+    """Tell whether a path stands for stdout.
 
     >>> is_piped(Path("-")), is_piped(Path("-.stl")), is_piped(Path("-a.stl")), is_piped(Path("b/-.stl"))
     (True, True, False, False)
@@ -42,17 +42,17 @@ def is_piped(path: Path) -> bool:
 def check_outputs(
     paths: Iterable[Path | None], *, overwrite: bool, as_json: bool, text: Path | None = None, dry_run: bool = False
 ) -> None:
-    """Raise an error if an output cannot be written, or if more than one thing would go to stdout; before the work.
+    """Raise an error, before the work, if an output cannot be written, or if several would go to stdout.
 
     Parameters
     ----------
     paths : iterable of Path
-        Of files that are no text; None for those that were not asked for.
+        Binary files; None for those that are not requested.
     overwrite, as_json : bool
     text : Path, optional
-        Of a file that is text, which a terminal can show.
+        A text file, which a terminal can show.
     dry_run : bool
-        Whether nothing is written, to stdout neither.
+        Whether no output is written, not even to stdout.
 
     Raises
     ------
@@ -62,8 +62,8 @@ def check_outputs(
         If stdout is a terminal or does not exist, or as `infill.files.whole_files.check_targets`.
     """
     binary = [path for path in paths if path is not None]
-    every = [*binary, *([] if text is None else [text])]
-    piped = [path for path in every if is_piped(path)]
+    outputs = [*binary, *([] if text is None else [text])]
+    piped = [path for path in outputs if is_piped(path)]
     if len(piped) > 1:
         raise typer.BadParameter("two outputs are '-' and would both go to stdout; give one of them a name")
     if dry_run:
@@ -74,21 +74,21 @@ def check_outputs(
         raise OutputError("'-' is stdout, and this process has none; name a file")
     if any(path in binary for path in piped) and sys.stdout.isatty():
         raise OutputError("'-' is stdout, and that is a terminal; send it on (> FILE, | PROGRAM), or name a file")
-    check_targets((path for path in every if not is_piped(path)), overwrite=overwrite)
+    check_targets((path for path in outputs if not is_piped(path)), overwrite=overwrite)
 
 
 def deliver_all(parts: Mapping[Path, Callable[[BinaryIO], object]]) -> list[str]:
-    """Write the files of one run, each by its function, what goes to stdout too, and return their names.
+    """Write the files of one run, each by its function, also the one on stdout, and return their names.
 
-    What goes to stdout is complete before its first byte is sent, and sent before the files take their places: if the
+    The file on stdout is complete before its first byte is sent, and sent before the files take their places: if the
     reader is gone, none of them does.
     """
     files = {path: write for path, write in parts.items() if not is_piped(path)}
-    whole = io.BytesIO()
+    buffer = io.BytesIO()
     for path, write in parts.items():
         if path not in files:
-            write(whole)
-    deliver(files, then=partial(_send, whole))
+            write(buffer)
+    deliver(files, then=partial(_send, buffer))
     return [STDOUT if is_piped(path) else str(path) for path in parts]
 
 
@@ -100,13 +100,13 @@ def send_file(path: Path) -> None:
     sys.stdout.buffer.flush()
 
 
-def _send(whole: io.BytesIO) -> None:
-    _write(whole.getbuffer())
+def _send(buffer: io.BytesIO) -> None:
+    _write(buffer.getbuffer())
     sys.stdout.buffer.flush()
 
 
 def _write(data: bytes | memoryview) -> None:
-    """Write all of some bytes: a stream without a buffer, as PYTHONUNBUFFERED gives one, may take only some of them."""
-    left = memoryview(data)
-    while left:
-        left = left[sys.stdout.buffer.write(left) :]
+    """Write all bytes to stdout: an unbuffered stream, as with PYTHONUNBUFFERED, may take only part of them at once."""
+    remaining = memoryview(data)
+    while remaining:
+        remaining = remaining[sys.stdout.buffer.write(remaining) :]

@@ -152,27 +152,27 @@ def refill(
             check_outputs([output], overwrite=force, as_json=as_json, dry_run=dry_run)
             output = Path(stack.enter_context(tempfile.TemporaryDirectory())) / (gcode.name or "print")
         with (
-            _logged(gcode, context, in_place=output is None and not dry_run),
+            _log_errors(gcode, context, in_place=output is None and not dry_run),
             progress_bar(shown=not quiet) as progress,
         ):
             from infill.refilling.job import refill as refilled
             from infill.refilling.settings import resolve
 
-            asked = resolve(flags, config, assigned or [], trust=trust)
+            settings = resolve(flags, config, assigned or [], trust=trust)
             number = 0
-            before: dict[str, LayerSpeeds] = {}
+            sliced_layers: dict[str, LayerSpeeds] = {}
             if preview is not None:
-                number, before = _before(gcode, preview, asked.get("layers"), overwrite=force)
+                number, sliced_layers = _sliced_layer(gcode, preview, settings.get("layers"), overwrite=force)
             result = refilled(
                 gcode,
                 output=output,
-                **asked,
+                **settings,
                 dry_run=dry_run,
                 overwrite=force,
                 progress=progress,
             )
         if preview is not None:
-            _write_preview(number, before, result.path or gcode, preview)
+            _write_preview(number, sliced_layers, result.path or gcode, preview)
         if piped and result.path is not None:
             send_file(result.path)
     path = "" if result.path is None else STDOUT if piped else str(result.path)
@@ -182,10 +182,10 @@ def refill(
         print_json({**result.report, "files": [path] if path else []})
 
 
-def _before(
+def _sliced_layer(
     gcode: Path, preview: Path, layers: tuple[int, int] | None, *, overwrite: bool
 ) -> tuple[int, dict[str, LayerSpeeds]]:
-    """Return the number of the middle layer of a print, or of those nearest to it that are asked for, and the layer."""
+    """Return the number of the middle layer, or of the requested one nearest to it, and that layer."""
     from infill.files.whole_files import check_targets
     from infill.pictures.preview import check_preview
     from infill.planner.layer_speeds import layer_speeds, middle_layer
@@ -199,20 +199,22 @@ def _before(
     return number, {f"layer {number}, as sliced": layer_speeds(gcode, number)}
 
 
-def _write_preview(number: int, before: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
+def _write_preview(number: int, sliced_layers: dict[str, LayerSpeeds], path: Path, preview: Path) -> None:
     from functools import partial
 
     from infill.files.whole_files import deliver
     from infill.pictures.speeds import write_speeds
     from infill.planner.layer_speeds import layer_speeds
 
-    deliver({preview: partial(write_speeds, {**before, f"layer {number}, refilled": layer_speeds(path, number)})})
+    deliver(
+        {preview: partial(write_speeds, {**sliced_layers, f"layer {number}, refilled": layer_speeds(path, number)})}
+    )
 
 
 @contextlib.contextmanager
-def _logged(gcode: Path, context: typer.Context, *, in_place: bool) -> Iterator[None]:
-    """Put an error into a log too, and name the log in it: some slicers show nothing of what a script prints."""
-    logs = _logs(gcode) if in_place else []
+def _log_errors(gcode: Path, context: typer.Context, *, in_place: bool) -> Iterator[None]:
+    """Write an error to a log too, and name the log in it: some slicers do not show the output of a script."""
+    logs = _log_paths(gcode) if in_place else []
     try:
         yield
     except (InfillError, PatternError) as error:
@@ -228,11 +230,11 @@ def _logged(gcode: Path, context: typer.Context, *, in_place: bool) -> Iterator[
             log.unlink(missing_ok=True)
 
 
-def _logs(gcode: Path) -> list[Path]:
-    """Return where a log may lie: beside what the slicer is about to write, if it says so, else beside the file."""
-    given = Path(os.environ.get("SLIC3R_PP_OUTPUT_NAME", ""))
+def _log_paths(gcode: Path) -> list[Path]:
+    """Return possible paths of a log: beside the output of the slicer, if that is known, and beside the file."""
+    slicer_output = Path(os.environ.get("SLIC3R_PP_OUTPUT_NAME", ""))
     # For an upload it is a name on the printer; without a folder it would lie wherever the slicer was started.
-    places = [given, gcode] if given.is_absolute() and given.parent.is_dir() else [gcode]
+    places = [slicer_output, gcode] if slicer_output.is_absolute() and slicer_output.parent.is_dir() else [gcode]
     return [place.with_name(f"{place.name}.refill.log") for place in places if place.name]
 
 
@@ -247,7 +249,7 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
     if sections["kept"]:
         rows["kept"] = ", ".join(f"{number} ({reason})" for reason, number in sections["kept"].items())
     if sections["replaced"]:
-        rows["print"] = _print(filament, seconds)
+        rows["print"] = _print_text(filament, seconds)
         before, after = filament["infill_before_mm"], filament["infill_after_mm"]
         rows["filament"] = f"{after / 1000:.3f} m of infill, {after / before - 1:+.1%}"
         density = filament["density_for_the_same_percent"]
@@ -257,7 +259,7 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
                 rows["filament"] += ", or give --density same"
         before, after = seconds["infill_before_s"], seconds["infill_after_s"]
         if before:
-            rows["time"] = f"{_span(after)} of infill, {after / before - 1:+.1%} ({_span(before)})"
+            rows["time"] = f"{_format_span(after)} of infill, {after / before - 1:+.1%} ({_format_span(before)})"
         contact = report["contact"]
         if contact["measured_mm"]:
             rows["support"] = (
@@ -271,26 +273,26 @@ def _summary(report: dict[str, Any], name: str, path: str) -> str:
     return table(rows, title=name)
 
 
-def _print(filament: dict[str, Any], seconds: dict[str, Any]) -> str:
-    """Return what the whole print takes now, and in brackets what it took, by the same planner."""
-    now, old = seconds["print_after_s"], seconds["print_before_s"]
-    grams, was = filament["print_after_g"], filament["print_before_g"]
-    if grams is None or was is None:
-        grams, was, unit = filament["print_after_mm"] / 1000, filament["print_before_mm"] / 1000, "m"
+def _print_text(filament: dict[str, Any], seconds: dict[str, Any]) -> str:
+    """Format time and filament of the entire print, and the old ones in brackets, by the same planner."""
+    new_s, old_s = seconds["print_after_s"], seconds["print_before_s"]
+    grams, old_g = filament["print_after_g"], filament["print_before_g"]
+    if grams is None or old_g is None:
+        grams, old_g, unit = filament["print_after_mm"] / 1000, filament["print_before_mm"] / 1000, "m"
     else:
         unit = "g"
-    change = f", {now / old - 1:+.1%}" if old else ""
-    said = f"; the slicer said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
-    return f"{_clock(now)} and {grams:.2f} {unit}{change} ({_clock(old)} and {was:.2f} {unit}{said})"
+    change = f", {new_s / old_s - 1:+.1%}" if old_s else ""
+    slicer = f"; the slicer said {_clock(seconds['slicer_s'])}" if seconds["slicer_s"] else ""
+    return f"{_clock(new_s)} and {grams:.2f} {unit}{change} ({_clock(old_s)} and {old_g:.2f} {unit}{slicer})"
 
 
 def _clock(seconds: float) -> str:
-    """Return a time to the second, as `infill motion` tells it."""
-    whole = round(seconds)
-    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
+    """Format a time to the second, like `infill motion`."""
+    total = round(seconds)
+    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"
 
 
-def _span(seconds: float) -> str:
+def _format_span(seconds: float) -> str:
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}h {minutes}m" if hours else f"{minutes}m {seconds}s"

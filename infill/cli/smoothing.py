@@ -412,8 +412,8 @@ def smooth(
         if progress is not None:
             progress("read", 0.0)
         with log_said(shown=not quiet):
-            given = read_source(source, **settings.reading)
-            result: Any = smooth_source(given, **settings.choice, **cast("Options", {**options, "progress": progress}))
+            data = read_source(source, **settings.reading)
+            result: Any = smooth_source(data, **settings.choice, **cast("Options", {**options, "progress": progress}))
         if progress is not None:
             progress("write", 0.9)
         parts: dict[Path, Callable[[BinaryIO], object]] = {}
@@ -441,30 +441,32 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     from infill.sections import Sections
 
     request, grid, level = report["request"], report["grid"], report["solid"]["level"]
-    now, was = report["topology"]["result"], report["topology"]["data"]
+    result, data = report["topology"]["result"], report["topology"]["data"]
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
-    own = f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
-    how = ", refined" if request["refine"] else ""
+    level_range = (
+        f", {level['lowest']:.3f} to {level['highest']:.3f} for its components" if level["components"] > 1 else ""
+    )
+    refined_text = ", refined" if request["refine"] else ""
     rows = {
         "mesh": f"{report['triangles']:,} triangles, {'closed' if report['closed'] else 'NOT CLOSED'}, {size} mm",
         "solid": f"{report['volume']:.6g} mm³, {report['volume_change']:+z.4%} of the data",
-        "smoothing": f"{request['steps']} steps{how}, "
+        "smoothing": f"{request['steps']} steps{refined_text}, "
         f"{' x '.join(map(str, grid['shape']))} voxels of {' x '.join(f'{h:.4g}' for h in grid['spacing'])} mm",
-        "components": f"{now['components']} ({was['components']} in the data), {now['cavities']} cavities "
-        f"({was['cavities']}), {now['tunnels']} tunnels ({was['tunnels']})",
+        "components": f"{result['components']} ({data['components']} in the data), {result['cavities']} cavities "
+        f"({data['cavities']}), {result['tunnels']} tunnels ({data['tunnels']})",
     }
-    if now["cavities"]:
-        rows["sealed voids"] = f"{now['cavities']}, in which resin and powder stay"
+    if result["cavities"]:
+        rows["sealed voids"] = f"{result['cavities']}, in which resin and powder stay"
     if verbose or not (isinstance(report, Sections) and report.pending("distance")):
-        moved = report["distance"]
+        distance = report["distance"]
         rows["distance"] = (
-            f"{moved['result']['p95']:.3g} mm (95 %), {moved['result']['max']:.3g} mm at most, "
-            f"from the {moved['from']}; back {moved['input']['p95']:.3g} mm, {moved['input']['max']:.3g} mm"
+            f"{distance['result']['p95']:.3g} mm (95 %), {distance['result']['max']:.3g} mm at most, "
+            f"from the {distance['from']}; back {distance['input']['p95']:.3g} mm, {distance['input']['max']:.3g} mm"
         )
-    if cost := report["mesh"].get("simplified"):
+    if simplified := report["mesh"].get("simplified"):
         rows["simplified"] = (
-            f"from {cost['triangles_before']:,} triangles, {cost['distance']['max']:.3g} mm at most, "
-            f"volume {cost['volume_change']:+z.4%} by that, {cost['shells']} shell(s)"
+            f"from {simplified['triangles_before']:,} triangles, {simplified['distance']['max']:.3g} mm at most, "
+            f"volume {simplified['volume_change']:+z.4%} by that, {simplified['shells']} shell(s)"
         )
     verdict = report["verdict"]
     rows["verdict"] = "; ".join(
@@ -475,10 +477,10 @@ def _summary(report: SmoothReport, files: list[str], name: str, *, verbose: bool
     if verbose:
         if not request["refine"]:
             rows["fidelity"] = f"{request['fidelity']:g}"
-        rows["level"] = f"{level['common']:.3f}{own}"
+        rows["level"] = f"{level['common']:.3f}{level_range}"
         thin = report["walls"]["thinnest"]
         rows["thinnest wall"] = " -> ".join("none" if x is None else f"{x:.3g} mm" for x in thin.values())
-        rows["Euler number"] = f"{was['euler_number']} -> {now['euler_number']}"
+        rows["Euler number"] = f"{data['euler_number']} -> {result['euler_number']}"
         rows["seconds"] = ", ".join(f"{stage} {seconds:.2f}" for stage, seconds in report["seconds"].items())
     for path in files:
         rows[f"wrote {path}"] = as_bytes(Path(path).stat().st_size) if Path(path).is_file() else ""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 MACHINE, FILES = "The machine, instead of what the file says", "Files"
 UNITS = {"feedrate": "mm/s", "axis_acceleration": "mm/s²", "acceleration": "mm/s²", "jerk": "mm/s"}
 UNITS |= {"junction_deviation": "mm", "square_corner_velocity": "mm/s", "travel_acceleration": "mm/s²"}
-# Of a single file: heading, and what stands below it.
+# Columns of a single file: heading, and the text of a feature below it.
 COLUMNS: dict[str, Callable[[FeatureMotion], str]] = {
     "laid m": lambda each: f"{each.length / 1000:.2f}",
     "travel m": lambda each: f"{each.travel / 1000:.2f}",
@@ -94,7 +94,7 @@ def motion(
     """Plan every move of a print as firmware does, and say how long each feature takes, and why."""
     from infill.planner.printing_time import motion as planned
 
-    given: dict[str, Any] = {
+    planner_options: dict[str, Any] = {
         "model": model,
         "acceleration": acceleration,
         "jerk": jerk,
@@ -108,17 +108,17 @@ def motion(
     if plot is not None:
         _check_plot(plot, overwrite=force)
     paths = [file] if other is None else [file, other]
-    found = [planned(path, **given) for path in paths]
+    motions = [planned(path, **planner_options) for path in paths]
     if plot is not None:
-        chosen = layer if layer is not None else max(found[0].layers // 2, 1)
-        _write_plot(paths, chosen, given, plot)
+        chosen = layer if layer is not None else max(motions[0].layers // 2, 1)
+        _write_plot(paths, chosen, planner_options, plot)
     if as_json:
-        told = [{"file": str(path), **each.to_dict()} for path, each in zip(paths, found, strict=True)]
-        print_json(told[0] if other is None else {"files": told})
+        results = [{"file": str(path), **plan.to_dict()} for path, plan in zip(paths, motions, strict=True)]
+        print_json(results[0] if other is None else {"files": results})
         return
-    for path, each in zip(paths, found, strict=True):
-        typer.echo(_summary(path, each))
-    typer.echo(_features(found[0]) if other is None else _compared(found))
+    for path, plan in zip(paths, motions, strict=True):
+        typer.echo(_summary(path, plan))
+    typer.echo(_feature_table(motions[0]) if other is None else _comparison_table(motions))
 
 
 def _check_plot(path: Path, *, overwrite: bool) -> None:
@@ -128,48 +128,48 @@ def _check_plot(path: Path, *, overwrite: bool) -> None:
     check_targets([check_preview(path)], overwrite=overwrite)
 
 
-def _write_plot(paths: Sequence[Path], layer: int, given: dict[str, Any], plot: Path) -> None:
+def _write_plot(paths: Sequence[Path], layer: int, planner_options: dict[str, Any], plot: Path) -> None:
     from infill.files.whole_files import deliver
     from infill.pictures.speeds import write_speeds
     from infill.planner.layer_speeds import layer_speeds
 
     layers = {
-        f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **given)
+        f"{number}: {path.name}, layer {layer}": layer_speeds(path, layer, **planner_options)
         for number, path in enumerate(paths, 1)
     }
     deliver({plot: partial(write_speeds, layers)})
     say(f"wrote {plot}")
 
 
-def _summary(path: Path, found: Motion) -> str:
-    """Return what is true of the whole file."""
+def _summary(path: Path, plan: Motion) -> str:
+    """Format the facts about a file as a table."""
     limits = "; ".join(
-        f"{name.replace('_', ' ')} {_plain(found.limits[name])} {UNITS.get(name, '')}".rstrip() + f" ({source})"
-        for name, source in found.sources.items()
+        f"{name.replace('_', ' ')} {_plain_value(plan.limits[name])} {UNITS.get(name, '')}".rstrip() + f" ({source})"
+        for name, source in plan.sources.items()
     )
-    rows = {} if found.plate is None else {"plate": _plate(found)}
+    rows = {} if plan.plate is None else {"plate": _plate_text(plan)}
     rows |= {
-        "time": _clock(found.seconds),
-        "slicer": found.slicer or "unknown",
-        "its estimate": "none" if found.estimate is None else _clock(found.estimate),
-        "layers": f"{found.layers}",
-        "filament": f"{format_length(found.filament, 2)}, {found.retractions} retraction(s){_counted(found)}",
-        "laid, travelled": f"{format_length(found.length, 1)}, {format_length(found.travel, 1)}",
-        "model": found.limits["model"],
+        "time": _format_clock(plan.seconds),
+        "slicer": plan.slicer or "unknown",
+        "its estimate": "none" if plan.estimate is None else _format_clock(plan.estimate),
+        "layers": f"{plan.layers}",
+        "filament": f"{format_length(plan.filament, 2)}, {plan.retractions} retraction(s){_volumetric_note(plan)}",
+        "laid, travelled": f"{format_length(plan.length, 1)}, {format_length(plan.travel, 1)}",
+        "model": plan.limits["model"],
         "limits": limits,
     }
-    if found.unread_lines:
+    if plan.unread_lines:
         rows["NOT READ"] = (
-            f"{found.unread_lines} line(s) that may move or extrude are left out; the first is line "
-            f"{found.first_unread_line}: {found.first_unread_text}"
+            f"{plan.unread_lines} line(s) that may move or extrude are left out; the first is line "
+            f"{plan.first_unread_line}: {plan.first_unread_text}"
         )
-    if found.macros:
-        rows["macros"] = f"{', '.join(found.macros)}: what the printer does there is not known and left out"
+    if plan.macros:
+        rows["macros"] = f"{', '.join(plan.macros)}: what the printer does there is not known and left out"
     return table(rows, title=str(path))
 
 
 def format_length(mm: float, decimals: int) -> str:
-    """Return a length in m with so many decimals, or in mm where these would say next to nothing.
+    """Format a length in m with a number of decimals, or in mm if it is too short for them.
 
     >>> format_length(12345, 2), format_length(2.5, 2), format_length(99.7, 1), format_length(0, 2)
     ('12.35 m', '2.5 mm', '99.7 mm', '0 mm')
@@ -179,54 +179,59 @@ def format_length(mm: float, decimals: int) -> str:
     return f"{mm / 1000:.{decimals}f} m"
 
 
-def _counted(found: Motion) -> str:
-    """Say how a file counts filament, if it is in mm³."""
-    return f"; E in mm³, of filament {found.filament_diameter:g} mm thick" if found.volumetric else ""
+def _volumetric_note(plan: Motion) -> str:
+    """Note that a file counts filament in mm³, else return an empty string."""
+    return f"; E in mm³, of filament {plan.filament_diameter:g} mm thick" if plan.volumetric else ""
 
 
-def _plate(found: Motion) -> str:
-    if len(found.plates) == 1:
-        return f"{found.plate}, the only one"
-    return f"{found.plate} of {', '.join(map(str, found.plates))}; --plate chooses"
+def _plate_text(plan: Motion) -> str:
+    if len(plan.plates) == 1:
+        return f"{plan.plate}, the only one"
+    return f"{plan.plate} of {', '.join(map(str, plan.plates))}; --plate chooses"
 
 
-def _plain(value: float | Sequence[float]) -> str:
-    return f"{value:g}" if isinstance(value, float | int) else " ".join(f"{each:g}" for each in value)
+def _plain_value(value: float | Sequence[float]) -> str:
+    return f"{value:g}" if isinstance(value, float | int) else " ".join(f"{component:g}" for component in value)
 
 
-def _features(found: Motion) -> str:
+def _feature_table(plan: Motion) -> str:
     rows = [["feature", "time", "share", *COLUMNS]]
-    for each in sorted(found.features, key=lambda each: -each.seconds):
-        share = f"{each.seconds / found.seconds:.1%}"
-        name = each.name or each.role
-        rows.append([name, _clock(each.seconds), share, *(show(each) for show in COLUMNS.values())])
-    return _aligned(rows)
+    for feature in sorted(plan.features, key=lambda feature: -feature.seconds):
+        share = f"{feature.seconds / plan.seconds:.1%}"
+        name = feature.name or feature.role
+        rows.append([name, _format_clock(feature.seconds), share, *(show(feature) for show in COLUMNS.values())])
+    return _align_columns(rows)
 
 
-def _compared(found: Sequence[Motion]) -> str:
-    """Return times of both files by role, and what explains them."""
-    roles = list(dict.fromkeys(each.role for one in found for each in one.features))
-    roles.sort(key=lambda role: -found[0].of_role(role))
+def _comparison_table(motions: Sequence[Motion]) -> str:
+    """Format times of both files by role, beside lengths, turns and flow."""
+    roles = list(dict.fromkeys(feature.role for motion in motions for feature in motion.features))
+    roles.sort(key=lambda role: -motions[0].of_role(role))
     rows = [
         ["feature", "time A", "time B", "change", "laid m A", "laid m B", "turns A", "turns B", "mm³/s A", "mm³/s B"]
     ]
     for role in [*roles, "everything"]:
-        both = [[each for each in one.features if role in (each.role, "everything")] for one in found]
-        times = [sum(each.seconds for each in some) for some in both]
+        features_of_role = [
+            [feature for feature in motion.features if role in (feature.role, "everything")] for motion in motions
+        ]
+        times = [sum(feature.seconds for feature in features) for features in features_of_role]
         rows.append(
             [
                 role,
-                *map(_clock, times),
+                *map(_format_clock, times),
                 f"{times[1] / times[0] - 1:+.1%}" if times[0] else "-",
-                *(f"{sum(each.length for each in some) / 1000:.2f}" for some in both),
-                *(f"{sum(each.turns for each in some)}" for some in both),
-                *(f"{max((each.peak_flow for each in some), default=0):.1f}" for some in both),
+                *(f"{sum(feature.length for feature in features) / 1000:.2f}" for features in features_of_role),
+                *(f"{sum(feature.turns for feature in features)}" for features in features_of_role),
+                *(
+                    f"{max((feature.peak_flow for feature in features), default=0):.1f}"
+                    for features in features_of_role
+                ),
             ]
         )
-    return _aligned(rows)
+    return _align_columns(rows)
 
 
-def _aligned(rows: Sequence[Sequence[str]]) -> str:
+def _align_columns(rows: Sequence[Sequence[str]]) -> str:
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
     for first, *rest in rows:
@@ -235,11 +240,11 @@ def _aligned(rows: Sequence[Sequence[str]]) -> str:
     return "\n".join(lines)
 
 
-def _clock(seconds: float) -> str:
-    """Return a time as people read it.
+def _format_clock(seconds: float) -> str:
+    """Format a time as hours, minutes and seconds.
 
-    >>> _clock(8287.2), _clock(59.94)
+    >>> _format_clock(8287.2), _format_clock(59.94)
     ('2:18:07', '0:01:00')
     """
-    whole = round(seconds)
-    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
+    total = round(seconds)
+    return f"{total // 3600}:{total // 60 % 60:02}:{total % 60:02}"

@@ -10,15 +10,15 @@ BYTES = {"": 1, "K": 2**10, "M": 2**20, "G": 2**30, "T": 2**40}
 
 
 def parse_bytes(text: str) -> int:
-    """Return the number of bytes in ``2G``, ``500MB`` or ``1.5 GiB``.
+    """Parse the number of bytes in ``2G``, ``500MB`` or ``1.5 GiB``.
 
     >>> parse_bytes("2G")
     2147483648
     """
     advice = "give a number above 0 with K, M, G or T, such as 2G"
-    found = re.fullmatch(r"\s*(-?\d+(?:\.\d+)?|nan)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
-    if not found:
+    match = re.fullmatch(r"\s*(-?\d+(?:\.\d+)?|nan)\s*([KMGT]?)(?:i?B)?\s*", text, re.IGNORECASE)
+    if not match:
         raise UsageError(f"max_memory is {text!r}; {advice}")
-    if not float(found[1]) > 0:
+    if not float(match[1]) > 0:
         raise ParameterError(f"max_memory is {text!r}; {advice}")
-    return int(float(found[1]) * BYTES[found[2].upper()])
+    return int(float(match[1]) * BYTES[match[2].upper()])

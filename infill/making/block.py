@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from infill.surface import Surface
 
 THINNEST = 0.6  # of the requested width, at the 5th percentile; below this, a wall counts as lost
-OFF = 0.05  # of the requested width; beyond this, the report tells what the exact stamp would give
+OFF = 0.05  # of the requested width; beyond this, the report has the width of the exact stamp
 MOST_PINHOLES = 0.02  # of the void in holes; acute angles alone do not explain more than this
 POINTS_PER_CELL = 2  # neighbouring stamps overlap
 ADVICE = "use more cells per line, fewer steps or more fidelity (or --allow-broken, to have it anyway)"
@@ -65,7 +65,7 @@ def make(
     progress: Progress | None = None,
     **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
 ) -> Result[MakeStages, MakeReport]:
-    """Return a block of infill: a closed mesh and a report.
+    """Make a block of infill; return a closed mesh and a report.
 
     Parameters
     ----------
@@ -89,8 +89,8 @@ def make(
         "grid" is the paper's: the isosurface of the stacked layers as it is, with rounded rims.
     tolerance : float, optional
         How far the contour of a prism may lie from the isosurface's at mid height, mm: 0.002 by default, and at most a
-        tenth of the line width. Every ring keeps its area. 0 keeps the raw isosurface: "grid", unless "prism" is asked
-        for, which then has the whole contour.
+        tenth of the line width. Every ring keeps its area. 0 keeps the raw isosurface: "grid", unless "prism" is
+        requested, which then has the full contour.
     allow_broken : bool
         Return a result in which walls broke or vanished, and say so in the report, instead of raising.
     max_memory : int, optional
@@ -119,9 +119,8 @@ def make(
     -----
     Source: Wang et al. 2020, section 3.4.
 
-    The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its volume change is
-    how much smoothing changed the layer: the rounding of the rims of the surface "grid", at most half a layer, is not
-    included.
+    The report holds lengths in mm, areas in mm², volumes in mm³ and angles in degrees. Its volume change is that of
+    the layer in smoothing: the rounding of the rims of the surface "grid", at most half a layer, is not included.
 
     >>> make("honeycomb", size=20, height=3, cell=5).report["components"]
     1
@@ -151,16 +150,16 @@ def make(
         smoothed = smooth(data, block.smoothing, spacing=block.grid.spacing)
     with clock.stage("check", 0.3):
         before, after = regions(data), regions(smoothed)
-        found = changes(before, after, line_cells=block.cells)
+        differences = changes(before, after, line_cells=block.cells)
         area = solid_area(data)
         volume_change = solid_area(smoothed) / area - 1
         width = wall_width(block.lines, smoothed, block.grid, requested=block.line_width)
-        exact = _exact(block, width, cells)
-        problems = list(_problems(found, width, _fused_lines(block.lines, before, block.line_width)))
+        exact = _exact_stamp_width(block, width, cells)
+        problems = list(_problems(differences, width, _count_fused_lines(block.lines, before, block.line_width)))
         if problems and not allow_broken:
             raise GeometryError(f"{'; '.join(problems)}; {ADVICE}")
     with clock.stage("surface", 0.5):
-        mesh = _surface(block, smoothed)
+        mesh = _make_surface(block, smoothed)
         if not mesh.closed or mesh.volume <= 0:
             raise GeometryError(f"the surface of {block.pattern.name} is not closed; {ADVICE}")
     cells_per_layer = math.prod(block.grid.shape)
@@ -179,7 +178,7 @@ def make(
         },
         data=before.topology.extruded,
         result=after.topology.extruded,
-        changes=found,
+        changes=differences,
         walls={
             "width": {name: _finite(value) for name, value in asdict(width).items()},
             "exact": exact,
@@ -192,8 +191,8 @@ def make(
     return Result(surfaces={"block": mesh}, report=cast("MakeReport", report), stages=stages)
 
 
-def _surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
-    """Return the surface that was asked for."""
+def _make_surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
+    """Make the requested surface, "prism" or "grid"."""
     spacing = tuple(block.grid.cell_size.tolist())
     if block.surface == "grid":
         return extruded(smoothed, block.height, spacing, origin=block.origin)
@@ -201,51 +200,51 @@ def _surface(block: Block, smoothed: NDArray[np.floating]) -> Surface:
     return prism(straightened(contour, block.tolerance), block.height)
 
 
-def _exact(block: Block, width: WallWidth, cells: int | None) -> float | None:
-    """Return the width that the exact stamp would give, on a sample; None unless walls are off and that is nearer."""
-    off = abs(width.mean - block.line_width)
-    if block.stamp == "exact" or not off > OFF * block.line_width:
+def _exact_stamp_width(block: Block, width: WallWidth, cells: int | None) -> float | None:
+    """Return the wall width of the exact stamp, on a sample; None unless walls are off and it is nearer."""
+    error = abs(width.mean - block.line_width)
+    if block.stamp == "exact" or not error > OFF * block.line_width:
         return None
-    found = exact_width(
+    exact_mean = exact_width(
         block.lines,
         block.grid,
         cells=DEFAULT_CELLS["exact"] if cells is None else cells,
         width=block.line_width,
         smoothing=block.smoothing,
     )
-    return found if found is not None and abs(found - block.line_width) < off else None
+    return exact_mean if exact_mean is not None and abs(exact_mean - block.line_width) < error else None
 
 
 def _points(block: Block) -> NDArray[np.float64]:
-    """Return points along the lines, from the pattern's own `points` if it has one; lines are drawn only once."""
+    """Return points along the lines: from the pattern if it overrides `points`, else from the cached lines."""
     spacing = min(block.grid.cell_size) / POINTS_PER_CELL
-    own = type(block.pattern).points is not Pattern.points
-    return block.pattern.points(block.region, spacing) if own else sample(block.lines, spacing)
+    has_points = type(block.pattern).points is not Pattern.points
+    return block.pattern.points(block.region, spacing) if has_points else sample(block.lines, spacing)
 
 
-def _fused_lines(lines: MultiLineString, before: Regions, line_width: float) -> int:
-    """Return how many bodies of lines the stamp fused; scraps no longer than three line widths do not count."""
+def _count_fused_lines(lines: MultiLineString, before: Regions, line_width: float) -> int:
+    """Count bodies of lines that the stamp fused; those up to three line widths long do not count."""
     number = bodies(lines)
     length = np.bincount(number, weights=shapely.length(np.array(lines.geoms, dtype=object)))
     return max(0, int((length > 3 * line_width).sum()) - before.topology.components)
 
 
-def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[str]:
-    """Describe what is wrong with the walls, one phrase per problem."""
+def _problems(tally: Changes, width: WallWidth, fused_lines: int) -> Iterator[str]:
+    """Describe the problems of the walls, one phrase each."""
     if fused_lines:
         yield f"{fused_lines} separate line(s) of the pattern run together at this line width: use larger cells"
-    for count, what in (
-        (found.broken + found.voids_joined + found.walls_pierced, "wall(s) broke"),
-        (found.vanished, "part(s) vanished"),
-        (found.appeared, "part(s) appeared from nowhere"),
-        (found.fused + found.voids_cut, "gap(s) between walls closed up"),
-        (found.voids_closed, "hole(s) closed"),
+    for count, event in (
+        (tally.broken + tally.voids_joined + tally.walls_pierced, "wall(s) broke"),
+        (tally.vanished, "part(s) vanished"),
+        (tally.appeared, "part(s) appeared from nowhere"),
+        (tally.fused + tally.voids_cut, "gap(s) between walls closed up"),
+        (tally.voids_closed, "hole(s) closed"),
     ):
         if count:
-            yield f"{count} {what} in smoothing"
-    if found.pinhole_share and found.pinhole_share > MOST_PINHOLES:
+            yield f"{count} {event} in smoothing"
+    if tally.pinhole_share and tally.pinhole_share > MOST_PINHOLES:
         yield (
-            f"{found.pinholes} hole(s) narrower than a line, {found.pinhole_share:.0%} of all void, closed in "
+            f"{tally.pinholes} hole(s) narrower than a line, {tally.pinhole_share:.0%} of all void, closed in "
             "smoothing: use larger cells or a thinner line"
         )
     if width.p5 < THINNEST * width.requested:
@@ -256,5 +255,5 @@ def _problems(found: Changes, width: WallWidth, fused_lines: int) -> Iterator[st
 
 
 def _finite(value: float) -> float | None:
-    """Return None for NaN, which JSON does not have."""
+    """Replace NaN, which JSON lacks, with None."""
     return None if math.isnan(value) else value

@@ -1,4 +1,4 @@
-"""What a block will come to, found on samples of it: the same steps on some small windows of its grid."""
+"""Forecast properties of a block from samples: the same steps on small windows of its grid."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
 WINDOW = 144  # cells across a sample
 WINDOWS = 24
-MARGIN = 16  # cells at its edges that are computed and not counted: there the lines are cut off
-MOST_STEPS = 200  # a forecast takes no longer than this: walls are round by then, and hardly lose corners any more
+MARGIN = 16  # cells at its edges that are computed but not counted: there the lines are cut off
+MOST_STEPS = 200  # of a forecast: walls are round by then, and hardly lose more corners
 GOLDEN = (5**0.5 - 1) / 2
-ACROSS = 45.0  # line widths: the sample that walls are measured on
+ACROSS = 45.0  # line widths: side of the sample on which walls are measured
 
 
 def layer_of(
@@ -41,7 +41,7 @@ def layer_of(
     width: float,
     smoothing: Smoothing,
 ) -> NDArray[np.floating]:
-    """Return the smoothed layer of the lines on a grid, which may be part of the block's.
+    """Stamp and smooth lines on a grid, which may be part of that of the block; return the layer.
 
     Parameters
     ----------
@@ -68,73 +68,75 @@ def expected_corners(
     smoothing: Smoothing,
     tolerance: float,
 ) -> int:
-    """Return about how many corners the straightened contours of a block will have.
+    """Estimate the number of corners of the straightened contours of a block.
 
-    Corners are counted in windows of `WINDOW` cells a side and related to the length of the lines there; a block with
-    no more cells than all windows is made as a whole.
+    Corners are counted in windows of `WINDOW` cells a side and scaled by the length of the lines; a block with no more
+    cells than all windows is made completely.
     """
-    found = length = 0.0
-    foreseen = replace(smoothing, steps=min(smoothing.steps, MOST_STEPS))
+    corner_count = length = 0.0
+    short_smoothing = replace(smoothing, steps=min(smoothing.steps, MOST_STEPS))
     for window in _windows(grid):
-        layer = layer_of(_near(lines, window, width), window, stamp=stamp, cells=cells, width=width, smoothing=foreseen)
+        layer = layer_of(
+            _lines_near(lines, window, width), window, stamp=stamp, cells=cells, width=width, smoothing=short_smoothing
+        )
         if not (layer > 0).any():
             continue
         rings = straightened(contours(layer, tuple(window.cell_size.tolist()), origin=window.origin), tolerance)
         inner = _box(window, 0 if window is grid else MARGIN)
-        found += shapely.contains_xy(inner, rings.points).sum() if window is not grid else len(rings.points)
+        corner_count += shapely.contains_xy(inner, rings.points).sum() if window is not grid else len(rings.points)
         length += shapely.length(shapely.intersection(lines, inner))
     if not length:
         return 0
-    run = float(shapely.length(lines))
-    corners = found * run / length
+    line_length = float(shapely.length(lines))
+    corners = corner_count * line_length / length
     # Where the caps are cut into strips: a line of any direction crosses a cut 2 / pi times per step of one along x.
-    crossings = 2 * run * 2 / math.pi / grid.extents[0]
+    crossings = 2 * line_length * 2 / math.pi / grid.extents[0]
     return round(corners + (-(-corners // CORNERS) - 1) * crossings)
 
 
 def exact_width(lines: MultiLineString, grid: Grid, *, cells: int, width: float, smoothing: Smoothing) -> float | None:
-    """Return how wide walls in the middle of a block would be on average if they were stamped exactly, mm.
+    """Return the mean width of exactly stamped walls in the middle of a block, mm.
 
-    None where none stands clear of others, or where nothing would be left of them.
+    None if no wall stands clear of others, or if none would remain.
     """
     spacing = width / cells
     extents = np.array(grid.extents)
     middle = np.array(grid.origin) + extents / 2
     counts = np.maximum(np.round(np.minimum(extents, ACROSS * width) / spacing), 2 * cells).astype(int)
     window = Grid(shape=tuple(counts.tolist()), spacing=spacing, origin=tuple((middle - counts * spacing / 2).tolist()))
-    near = _near(lines, window, width)
-    inside = _as_lines(shapely.intersection(near, _box(window, cells)))
+    nearby_lines = _lines_near(lines, window, width)
+    inside = _as_lines(shapely.intersection(nearby_lines, _box(window, cells)))
     if inside.is_empty:
         return None
-    layer = layer_of(near, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
+    layer = layer_of(nearby_lines, window, stamp="exact", cells=cells, width=width, smoothing=smoothing)
     mean = wall_width(inside, layer, window, requested=width).mean
     return mean if mean > 0 else None  # neither NaN nor 0
 
 
 def _windows(grid: Grid) -> list[Grid]:
-    """Return windows of a grid, all cells of it if there are not many more than these."""
+    """Return sample windows of a grid, or the grid itself if it has no more cells than all windows."""
     if grid.cells <= WINDOWS * WINDOW**2:
         return [grid]
     shape = np.array(grid.shape)
     sides = np.minimum(shape, WINDOW)
-    found = []
+    windows = []
     # A lattice on the golden ratio: evenly spread, and in step with no pattern.
     for number in range(WINDOWS):
         place = (number + 0.5) / WINDOWS, ((number + 1) * GOLDEN) % 1
         low = np.round((shape - sides) * place).astype(int)
         origin = np.array(grid.origin) + low * grid.cell_size
-        found.append(Grid(shape=tuple(sides.tolist()), spacing=grid.spacing, origin=tuple(origin.tolist())))
-    return found
+        windows.append(Grid(shape=tuple(sides.tolist()), spacing=grid.spacing, origin=tuple(origin.tolist())))
+    return windows
 
 
 def _box(grid: Grid, margin: int) -> shapely.Polygon:
-    """Return the box of a grid less some cells on every side."""
+    """Return the box of a grid, smaller by a margin of cells on every side."""
     low = np.array(grid.origin) + margin * grid.cell_size
     high = np.array(grid.origin) + np.array(grid.extents) - margin * grid.cell_size
     return shapely.box(*low, *high)
 
 
-def _near(lines: MultiLineString, window: Grid, width: float) -> MultiLineString:
+def _lines_near(lines: MultiLineString, window: Grid, width: float) -> MultiLineString:
     """Return the parts of the lines that can mark cells of a window."""
     return _as_lines(shapely.intersection(lines, shapely.buffer(_box(window, 0), width, join_style="mitre")))
 

@@ -1,4 +1,4 @@
-"""What `make` is about to do: the checked request, its grid, and what it will cost."""
+"""The checked request of `make`: the block, its grid, and its cost."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 StampMethod = Literal["block", "exact"]
 SurfaceMethod = Literal["prism", "grid"]
-TOLERANCE = 0.002  # mm: far below what a printer places, and less than half the triangles of the whole contour
+TOLERANCE = 0.002  # mm: far below the precision of a printer, with less than half the triangles of the full contour
 COARSEST = 0.1  # of the line width: the tolerance at which both sides of a wall could take a fifth of it
 DEFAULT_CELLS = {"block": 3, "exact": 5}
 LINES_PER_CELL = 3  # smallest cell of a pattern in line widths: walls, and a gap as wide as two of them
@@ -73,7 +73,7 @@ class Block:
 
     @cached_property
     def region(self) -> Polygon:
-        """Where the centre lines may run: the block less half a line width on each side, mm."""
+        """Region of the centre lines: the block, smaller by half a line width on each side, mm."""
         half = self.line_width / 2
         (x, y), (width, depth) = self.grid.origin, self.grid.extents
         return shapely.box(x + half, y + half, x + width - half, y + depth - half)
@@ -139,7 +139,7 @@ class Block:
         return x, y, 0.0
 
     def asked(self) -> dict[str, Any]:
-        """Return what was asked for, as the section `request` of the report has it."""
+        """Return the section `request` of the report."""
         smoothing = self.smoothing
         return {
             "pattern": self.pattern.name,
@@ -158,7 +158,7 @@ class Block:
         }
 
     def laid_out(self) -> dict[str, Any]:
-        """Return the stack of layers, as the section `grid` of the report has it."""
+        """Return the section `grid` of the report: the stack of layers."""
         return {
             "shape": [*self.grid.shape, self.layers],
             "spacing": [*self.grid.cell_size.tolist(), self.height / self.layers],
@@ -167,7 +167,7 @@ class Block:
         }
 
     def facts(self) -> dict[str, Any]:
-        """Return what a dry run shows, as plain numbers: sections of the report, and sizes in bytes."""
+        """Return the output of a dry run as plain numbers: sections of the report, and sizes in bytes."""
         return {
             "request": self.asked(),
             "grid": self.laid_out(),
@@ -205,7 +205,7 @@ def plan(
     tolerance: float | None = None,
 ) -> Block:
     """Check a request and return it with its grid; the parameters are the same as for `infill.make`."""
-    made = pattern_of(pattern, parameters)
+    ready_pattern = pattern_of(pattern, parameters)
     sides = list(size) if isinstance(size, Iterable) else [size, size]
     if len(sides) != 2:
         raise ParameterError(f"size has {len(sides)} numbers; give x and y in mm, or one number for a square")
@@ -227,9 +227,9 @@ def plan(
             f"make it at least {(1 + LINES_PER_CELL) * line_width:g} mm in x and y"
         )
     smoothing.weights((1.0, 1.0))  # raises above the stability limit
-    surface, tolerance = _surface_of(surface, tolerance, line_width)
+    surface, tolerance = _resolve_surface(surface, tolerance, line_width)
     block = Block(
-        pattern=made,
+        pattern=ready_pattern,
         grid=Grid(shape=counts, spacing=cell, origin=tuple(-count * cell / 2 for count in counts)),
         height=height,
         line_width=line_width,
@@ -239,21 +239,23 @@ def plan(
         surface=surface,
         tolerance=tolerance,
     )
-    if not made.prismatic:
-        raise ParameterError(f"the lines of {made.name} change with height; only prismatic patterns can be made")
-    spacing = made.line_spacing(block.region)
+    if not ready_pattern.prismatic:
+        raise ParameterError(
+            f"the lines of {ready_pattern.name} change with height; only prismatic patterns can be made"
+        )
+    spacing = ready_pattern.line_spacing(block.region)
     if not math.isfinite(spacing) or spacing < LINES_PER_CELL * line_width * (1 - 1e-9):
         raise ParameterError(
-            f"the lines of {made.name} lie {spacing:.4g} mm apart, under {LINES_PER_CELL} line widths "
+            f"the lines of {ready_pattern.name} lie {spacing:.4g} mm apart, under {LINES_PER_CELL} line widths "
             f"({LINES_PER_CELL * line_width:g} mm); use larger cells or a thinner line"
         )
     return block
 
 
-def _surface_of(
+def _resolve_surface(
     surface: SurfaceMethod | None, tolerance: float | None, line_width: float
 ) -> tuple[SurfaceMethod, float]:
-    """Return the surface and its tolerance: what is not given follows from the other."""
+    """Check the surface and its tolerance; return both, with a missing one derived from the other."""
     if surface is not None and surface not in get_args(SurfaceMethod):
         raise UsageError(f"surface is {surface!r}; choose prism or grid")
     if tolerance is None:
@@ -283,8 +285,8 @@ def pattern_of(pattern: Pattern | str, parameters: dict[str, Any]) -> Pattern:
             )
         return pattern
     kind = PATTERNS.find(pattern)
-    known = [f.name for f in fields(kind) if f.init] if is_dataclass(kind) else list(parameters)
+    field_names = [f.name for f in fields(kind) if f.init] if is_dataclass(kind) else list(parameters)
     for name in parameters:
-        if name not in known:
-            raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(known)}")
+        if name not in field_names:
+            raise PatternError(f"{pattern} has no parameter {name!r}; it has {', '.join(field_names)}")
     return kind(**parameters)

@@ -92,7 +92,7 @@ class MakeSettings:
         }
 
     def plan(self) -> Block:
-        """Return the checked request with its grid and its cost."""
+        """Check the settings; return the block with its grid and its cost."""
         from infill.making.request import plan
 
         return plan(**self._request(), parameters={})
@@ -109,8 +109,15 @@ class MakeSettings:
         """Return all settings, defaults included, as a TOML document that `resolve` reads back."""
         plain = dataclasses.asdict(self)
         del plain["parameters"]
-        own = parameter_values(self.build_pattern())
-        lines = ["# infill make --config THIS_FILE -o OUT", *toml_rows(plain), "", f"[{SET}]", *toml_rows(own), ""]
+        pattern_values = parameter_values(self.build_pattern())
+        lines = [
+            "# infill make --config THIS_FILE -o OUT",
+            *toml_rows(plain),
+            "",
+            f"[{SET}]",
+            *toml_rows(pattern_values),
+            "",
+        ]
         return "\n".join(lines)
 
 
@@ -134,18 +141,22 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, assigned: Sequ
     FormatError
         If the file is missing or not TOML.
     """
-    filed = read_toml(config, example="size = [60, 40]") if config else {}
-    table = table_of(filed)
-    flagged = {name: value for name, value in flags.items() if value is not None}
-    given = filed | flagged
-    if "pattern" not in given:
+    file_values = read_toml(config, example="size = [60, 40]") if config else {}
+    table = table_of(file_values)
+    flag_values = {name: value for name, value in flags.items() if value is not None}
+    values = file_values | flag_values
+    if "pattern" not in values:
         raise ParameterError(
             "no pattern is given; name one ('infill list' shows all), or set pattern in the config file"
         )
-    kind = PATTERNS.find(_typed("pattern", given["pattern"], ""))
-    common = {each.name: each.default for each in dataclasses.fields(MakeSettings) if each.name != "parameters"}
-    parameters_given = gathered(kind, common, flags=flagged, assigned=assigned, filed=filed, table=table)
-    typed = {name: _typed(name, value, common[name]) for name, value in given.items() if name in common}
+    pattern_class = PATTERNS.find(_check_type("pattern", values["pattern"], ""))
+    common = {
+        setting.name: setting.default for setting in dataclasses.fields(MakeSettings) if setting.name != "parameters"
+    }
+    parameters_given = gathered(
+        pattern_class, common, flags=flag_values, assigned=assigned, filed=file_values, table=table
+    )
+    typed = {name: _check_type(name, value, common[name]) for name, value in values.items() if name in common}
     return MakeSettings(**typed, parameters=parameters_given)
 
 
@@ -166,17 +177,17 @@ def parse_size(size: object) -> tuple[float, float]:
     return lengths[0], lengths[-1]
 
 
-def _typed(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
+def _check_type(name: str, value: Any, default: Any) -> Any:  # noqa: ANN401 - checks values of any type
     """Return the value of one of make's options if it has the same type as `default`, or raise ParameterError."""
     if name == "size":
         return parse_size(value)
     if isinstance(default, str) or name in ("pattern", "surface"):
-        wanted, fits = "a word", isinstance(value, str) and len(value) <= LONGEST_WORD
+        expected, fits = "a word", isinstance(value, str) and len(value) <= LONGEST_WORD
     else:
-        wanted, fits = "a number", _is_number(value)
+        expected, fits = "a number", _is_number(value)
     if not fits:
-        raise UsageError(f"{name} is {quote_value(value)}; it must be {wanted}")
-    return within_floats(name, value) if wanted == "a number" else value
+        raise UsageError(f"{name} is {quote_value(value)}; it must be {expected}")
+    return within_floats(name, value) if expected == "a number" else value
 
 
 def _is_number(value: object) -> bool:

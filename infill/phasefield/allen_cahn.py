@@ -81,7 +81,7 @@ class Smoothing:
 
     @property
     def blur(self) -> float:
-        """Standard deviation, in cells, of the Gaussian that the diffusion of all steps amounts to."""
+        """Standard deviation, in cells, of the Gaussian that equals the diffusion of all steps."""
         return math.sqrt(2 * self.alpha * self.steps)
 
     def weights(self, spacing: tuple[float, ...]) -> tuple[float, ...]:
@@ -93,7 +93,7 @@ class Smoothing:
             Above the stability limit of the explicit step: 2 sum(weights) <= 1.
         """
         smallest = min(spacing)
-        shares = [(smallest / size) ** 2 for size in spacing]
+        shares = [(smallest / cell_size) ** 2 for cell_size in spacing]
         limit = 1 / (2 * sum(shares))
         if self.alpha > limit * (1 + 1e-12):
             raise ParameterError(
@@ -109,7 +109,7 @@ def phase_field(data: ArrayLike, name: str = "the data") -> NDArray[np.generic]:
     Raises
     ------
     ParameterError
-        If there are no cells, or a value is not a number in [-1, 1].
+        If the array is empty, or a value is not a number in [-1, 1].
     """
     field = np.asarray(data)
     if field.dtype == bool:
@@ -157,8 +157,8 @@ def laplacian(
     change = np.zeros_like(phi)
     for axis, weight in enumerate(weights):
         low, high = (
-            tuple(part if a == axis else slice(None) for a in range(phi.ndim))
-            for part in (slice(None, -1), slice(1, None))
+            tuple(side if a == axis else slice(None) for a in range(phi.ndim))
+            for side in (slice(None, -1), slice(1, None))
         )
         flux = weight * (phi[high] - phi[low])
         if mask is not None:
@@ -187,7 +187,7 @@ def reacted(phi: NDArray[np.float64], decay: float) -> NDArray[np.float64]:
 def held(phi: NDArray[np.float64], f: NDArray[np.float64], pull: float) -> NDArray[np.float64]:
     """Return phi after phi_t = lam (f - phi) for one time step, implicitly, with lam dt = `pull` (10, 14).
 
-    On their own, n such steps leave (1 + lam dt)^-n of the difference from the data.
+    Alone, n such steps leave (1 + lam dt)^-n of the difference from the data.
     """
     return (phi + pull * f) / (1 + pull)
 

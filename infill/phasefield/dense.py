@@ -6,7 +6,7 @@ Every formula is arranged so that phi = f = +-1 among equal neighbours is a fixe
     v = v / sqrt(E + (1 - E) v v)               divides by 1 where v = +-1: see `parts_of_one`
     phi = v + p / (1 + p) (f - v)               adds zero where v = f
 
-A kernel may therefore leave such cells out (`infill.phasefield.sparse`) and give the same bits as one that does not.
+A kernel may therefore leave such cells out (`infill.phasefield.sparse`) with a result identical to the last bit.
 Importing this module loads numba; each function is compiled when it is first called and then kept on disk.
 """
 
@@ -34,21 +34,21 @@ def smooth_dense(
     initial: NDArray[np.generic] | None = None,
     mask: NDArray[np.bool_] | None = None,
 ) -> Field:
-    """Return what `smooth_reference` returns, to 2e-5, for up to three axes, every cell in every step."""
-    numbers = numbers_of(smoothing, spacing, f.ndim)
-    small = np.issubdtype(f.dtype, np.integer)
-    data = on_three_axes(f).astype(np.int8 if small else np.float32, copy=False)
+    """Smooth like `smooth_reference`, to 2e-5, on up to three axes, with every cell in every step."""
+    coefficients = numbers_of(smoothing, spacing, f.ndim)
+    is_integer = np.issubdtype(f.dtype, np.integer)
+    data = on_three_axes(f).astype(np.int8 if is_integer else np.float32, copy=False)
     old = on_three_axes(f if initial is None else initial).astype(np.float32)
     inside = np.ones((0, 0, 0), dtype=bool) if mask is None else on_three_axes(mask)
     new = old.copy()
     for _ in range(smoothing.steps):
-        sweep(old, data, inside, new, numbers)
+        sweep(old, data, inside, new, coefficients)
         old, new = new, old
     return old.reshape(f.shape)
 
 
 def on_three_axes(field: NDArray[Any]) -> NDArray[Any]:
-    """Return the field as (n0, n1, n2), contiguous, with axes of one cell put in front."""
+    """Return the field as (n0, n1, n2), contiguous, with axes of one cell prepended."""
     return np.ascontiguousarray(field.reshape((1,) * (3 - field.ndim) + field.shape))
 
 

@@ -38,7 +38,7 @@ def smooth_inplace(
     mask: NDArray[np.bool_] | None = None,
     threads: int | None = None,
 ) -> NDArray[np.float32]:
-    """Return what `smooth_reference` returns, to 2e-5, in float32; benchmarks/make.py says how much faster."""
+    """Smooth like `smooth_reference`, to 2e-5, in float32; benchmarks/make.py measures how much faster."""
     weights = smoothing.weights(spacing_of(spacing, f.ndim))
     start = f if initial is None else initial
     if smoothing.steps == 0:
@@ -46,31 +46,31 @@ def smooth_inplace(
     pull, decay = smoothing.pull, smoothing.decay
     scale = math.sqrt(1 - decay) * (1 + pull)
     interior = (slice(1, -1),) * f.ndim
-    field = _padded(start if mask is None else np.where(mask, start, 0), interior, scale)
-    data = _padded(f, interior, scale * pull / (1 + pull))
-    exists = np.zeros(field.shape, dtype=bool)
-    exists[interior] = True if mask is None else mask
+    field = _pad(start if mask is None else np.where(mask, start, 0), interior, scale)
+    data = _pad(f, interior, scale * pull / (1 + pull))
+    inside_mask = np.zeros(field.shape, dtype=bool)
+    inside_mask[interior] = True if mask is None else mask
 
     axes = list(zip(weights, [stride // field.itemsize for stride in field.strides], strict=True))
     margin = sum(shift for _, shift in axes)
-    first, last = margin, field.size - margin  # from the first cell of the grid to the last
-    there = exists.ravel()
-    missing = first + np.flatnonzero(~there[first:last])
-    keep = np.full(last - first, np.float32(1 / weights[0] - 2 * sum(weights) / weights[0]))
-    absent = np.flatnonzero(~there)
+    first_cell, end_cell = margin, field.size - margin  # range from the first cell of the grid to the last
+    is_cell = inside_mask.ravel()
+    missing_in_range = first_cell + np.flatnonzero(~is_cell[first_cell:end_cell])
+    self_weight = np.full(end_cell - first_cell, np.float32(1 / weights[0] - 2 * sum(weights) / weights[0]))
+    missing_cells = np.flatnonzero(~is_cell)
     for weight, shift in axes:
-        for step in (-shift, shift):  # a cell keeps what it would give to a missing neighbour
-            cells = absent + step - first
-            keep[cells[(cells >= 0) & (cells < last - first)]] += np.float32(weight / weights[0])
-    u, known = field.ravel(), data.ravel()
+        for step in (-shift, shift):  # a cell keeps its share for a missing neighbour
+            cells = missing_cells + step - first_cell
+            self_weight[cells[(cells >= 0) & (cells < end_cell - first_cell)]] += np.float32(weight / weights[0])
+    u, pull_term = field.ravel(), data.ravel()
     floor = np.float32(decay * ((1 + pull) / weights[0]) ** 2)
     shares = [(None if weight == weights[0] else np.float32(weight / weights[0]), shift) for weight, shift in axes]
 
     def advance(u: Flat, new: Flat, base: int, low: int, high: int, buffers: tuple[Flat, Flat]) -> None:
-        """Do a step from `u` to `new`, which begin at cell `base`, for the cells from `low` to `high`."""
+        """Advance the cells from `low` to `high` by one step, from `u` to `new`, which begin at cell `base`."""
         v, t = buffers[0][: high - low], buffers[1][: high - low]
         at, to = low - base, high - base
-        np.multiply(u[at:to], keep[low - first : high - first], out=v)
+        np.multiply(u[at:to], self_weight[low - first_cell : high - first_cell], out=v)
         for share, shift in shares:
             np.add(u[at - shift : to - shift], u[at + shift : to + shift], out=t)
             if share is not None:
@@ -80,45 +80,45 @@ def smooth_inplace(
         t += floor
         np.sqrt(t, out=t)
         v /= t
-        np.add(v, known[low:high], out=new[at:to])
-        new[missing[slice(*np.searchsorted(missing, (low, high)))] - base] = 0
+        np.add(v, pull_term[low:high], out=new[at:to])
+        new[missing_in_range[slice(*np.searchsorted(missing_in_range, (low, high)))] - base] = 0
 
-    u = _march(u, smoothing.steps, margin, thread_count(threads), advance)
+    u = _run_steps(u, smoothing.steps, margin, thread_count(threads), advance)
     result: NDArray[np.float32] = u.reshape(field.shape)[interior] * np.float32(1 / scale)
     np.clip(result, -1, 1, out=result)  # rounding can exceed it by the last bit; the result must be a phase field again
     return result if mask is None else np.where(mask, result, start).astype(np.float32)
 
 
-def _march(
+def _run_steps(
     u: Flat,
     steps: int,
     margin: int,
     threads: int,
     advance: Callable[[Flat, Flat, int, int, int, tuple[Flat, Flat]], None],
 ) -> Flat:
-    """Return `u` after `steps`, with the cells divided among threads.
+    """Advance `u` by `steps`, with the cells divided among threads; return the result.
 
     A thread takes its cells plus a halo of `count` times `margin` cells on both sides, and does that many steps
     alone: the error at the edge of the halo moves one margin closer with each step and never reaches the thread's own
     cells. Then all threads synchronise.
     """
-    first, last = margin, len(u) - margin
-    threads = max(1, min(threads, (last - first) // (BLOCK // 2)))
-    cuts = np.linspace(first, last, threads + 1).astype(int).tolist()
+    first_cell, end_cell = margin, len(u) - margin
+    threads = max(1, min(threads, (end_cell - first_cell) // (BLOCK // 2)))
+    cuts = np.linspace(first_cell, end_cell, threads + 1).astype(int).tolist()
     at_once = steps if threads == 1 else max(1, min(AT_ONCE, (cuts[1] - cuts[0]) // (8 * margin)))
     buffers = [(np.empty(BLOCK, dtype=np.float32), np.empty(BLOCK, dtype=np.float32)) for _ in range(threads)]
 
-    def sweep(whole: Flat, result: Flat, count: int, part: int, _: int) -> None:
-        own_first, own_last = cuts[part], cuts[part + 1]
-        low, high = max(first, own_first - count * margin), min(last, own_last + count * margin)
+    def sweep(source_field: Flat, result: Flat, count: int, part: int, _: int) -> None:
+        part_first, part_end = cuts[part], cuts[part + 1]
+        low, high = max(first_cell, part_first - count * margin), min(end_cell, part_end + count * margin)
         base = low - margin
-        source = whole[base : high + margin].copy()
+        source = source_field[base : high + margin].copy()
         target = source.copy()
         for _ in range(count):
             for at in range(low, high, BLOCK):
                 advance(source, target, base, at, min(at + BLOCK, high), buffers[part])
             source, target = target, source
-        result[own_first:own_last] = source[own_first - base : own_last - base]
+        result[part_first:part_end] = source[part_first - base : part_end - base]
 
     new = np.zeros_like(u)
     for begin in range(0, steps, at_once):
@@ -127,8 +127,8 @@ def _march(
     return u
 
 
-def _padded(values: NDArray[np.generic], interior: tuple[slice, ...], factor: float = 1.0) -> NDArray[np.float32]:
-    """Return `values` times `factor` as float32 in a shell of zeros one cell thick."""
+def _pad(values: NDArray[np.generic], interior: tuple[slice, ...], factor: float = 1.0) -> NDArray[np.float32]:
+    """Scale `values` by `factor` and pad them with zeros, one cell thick, as float32."""
     padded = np.zeros(tuple(count + 2 for count in values.shape), dtype=np.float32)
     padded[interior] = values
     padded *= np.float32(factor)

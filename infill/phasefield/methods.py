@@ -67,7 +67,7 @@ def smooth(
         "numpy" is the specification in float64; the others work in float32 and agree with it to 2e-5.
         "inplace" needs no compiler. "dense" and "sparse" take up to three axes; they are compiled when
         first used, which takes a few seconds and is reported to the log "infill", and kept on disk. "sparse"
-        leaves out what cannot move, and its result is bit-identical to that of "dense". "auto" chooses "inplace"
+        leaves out cells at rest, and its result is bit-identical to that of "dense". "auto" chooses "inplace"
         for two axes and for little work; in three axes, for more than 2e8 cells times steps, it chooses "sparse"
         for whole numbers and booleans and "dense" for grey data.
 
@@ -95,12 +95,12 @@ def smooth(
     field = phase_field(f)
     start = None if initial is None else phase_field(initial, "the initial field")
     domain = None if mask is None else np.asarray(mask)
-    for name, other in (("the initial field", start), ("the mask", domain)):
-        if other is not None and other.shape != field.shape:
-            raise ParameterError(f"{name} has the shape {other.shape}, the data {field.shape}; give equal shapes")
+    for name, array in (("the initial field", start), ("the mask", domain)):
+        if array is not None and array.shape != field.shape:
+            raise ParameterError(f"{name} has the shape {array.shape}, the data {field.shape}; give equal shapes")
     if domain is not None and domain.dtype != bool:
         raise ParameterError(f"the mask is of type {domain.dtype}; give booleans")
-    chosen = _chosen(np.asarray(f), smoothing) if method == "auto" else method
+    chosen = _choose_kernel(np.asarray(f), smoothing) if method == "auto" else method
     if chosen not in COMPILED:
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
     from infill.kernels.compiling import told_of_compiling
@@ -109,8 +109,8 @@ def smooth(
         return KERNELS[chosen](field, smoothing, spacing=spacing, initial=start, mask=domain)
 
 
-def _chosen(f: NDArray[np.generic], smoothing: Smoothing) -> str:
-    """Return the kernel that "auto" stands for."""
+def _choose_kernel(f: NDArray[np.generic], smoothing: Smoothing) -> str:
+    """Choose the kernel for the method "auto"."""
     if f.ndim != COMPILED_AXES or f.size * smoothing.steps < WORTH_COMPILING:
         return "inplace"
     return "dense" if f.dtype.kind == "f" else "sparse"

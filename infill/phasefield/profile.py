@@ -20,7 +20,7 @@ from infill.kernels.threads import in_threads, thread_count
 
 Field = NDArray[np.float32]
 
-AT_ONCE = 1 << 15  # cells, which stay in a processor's own memory from one step to the next
+AT_ONCE = 1 << 15  # cells, which stay in the cache of a processor from one step to the next
 
 
 @dataclass(frozen=True)
@@ -59,37 +59,40 @@ class Profile:
         out: Field | None = None,
         threads: int | None = None,
     ) -> Field:
-        """Return phi for distances in units of the one at which they are cut off, +-1 from there on.
+        """Return phi for distances in units of the cut-off distance, +-1 beyond it.
 
         Parameters
         ----------
         distance : (...) float
         unit : float
-            By which they are divided first.
+            Divisor of the distances.
         out : (...) float32, contiguous, optional
-            Where phi is written; it may be `distance`.
+            Array that receives phi; it may be `distance`.
         threads : int, optional
             See `infill.kernels.threads.thread_count`.
 
         >>> REFINED.phase(np.array([-2, 0, 2]), unit=2).tolist()
         [-1.0, 0.0, 1.0]
         """
-        given = np.asarray(distance).reshape(-1)
-        found = np.empty(given.shape, dtype=np.float32) if out is None else out.reshape(-1)
+        flat_distance = np.asarray(distance).reshape(-1)
+        flat_phase = np.empty(flat_distance.shape, dtype=np.float32) if out is None else out.reshape(-1)
 
         def fill(thread: int, threads: int) -> None:
-            for begin in range(thread * AT_ONCE, len(given), threads * AT_ONCE):
-                part, phi = (given[begin : begin + AT_ONCE] / unit).astype(np.float32), found[begin : begin + AT_ONCE]
-                np.sign(part, out=phi)
-                near = np.abs(part) < 1  # few cells of a grid
-                if near.any():
-                    phi[near] = np.tanh(part[near] * np.float32(self.scale))
+            for begin in range(thread * AT_ONCE, len(flat_distance), threads * AT_ONCE):
+                scaled, phi = (
+                    (flat_distance[begin : begin + AT_ONCE] / unit).astype(np.float32),
+                    flat_phase[begin : begin + AT_ONCE],
+                )
+                np.sign(scaled, out=phi)
+                unsaturated = np.abs(scaled) < 1  # few cells of a grid
+                if unsaturated.any():
+                    phi[unsaturated] = np.tanh(scaled[unsaturated] * np.float32(self.scale))
 
         in_threads(fill, threads=thread_count(threads))
-        return found.reshape(np.shape(distance))
+        return flat_phase.reshape(np.shape(distance))
 
     def distance(self, values: Field, *, out: Field | None = None, threads: int | None = None) -> Field:
-        """Return the distance for phi (...) float32, its last three axes bricks; in `out`, which may be `values`."""
+        """Return the distance for phi (...) float32, whose last three axes are bricks; `out` may be `values`."""
         from infill.kernels import transfer
         from infill.kernels.sparse import CELLS
 

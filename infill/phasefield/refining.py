@@ -1,4 +1,4 @@
-"""Smoothing that keeps curvature, edges and thin walls: three strengths of the scheme, each used where it is right.
+"""Smoothing that keeps curvature, edges and thin walls: three strengths of the scheme, each used where it fits.
 
 The scheme is run once with momentum, from phi_-1 = phi_0 = f, without fidelity:
 
@@ -17,13 +17,13 @@ Each is turned into a distance from the surface, and two gates choose between th
 
 What to expect, in cells rms from the true surface, after plain smoothing to the volume and after refinement: a box of
 120 x 84 x 60 with edges of radius 8: 0.165, 0.031; a sphere of radius 80: 0.029, 0.021, but one of radius 26: 0.030,
-0.043, because all the plain scheme does to it is an even shift, which the level undoes. Walls 3 cells thick stay whole
+0.043, because the plain scheme only shifts it evenly, which the level undoes. Walls 3 cells thick stay whole
 after 30 steps. Noise in the surface is removed as in plain smoothing; specks that plain smoothing wipes out remain.
 
 Exact data (a mesh's own distances, not a staircase) are a fourth field, milder than all others. A third gate leads to
 them where smoothing would move the surface to one side; its limits grow with the noise that the data have. And nowhere
 may the surface leave them by more than a quarter of a cell, or three times their noise: so a wall that is thicker than
-twice that is never lost, and flat faces stay where they are. See `Exact`.
+twice that is never lost, and flat faces keep their place. See `Exact`.
 
 This is the package's own extension of the scheme of Wang et al., Computer-Aided Design 120 (2020) 102804.
 """
@@ -47,7 +47,7 @@ from infill.phasefield.profile import REFINED
 from infill.phasefield.schedule import Schedule
 from infill.phasefield.sparse import MORE, Bricks, SparseField, states_of
 
-TINY = 1e-6  # of a weight: where no surface is near, the means are 0
+TINY = 1e-6  # of a weight, added where no surface is near and the means are 0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,7 +59,7 @@ class Gate:
     size : int
         Standard deviation of the averages, cells; 2 or 4.
     signed, unsigned : float
-        Mean difference, and root mean square difference, at which it is half used, cells.
+        Mean difference, and root mean square difference, at which it has half the weight, cells.
     """
 
     size: int
@@ -71,7 +71,7 @@ class Gate:
 # 95 % of the surface is below these values of the mean difference and the root mean square:
 #
 #                               outer, of 4 cells       inner, of 2 cells
-#   planes, in five directions  0.05, 0.16              0.06, 0.40        what is left of the staircase: stay
+#   planes, in five directions  0.05, 0.16              0.06, 0.40        the rest of the staircase: stay
 #   wall 5 cells thick          0.07, 0.12              0.05, 0.37        whole in the strong filter: stay
 #   ball of radius 10           1.2,  1.6               0.19, 0.34        too strong, the middle one is right
 #   edge of 90°                 0.47, 1.25              0.12, 0.52        the middle one, and a little of the mild
@@ -81,13 +81,13 @@ INNER = Gate(size=2, signed=0.3, unsigned=0.7)  # from there to the mild one
 
 
 NOISE_SIZE = 2  # cells: noise is what alternates over this distance
-NEAR = 0.3  # of the largest weight: places as near to the surface as this are looked at
-QUIET = 0.25  # the share of those places that are quieter: edges are not noise, and may be everywhere else
+NEAR = 0.3  # of the largest weight: cells above it are near enough to the surface to measure noise
+QUIET = 0.25  # quantile of the variance in those cells: edges are not noise, and may fill the rest
 
 
 @dataclass(frozen=True, kw_only=True)
 class Exact:
-    """How exact data hold the surface.
+    """Limits by which exact data hold the surface.
 
     Parameters
     ----------
@@ -99,33 +99,35 @@ class Exact:
 
     @property
     def gate(self) -> Gate:
-        """When to use the data: noise averages out in <r>, so that limits of it grow less than those of <r²>.
+        """Gate of the data: noise averages out in <r>, so that its limit grows less than that of <r²>.
 
         Measured on boxes of 40 and 100 cells and on balls with noise of 0, 0.06, 0.15 and 0.3 cells: faces of boxes lie
-        within 0.01 cells of their place, and of the noise 30 % remain.
+        within 0.01 cells of their place, and 30 % of the noise remains.
         """
         return Gate(size=2, signed=0.02 + 0.25 * self.noise, unsigned=0.12 + 2 * self.noise)
 
     @property
     def bound(self) -> float:
-        """How far the surface may move, cells."""
+        """Largest distance that the surface may move, cells."""
         return max(0.25, 3 * self.noise)
 
 
 def noise_of(weight: NDArray[np.floating], mean: NDArray[np.floating], square: NDArray[np.floating]) -> float:
-    """Return the noise of exact data, cells: how much P_0 moves their surface to and fro, where it is quiet.
+    """Estimate the noise of exact data, cells: the deviation of P_0 from their surface in quiet places.
 
     Parameters
     ----------
     weight, mean, square : float
-        <w>, <w r> and <w r²> of `gate`, r being what P_0 changes, cells. Where an edge or a whole wall recedes, r has
-        one sign: that is no noise, and is taken off.
+        <w>, <w r> and <w r²> of `gate`, with r the change by P_0, cells. Where an edge or an entire wall recedes, r has
+        one sign: this is not noise, and is subtracted.
     """
-    near = weight > NEAR * max(float(weight.max(initial=0.0)), TINY)
-    if not near.any():
+    near_surface = weight > NEAR * max(float(weight.max(initial=0.0)), TINY)
+    if not near_surface.any():
         return 0.0
-    each = mean[near] / weight[near]
-    return float(np.sqrt(np.quantile(np.maximum(square[near] / weight[near] - each**2, 0.0), QUIET)))
+    local_mean = mean[near_surface] / weight[near_surface]
+    return float(
+        np.sqrt(np.quantile(np.maximum(square[near_surface] / weight[near_surface] - local_mean**2, 0.0), QUIET))
+    )
 
 
 def refine_bricks(
@@ -144,8 +146,8 @@ def refine_bricks(
     f : up to three axes
         bool, True solid; or numbers in [-1, 1].
     smoothing : Smoothing
-        `steps` sets how far it reaches: as far as plain smoothing with that many steps, of which 65 / 20 times as many
-        are done. Fidelity is ignored: the gates take its place.
+        `steps` sets the reach: that of plain smoothing with this number of steps. 65 / 20 times as many are done.
+        Fidelity is ignored: the gates take its place.
     spacing : float or one per axis, mm
         Averages are taken over cells, and distances measured in units of the shortest cell side.
     exact : bool
@@ -177,28 +179,28 @@ def refine_bricks(
     result = replace(strong, values=REFINED.distance(strong.values, threads=threads))
     unit = cut_off(smoothing.interface)
     for milder, limits in ((middle, OUTER), (mild, INNER)):
-        _blend(result, milder.values, limits, unit, threads)
+        _blend_by_gate(result, milder.values, limits, unit, threads)
     if exact:
-        _hold(result, mild.values, unit, threads)
+        _hold_to_data(result, mild.values, unit, threads)
     return result
 
 
-def _hold(result: SparseField, mild: Field, unit: float, threads: int) -> None:
-    """Do in place what `Exact` says with the data, which are exact; `mild` is P_0."""
+def _hold_to_data(result: SparseField, mild: Field, unit: float, threads: int) -> None:
+    """Hold the result to exact data within the limits of `Exact`, in place; `mild` is P_0."""
     data = np.asarray(result.data, dtype=np.float32)
-    distance, below = (REFINED.distance(each, threads=threads).reshape(-1, CELLS) for each in (data, mild))
-    noise = _averages(result, below, distance, data, NOISE_SIZE, unit, threads)
-    held = Exact(noise=noise_of(noise[:, 0], noise[:, 1], noise[:, 2]))
-    _blend(result, data, held.gate, unit, threads)
-    in_threads(kernels.hold, result.values.reshape(-1, CELLS), distance, held.bound / unit, threads=threads)
+    distance, mild_distance = (REFINED.distance(field, threads=threads).reshape(-1, CELLS) for field in (data, mild))
+    noise = _gate_averages(result, mild_distance, distance, data, NOISE_SIZE, unit, threads)
+    exact = Exact(noise=noise_of(noise[:, 0], noise[:, 1], noise[:, 2]))
+    _blend_by_gate(result, data, exact.gate, unit, threads)
+    in_threads(kernels.hold, result.values.reshape(-1, CELLS), distance, exact.bound / unit, threads=threads)
 
 
 def on_profile(
     distance: NDArray[np.floating], interface: float, *, out: Field | None = None, threads: int | None = None
 ) -> Field:
-    """Return distances in cells as the phase field whose surface does not move: +-1 where the distance is cut off.
+    """Convert distances in cells to the phase field whose surface does not move: +-1 beyond the cut-off.
 
-    It is written to `out`, if given, which may be the distances.
+    The field is written to `out`, if given, which may be the distances.
 
     >>> on_profile(np.array([-9, 0, 2, 9]), 2.0).round(2).tolist()
     [-1.0, 0.0, 0.8999999761581421, 1.0]
@@ -207,7 +209,7 @@ def on_profile(
 
 
 def cut_off(interface: float) -> float:
-    """Return the distance from the surface beyond which distances are cut off, cells."""
+    """Return the cut-off distance from the surface, cells."""
     return REFINED.scale * interface / STEEPNESS
 
 
@@ -219,24 +221,24 @@ def filtered_bricks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> tuple[SparseField, SparseField, SparseField]:
-    """Return P_0, P_1 and P_2, which share everything but their values; see `refine_bricks` for the parameters."""
+    """Return P_0, P_1 and P_2, which share all arrays except their values; for parameters, see `refine_bricks`."""
     threads = thread_count(threads)
     schedule = Schedule.of(smoothing.steps)
     numbers = numbers_of(smoothing, spacing, f.ndim)
     data, state = states_of(on_three_axes(f), threads)
     bricks = Bricks.around(state, data, threads)
     bricks.gather(data, data)
-    before, known = bricks.phi[: bricks.count].copy(), bricks.count
-    sums = [_Sum(weights) for weights in schedule.weights]
+    previous, known_count = bricks.phi[: bricks.count].copy(), bricks.count
+    sums = [_WeightedSum(weights) for weights in schedule.weights]
     for k in range(schedule.last):
         if progress is not None:
             progress(k / schedule.last)
         bricks.activate()
-        before, known = _grown(before, known, bricks), bricks.count
-        _step(bricks, before, numbers, schedule.momentum(k))
-        for each in sums:
-            each.add(bricks, k + 1)
-    del before
+        previous, known_count = _extend_to_new_bricks(previous, known_count, bricks), bricks.count
+        _step(bricks, previous, numbers, schedule.momentum(k))
+        for weighted_sum in sums:
+            weighted_sum.add(bricks, k + 1)
+    del previous
     shape = data.shape
     field = SparseField(
         shape=(shape[0], shape[1], shape[2]),
@@ -245,11 +247,13 @@ def filtered_bricks(
         values=np.empty((0, *BRICK), dtype=np.float32),
         data=bricks.held[: bricks.count].reshape(-1, *BRICK),
     )
-    mild, middle, strong = (replace(field, values=each.whole(bricks).reshape(-1, *BRICK)) for each in sums)
+    mild, middle, strong = (
+        replace(field, values=weighted_sum.whole(bricks).reshape(-1, *BRICK)) for weighted_sum in sums
+    )
     return mild, middle, strong
 
 
-class _Sum:
+class _WeightedSum:
     """A weighted sum of the fields after certain steps, for the bricks that exist so far."""
 
     def __init__(self, weights: dict[int, float]) -> None:
@@ -268,10 +272,10 @@ class _Sum:
         return self.total
 
     def _add(self, bricks: Bricks, weight: float) -> None:
-        known = len(self.total)
-        if known < bricks.count:
+        known_count = len(self.total)
+        if known_count < bricks.count:
             larger = np.empty((bricks.count, CELLS), dtype=np.float32)
-            larger[:known] = self.total
+            larger[:known_count] = self.total
             self.total = larger
         in_threads(
             kernels.add_snapshot,
@@ -279,7 +283,7 @@ class _Sum:
             bricks.held,
             self.total,
             np.float32(weight),
-            known,
+            known_count,
             np.float32(self.so_far),
             bricks.count,
             threads=bricks.threads,
@@ -287,22 +291,22 @@ class _Sum:
         self.so_far += weight
 
 
-def _grown(before: Field, known: int, bricks: Bricks) -> Field:
-    """Return the last but one field extended by the new bricks: until now, those were equal to their data."""
-    if len(before) < bricks.count:
+def _extend_to_new_bricks(previous: Field, known_count: int, bricks: Bricks) -> Field:
+    """Extend the last but one field to the new bricks, in which it equals the data."""
+    if len(previous) < bricks.count:
         larger = np.empty((bricks.room(MORE), CELLS), dtype=np.float32)
-        larger[:known] = before[:known]
-        before = larger
-    before[known : bricks.count] = bricks.held[known : bricks.count]
-    return before
+        larger[:known_count] = previous[:known_count]
+        previous = larger
+    previous[known_count : bricks.count] = bricks.held[known_count : bricks.count]
+    return previous
 
 
-def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> None:
-    """Do one step in place; `before` receives the field as it was."""
+def _step(bricks: Bricks, previous: Field, numbers: Numbers, momentum: float) -> None:
+    """Do one step in place; `previous` receives the old field."""
     in_threads(
         kernels.step,
         bricks.phi,
-        before,
+        previous,
         bricks.faces,
         bricks.next_faces,
         bricks.flat,
@@ -320,7 +324,7 @@ def _step(bricks: Bricks, before: Field, numbers: Numbers, momentum: float) -> N
     bricks.swap()
 
 
-def _averages(
+def _gate_averages(
     bricks: SparseField, below: Field, above: Field, phase: Field, size: int, unit: float, threads: int
 ) -> NDArray[np.float32]:
     """Return <w>, <w r> and <w r²> of `gate` on coarse cells; `phase` is the milder field, of distance `above`."""
@@ -331,20 +335,20 @@ def _averages(
     return blurred
 
 
-def _blend(low: SparseField, phase: Field, limits: Gate, unit: float, threads: int) -> None:
-    """Do in place what `gate` does, with averages from coarse cells; `phase` is the milder field."""
-    below, above = low.values.reshape(-1, CELLS), REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
-    blurred = _averages(low, below, above, phase, limits.size, unit, threads)
+def _blend_by_gate(result: SparseField, phase: Field, gate_limits: Gate, unit: float, threads: int) -> None:
+    """Blend two fields by `gate`, in place, with averages from coarse cells; `phase` is the milder one."""
+    below, above = result.values.reshape(-1, CELLS), REFINED.distance(phase, threads=threads).reshape(-1, CELLS)
+    blurred = _gate_averages(result, below, above, phase, gate_limits.size, unit, threads)
     in_threads(
         kernels.blend,
         below,
         above,
         blurred,
-        low.slots,
-        low.where,
-        low.shape,
-        np.float32(limits.signed),
-        np.float32(limits.unsigned),
+        result.slots,
+        result.where,
+        result.shape,
+        np.float32(gate_limits.signed),
+        np.float32(gate_limits.unsigned),
         np.float32(TINY),
         threads=threads,
     )
@@ -357,24 +361,24 @@ def filtered_reference(
     schedule = Schedule.of(smoothing.steps)
     phi = f.astype(np.float64)
     weights, decay = smoothing.weights(spacing_of(spacing, phi.ndim)), smoothing.decay
-    before, found = phi, [np.zeros_like(phi) for _ in schedule.weights]
+    previous, totals = phi, [np.zeros_like(phi) for _ in schedule.weights]
     for k in range(schedule.last):
-        v = diffused(phi, weights) + schedule.momentum(k) * (phi - before)
-        before, phi = phi, reacted(v, decay)
-        for total, shares in zip(found, schedule.weights, strict=True):
+        v = diffused(phi, weights) + schedule.momentum(k) * (phi - previous)
+        previous, phi = phi, reacted(v, decay)
+        for total, shares in zip(totals, schedule.weights, strict=True):
             total += shares.get(k + 1, 0.0) * phi
-    return tuple(found)
+    return tuple(totals)
 
 
 def gate(
     low: NDArray[np.float64], high: NDArray[np.float64], weight: NDArray[np.float64], limits: Gate
 ) -> NDArray[np.float64]:
-    """Return low + g r, r = high - low, with g near 1 where the milder field `high` is to be trusted.
+    """Return low + g r, r = high - low, with g near 1 where the milder field `high` is right.
 
         g = max(<r>^4 / (<r>^4 + signed^4), <r²>^4 / (<r²>^4 + unsigned^8))
 
     <.> is the average over a Gaussian of `size` cells, weighted by nearness to the surface. A staircase averages
-    out in <r>, and its <r²> is small; neither is true of a rounded edge or a wall that melts away.
+    out in <r>, and its <r²> is small; a rounded edge or a wall that melts away has neither property.
 
     Parameters
     ----------
@@ -386,10 +390,12 @@ def gate(
     """
     r = high - low
 
-    whole, mean, square = averages(r, weight, limits.size)
-    whole = whole + TINY
-    bias, spread = (mean / whole) ** 4, (square / whole) ** 4
-    share = np.maximum(bias / (bias + limits.signed**4), spread / (spread + limits.unsigned**8))
+    total_weight, mean, square = averages(r, weight, limits.size)
+    total_weight = total_weight + TINY
+    signed_power, unsigned_power = (mean / total_weight) ** 4, (square / total_weight) ** 4
+    share = np.maximum(
+        signed_power / (signed_power + limits.signed**4), unsigned_power / (unsigned_power + limits.unsigned**8)
+    )
     blended: NDArray[np.float64] = low + share * r
     return blended
 
@@ -407,18 +413,18 @@ def refine_reference(
     f: NDArray[Any], smoothing: Smoothing, *, spacing: float | tuple[float, ...] = 1.0, exact: bool = False
 ) -> NDArray[np.float64]:
     """Return the refined distance in float64, +-1 far away: the specification of `refine_bricks`."""
-    fields = [np.clip(each, -1, 1) for each in filtered_reference(f, smoothing, spacing=spacing)]
+    fields = [np.clip(field, -1, 1) for field in filtered_reference(f, smoothing, spacing=spacing)]
     unit = cut_off(smoothing.interface)
     mild, middle, strong = (
-        np.arctanh(np.clip(each, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale) for each in fields
+        np.arctanh(np.clip(field, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale) for field in fields
     )
     blended = gate(strong, middle, 1 - fields[1] ** 2, OUTER)
     blended = gate(blended, mild, 1 - fields[0] ** 2, INNER)
     if exact:
         f = f.astype(np.float64)
         data = np.arctanh(np.clip(f, -REFINED.steepest, REFINED.steepest)) * (unit / REFINED.scale)
-        held = Exact(noise=noise_of(*averages(data - mild, 1 - f**2, NOISE_SIZE)))
-        blended = gate(blended, data, 1 - f**2, held.gate)
-        blended = np.where(f < 1, np.minimum(blended, data + held.bound), blended)
-        blended = np.where(f > -1, np.maximum(blended, data - held.bound), blended)
+        exact_limits = Exact(noise=noise_of(*averages(data - mild, 1 - f**2, NOISE_SIZE)))
+        blended = gate(blended, data, 1 - f**2, exact_limits.gate)
+        blended = np.where(f < 1, np.minimum(blended, data + exact_limits.bound), blended)
+        blended = np.where(f > -1, np.maximum(blended, data - exact_limits.bound), blended)
     return blended / unit

@@ -1,4 +1,4 @@
-"""Which steps of a run with momentum go into the three filters of refining, and with what weight.
+"""Schedule of refining: the steps of a run with momentum that enter the three filters, with their weights.
 
 See `infill.phasefield.refining` for the scheme and the polynomials T_k.
 """
@@ -23,7 +23,7 @@ FEWEST = 4  # steps: with fewer, two of the six would coincide
 
 @dataclass(frozen=True, kw_only=True)
 class Schedule:
-    """How many steps are done, which of them are kept, and for what.
+    """Number of steps, and the weights of snapshots in each filter.
 
     Parameters
     ----------
@@ -53,11 +53,14 @@ class Schedule:
         """
         if steps < FEWEST:
             raise ParameterError(f"refining was given {steps} steps; it takes at least {FEWEST}, and 20 as a rule")
-        kept = [int(steps * quarters / 4 + 0.5) for quarters in QUARTERS]
-        shares = _shares(kept[-1], kept[1], max(len(each) for each in FILTERS))
+        snapshots = [int(steps * quarters / 4 + 0.5) for quarters in QUARTERS]
+        shares = _leading_coefficients(snapshots[-1], snapshots[1], max(len(indices) for indices in FILTERS))
         return cls(
-            plain=kept[1],
-            weights=tuple(_flat({kept[n]: shares[kept[n], : len(each)] for n in each}) for each in FILTERS),
+            plain=snapshots[1],
+            weights=tuple(
+                _flat_weights({snapshots[n]: shares[snapshots[n], : len(indices)] for n in indices})
+                for indices in FILTERS
+            ),
         )
 
     @property
@@ -70,23 +73,23 @@ class Schedule:
         return 0.0 if step < self.plain else MOMENTUM
 
 
-def _shares(steps: int, plain: int, powers: int) -> NDArray[np.float64]:
+def _leading_coefficients(steps: int, plain: int, powers: int) -> NDArray[np.float64]:
     """Return the lowest coefficients of T_0, T_1, ... in powers of x."""
     share = np.zeros((steps + 1, powers))
     share[0, 0] = 1
-    before = share[0]
+    previous = share[0]
     for k in range(steps):
-        now, damped = share[k], np.append(0, share[k, :-1])
-        share[k + 1] = now - damped + (0 if k < plain else MOMENTUM) * (now - before)
-        before = now
+        current, damped = share[k], np.append(0, share[k, :-1])
+        share[k + 1] = current - damped + (0 if k < plain else MOMENTUM) * (current - previous)
+        previous = current
     return share
 
 
-def _flat(shares: dict[int, NDArray[np.float64]]) -> dict[int, float]:
+def _flat_weights(shares: dict[int, NDArray[np.float64]]) -> dict[int, float]:
     """Return the weights for which the sum of polynomials is 1 + O(x^n), n being their number."""
     powers = np.stack(list(shares.values()), axis=1)
     size = np.abs(powers).max(axis=1)
-    wanted = np.zeros(len(powers))
-    wanted[0] = 1
-    solution = np.linalg.solve(powers / size[:, None], wanted / size)
+    target = np.zeros(len(powers))
+    target[0] = 1
+    solution = np.linalg.solve(powers / size[:, None], target / size)
     return dict(zip(shares, solution.tolist(), strict=True))

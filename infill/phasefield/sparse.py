@@ -1,4 +1,4 @@
-"""The compiled scheme on bricks around the surface only; nothing moves anywhere else.
+"""The compiled scheme on bricks around the surface only; no other cell can change.
 
 Where phi = f = +-1 among equal neighbours, a cell is a fixed point to the last bit (see `infill.kernels.dense`). So
 a brick in which that holds need not be kept, and a step touches a brick only once a neighbour's face has a different
@@ -27,8 +27,8 @@ from infill.phasefield.allen_cahn import Smoothing
 from infill.phasefield.dense import Data, Field, Numbers, numbers_of, on_three_axes
 
 # Room to reserve for bricks, relative to those there are: at first enough for one more layer on both sides of the
-# surface, to get beyond which takes 8 steps; later half as much again, so that all copies together are at most three
-# times the last one. There is none for more than the lattice has: memory that was used before is not free of cost.
+# surface, which 8 steps cannot cross; later half as much again, so that all copies together are at most three times
+# the last one. It never exceeds the lattice: memory that was used before is not free of cost.
 ROOM, MORE = 3.0, 1.5
 
 
@@ -47,7 +47,7 @@ class SparseField:
     values : (n, 8, 8, 16) float32
         The cells of the bricks; cell 0 of brick 0 lies one cell before the grid.
     data : (n, 8, 8, 16) int8 or float32
-        What the cells were smoothed from.
+        The data before smoothing, in the same cells.
     """
 
     shape: tuple[int, int, int]
@@ -57,18 +57,18 @@ class SparseField:
     data: Data
 
     def gathered(self, whole: Field, *, threads: int | None = None) -> Field:
-        """Return the cells of a whole field (n0, n1, n2) that are in bricks, (n, 8, 8, 16), as `values` has them."""
-        found = np.empty((len(self.where), CELLS), dtype=whole.dtype)
+        """Gather the cells in bricks from a dense field (n0, n1, n2): (n, 8, 8, 16), like `values`."""
+        cells = np.empty((len(self.where), CELLS), dtype=whole.dtype)
         count = thread_count(threads)
-        in_threads(transfer_kernels.gather, whole, self.where, found, len(found), None, threads=count)
-        return found.reshape(self.values.shape)
+        in_threads(transfer_kernels.gather, whole, self.where, cells, len(cells), None, threads=count)
+        return cells.reshape(self.values.shape)
 
     def to_dense(self, *, threads: int | None = None) -> Field:
         """Return the whole field, (n0, n1, n2) float32."""
         count = thread_count(threads)
-        whole = np.empty(self.shape, dtype=np.float32)
-        in_threads(transfer_kernels.spread, self.slots, self.values.reshape(-1, CELLS), whole, threads=count)
-        return whole
+        dense = np.empty(self.shape, dtype=np.float32)
+        in_threads(transfer_kernels.spread, self.slots, self.values.reshape(-1, CELLS), dense, threads=count)
+        return dense
 
 
 def smooth_sparse(
@@ -79,9 +79,9 @@ def smooth_sparse(
     initial: NDArray[np.generic] | None = None,
     mask: NDArray[np.bool_] | None = None,
 ) -> Field:
-    """Return what `infill.phasefield.dense.smooth_dense` returns, to the last bit, for up to three axes.
+    """Smooth like `infill.phasefield.dense.smooth_dense`, identical to the last bit, on up to three axes.
 
-    Grey data have surface everywhere: there it does what the dense kernel does, with more overhead.
+    Grey data have surface everywhere: there it does the work of the dense kernel, with more overhead.
     """
     return smooth_bricks(f, smoothing, spacing=spacing, initial=initial, mask=mask).to_dense().reshape(f.shape)
 
@@ -97,7 +97,7 @@ def smooth_bricks(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SparseField:
-    """Return the smoothed field in bricks, without ever holding it whole.
+    """Smooth a field in bricks, without ever allocating a dense one.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def smooth_bricks(
         Called before each step with the share of steps done.
     """
     threads = thread_count(threads)
-    numbers = numbers_of(smoothing, spacing, f.ndim)
+    coefficients = numbers_of(smoothing, spacing, f.ndim)
     data, state = states_of(on_three_axes(f), threads)
     start = data
     if initial is not None:
@@ -124,7 +124,7 @@ def smooth_bricks(
         if progress is not None:
             progress(n / smoothing.steps)
         bricks.activate()
-        bricks.step(numbers, domain)
+        bricks.step(coefficients, domain)
     shape = data.shape
     return SparseField(
         shape=(shape[0], shape[1], shape[2]),
@@ -136,7 +136,7 @@ def smooth_bricks(
 
 
 def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[np.int8]]:
-    """Return the field as the kernels expect it, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
+    """Return the field in the type of the kernels, and the state of every brick: +1, -1, `MIXED` or `OUTER`."""
     if field.dtype == bool:
         data: Data = field.view(np.int8)
     elif np.issubdtype(field.dtype, np.integer):
@@ -150,7 +150,7 @@ def states_of(field: NDArray[np.generic], threads: int) -> tuple[Data, NDArray[n
     zeros = np.zeros(lattice[:2], dtype=bool)
     if data.dtype == np.int8:
         in_threads(transfer_kernels.fill_states, data, state, zeros, threads=threads)
-        if zeros.any() and field.dtype != bool:  # whole numbers between void and solid: that is grey
+        if zeros.any() and field.dtype != bool:  # integers between void and solid are grey
             return states_of(data.astype(np.float32), threads)
     else:
         in_threads(transfer_kernels.fill_grey_states, data, state, threads=threads)
@@ -175,28 +175,28 @@ class Bricks:
 
     @classmethod
     def around(cls, state: NDArray[np.int8], data: Data, threads: int) -> Bricks:
-        """Return room for the bricks that are mixed or next to one of the other phase."""
-        kept = state == MIXED
+        """Allocate the bricks that are mixed or next to a brick of the other phase."""
+        is_kept = state == MIXED
         for axis in range(3):
             low, high = (
-                tuple(part if a == axis else slice(None) for a in range(3))
-                for part in (slice(None, -1), slice(1, None))
+                tuple(side if a == axis else slice(None) for a in range(3))
+                for side in (slice(None, -1), slice(1, None))
             )
             differs = state[low] * state[high] == -1
-            kept[low] |= differs
-            kept[high] |= differs
+            is_kept[low] |= differs
+            is_kept[high] |= differs
         slots = np.full(state.shape, VOID_BRICK, dtype=np.int32)
         slots[state == 1] = SOLID_BRICK
         slots[state == OUTER] = OUTSIDE
-        where = np.argwhere(kept).astype(np.int32)
-        slots[kept] = np.arange(len(where))
+        where = np.argwhere(is_kept).astype(np.int32)
+        slots[is_kept] = np.arange(len(where))
         return cls(slots, where, data, threads)
 
     def gather(self, start: Data, data: Data) -> None:
         """Copy the cells of start and data, which may be the same array."""
-        self._take(data, self.held)
+        self._gather_into(data, self.held)
         if start is not data:
-            self._take(start, self.phi)
+            self._gather_into(start, self.phi)
         in_threads(
             kernels.emit_all,
             self.phi,
@@ -211,23 +211,23 @@ class Bricks:
             threads=self.threads,
         )
 
-    def _take(self, whole: Data, bricks: Data) -> None:
-        level = 0 if whole.dtype == np.int8 else None
-        in_threads(transfer_kernels.gather, whole, self.where, bricks, self.count, level, threads=self.threads)
+    def _gather_into(self, source: Data, bricks: Data) -> None:
+        level = 0 if source.dtype == np.int8 else None
+        in_threads(transfer_kernels.gather, source, self.where, bricks, self.count, level, threads=self.threads)
 
     def activate(self) -> None:
-        """Start keeping the bricks next to faces of a different value."""
-        found = np.empty((6 * self.count, 3), dtype=np.int32)
-        wanted = found[: kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count, found)]
-        if len(wanted) == 0:
+        """Add the bricks next to faces of a different value."""
+        candidates = np.empty((6 * self.count, 3), dtype=np.int32)
+        places = candidates[: kernels.wanted(self.slots, self.where, self.beside, self.flat, self.count, candidates)]
+        if len(places) == 0:
             return
-        first, self.count = self.count, self.count + len(wanted)
+        old_count, self.count = self.count, self.count + len(places)
         if self.count > len(self.phi):
             self._grow(MORE)
-        self.where[first : self.count] = wanted
-        values = np.where(self.slots[tuple(wanted.T)] == SOLID_BRICK, 1, -1).astype(np.int8)
-        self.slots[tuple(wanted.T)] = np.arange(first, self.count)
-        kernels.find_neighbours(self.slots, self.where, self.beside, first, self.count)
+        self.where[old_count : self.count] = places
+        values = np.where(self.slots[tuple(places.T)] == SOLID_BRICK, 1, -1).astype(np.int8)
+        self.slots[tuple(places.T)] = np.arange(old_count, self.count)
+        kernels.find_neighbours(self.slots, self.where, self.beside, old_count, self.count)
         in_threads(
             kernels.fill,
             self.phi,
@@ -238,7 +238,7 @@ class Bricks:
             self.next_rows,
             self.still,
             values,
-            first,
+            old_count,
             self.count,
             threads=self.threads,
         )
@@ -267,21 +267,21 @@ class Bricks:
         self.swap()
 
     def swap(self) -> None:
-        """Make what was noted after a step what is known before the next one."""
+        """Make the copies after a step those before the next one."""
         self.faces, self.next_faces = self.next_faces, self.faces
         self.flat, self.next_flat = self.next_flat, self.flat
         self.rows, self.next_rows = self.next_rows, self.rows
 
     def room(self, times: float) -> int:
-        """Return for how many bricks there is to be room: times as many as there are, but no more than there can be."""
+        """Return the number of bricks to allocate: the present number times a factor, limited by the lattice."""
         return max(16, min(int(times * self.count), self.slots.size))
 
     def _grow(self, times: float) -> None:
-        """Make room for so many times as many bricks as there are."""
+        """Enlarge the arrays to the present number of bricks times a factor."""
         room = self.room(times)
         faces = ("faces", "next_faces", "flat", "next_flat", "rows", "next_rows")
         for name in ("phi", "held", *faces, "still", "beside", "where"):
-            old = getattr(self, name)
-            new = np.empty((room, *old.shape[1:]), dtype=old.dtype)
-            new[: min(len(old), self.count)] = old[: self.count]
-            setattr(self, name, new)
+            current = getattr(self, name)
+            larger = np.empty((room, *current.shape[1:]), dtype=current.dtype)
+            larger[: min(len(current), self.count)] = current[: self.count]
+            setattr(self, name, larger)

@@ -1,11 +1,11 @@
-"""One way from data to a surface, in five stages, whatever the data come from: see `attempted` and `delivered`.
+"""Smooth data of any source into a surface, in five stages: see `attempted` and `delivered`.
 
-cleaned     the data without specks
-smoothed    the field in bricks
-levelled    the surface at the level at which every component has its volume, without crumbs
-judged      what smoothing did: to components, cavities, tunnels and walls, and how far the surface lies from what
-            was given, both ways
-delivered   the surface in its place, simplified, and the report
+clean       remove specks from the data
+smooth      compute the field in bricks
+level       find the surface at the level at which every component has its volume, and remove crumbs
+judge       compare components, cavities, tunnels and walls before and after, and measure the distance between the
+            surface and the input, both ways
+deliver     place and simplify the surface, and write the report
 """
 
 from __future__ import annotations
@@ -44,29 +44,30 @@ if TYPE_CHECKING:
     from infill.surface import Surface
     from infill.volume import Volume
 
-OFF = 0.01  # of the volume: how far the volume may be off, because of specks that are gone
+OFF = 0.01  # of the volume: deviation that is tolerated, because of specks that are gone
 NAMED = 5  # of the places that were lost or added are listed
-COMPARED = 5_000  # vertices of the voxels whose distance from the mesh is told
+COMPARED = 5_000  # vertices of the voxels whose distance from the mesh is reported
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Attempt:
-    """A surface, before it is simplified, and what is to be said about it.
+    """A surface, before it is simplified, and its verdict.
 
     Parameters
     ----------
     given, request : Given, Request
-        Of which it was made; the data without specks, and lengths in cells.
+        The input and the options it was made from; the data have no specks, and lengths are in cells.
     field : SparseField
     surfaced : Surfaced
     crumbs, specks : Crumbs, int
-        What was taken out afterwards and beforehand.
+        Crumbs removed after smoothing, and the number of specks removed before.
     judged : Verdict
     thinnest : (float or None, float or None), mm
         The thinnest walls, in the data and smoothed: see `infill.inspection.thickness.thinnest_walls`.
     found : Fidelity or None
-        How far it lies from what was given; None if it is sure to be near everywhere, and nobody measured it.
+        Its distance from the input; None if it is sure to be near everywhere, so that it was not measured.
     told : Differences
+        The verdict in words.
     full : Surface, mm
         The surface in its place.
     clock : Clock
@@ -87,30 +88,30 @@ class Attempt:
 
     @property
     def sound(self) -> bool:
-        """Whether there is nothing that another attempt might mend."""
+        """Whether another attempt could not improve on this one."""
         return self.told.word != "lost" and not self.apart
 
     @property
     def apart(self) -> bool:
-        """Whether parts ran together or came apart, holes of a mesh closed, or the volume is off."""
-        changes, was, now = self.judged.changes, self.given.topology, self.judged.result
-        if was is None:
+        """Whether parts fused or broke, holes of a mesh closed, or the volume is off."""
+        changes, before, after = self.judged.changes, self.given.topology, self.judged.result
+        if before is None:
             broken = bool(changes.broken or changes.fused or changes.vanished)
         else:
-            broken = now.components != was.components or now.tunnels < was.tunnels
+            broken = after.components != before.components or after.tunnels < before.tunnels
         return broken or off_by(self.surfaced, self.given, self.request) != 0
 
     @property
     def rank(self) -> tuple[bool, int, float]:
-        """The lower, the better."""
+        """Sort key of attempts: the lowest is the best."""
         patches = (*self.found.lost, *self.found.added) if self.found else ()
         area = float(sum(patch.area for patch in patches))
         return self.told.word == "lost", len(self.told.problems), area
 
 
 @told_of_compiling("the smoother")
-def attempted(given: Given, request: Request) -> Attempt:
-    """Return one result, however good it is; the way to smooth is known by now. The first four stages.
+def attempted(smooth_input: Given, request: Request) -> Attempt:
+    """Smooth the data in the requested way and judge the surface, however good it is: the first four stages.
 
     Raises
     ------
@@ -118,34 +119,38 @@ def attempted(given: Given, request: Request) -> Attempt:
         If nothing is left, or the surface is not closed.
     MemoryLimitError
     """
-    request = request.at(float(given.data.cell_size.min()))
+    request = request.at(float(smooth_input.data.cell_size.min()))
     clock = Clock(request.progress)
     with clock.stage("smooth", 0.05):
-        require_room(given.data, request)
-        data, specks = cleaned(given.data, request)
-        given = replace(given, data=data)
-        field = _smoothed(given, request, clock)
+        require_room(smooth_input.data, request)
+        data, specks = cleaned(smooth_input.data, request)
+        smooth_input = replace(smooth_input, data=data)
+        field = _smooth_field(smooth_input, request, clock)
     with clock.stage("surface", 0.4):
-        raised = levelled(field, given, request)
+        raised = levelled(field, smooth_input, request)
     with clock.stage("check", 0.5):
         threads = thread_count(request.threads)
-        full, (flips, near), _ = together(
-            partial(_whole, raised, data),
-            partial(_changed, raised, given, request),
+        full, (flips, surely_near), _ = together(
+            partial(_measured_surface, raised, data),
+            partial(_sign_changes, raised, smooth_input, request),
             partial(getattr, raised.found, "shells"),
             threads=threads,
         )
-        surfaced, crumbs = without_crumbs(raised, given, request)
+        surfaced, crumbs = without_crumbs(raised, smooth_input, request)
         if surfaced.found.surface is not raised.found.surface:
-            full = _whole(surfaced, data)
+            full = _measured_surface(surfaced, data)
         if not full.closed:
             raise GeometryError("the surface is not closed; use finer voxels or fewer steps")
         judged, thinnest = together(
-            partial(_judged, surfaced, flips, data, request), partial(_thinnest, surfaced, data), threads=threads
+            partial(_topology_verdict, surfaced, flips, data, request),
+            partial(_wall_thickness, surfaced, data),
+            threads=threads,
         )
-        found = None if near and not crumbs.count else _compared(full, given, field, request)
+        deviation = (
+            None if surely_near and not crumbs.count else _compare_with_input(full, smooth_input, field, request)
+        )
     return Attempt(
-        given=given,
+        given=smooth_input,
         request=request,
         field=field,
         surfaced=surfaced,
@@ -153,15 +158,15 @@ def attempted(given: Given, request: Request) -> Attempt:
         specks=specks,
         judged=judged,
         thinnest=thinnest,
-        found=found,
-        told=differences(judged, found, given, off=off_by(surfaced, given, request)),
+        found=deviation,
+        told=differences(judged, deviation, smooth_input, off=off_by(surfaced, smooth_input, request)),
         full=full,
         clock=clock,
     )
 
 
-def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) -> Verdict:
-    """Return how the solid is connected before and after: by the cells that changed sign, or else by all of them."""
+def _topology_verdict(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) -> Verdict:
+    """Compare the topology before and after: by the cells that changed sign, or else by all cells."""
     return verdict_by_flips(
         surfaced.found, surfaced.before, flips, levels=surfaced.levels, threads=request.threads
     ) or verdict(
@@ -174,34 +179,36 @@ def _judged(surfaced: Surfaced, flips: Flips, data: Volume, request: Request) ->
     )
 
 
-def _whole(surfaced: Surfaced, data: Volume) -> Surface:
-    """Return the surface in its place, measured, on this thread: others see what has changed meanwhile."""
+def _measured_surface(surfaced: Surfaced, data: Volume) -> Surface:
+    """Place the surface and measure it, on this thread alone: other threads work on the topology meanwhile."""
     return with_measures(placed(surfaced.found.surface, data), threads=1)
 
 
-def _changed(raised: Surfaced, given: Given, request: Request) -> tuple[Flips, bool]:
-    """Return the cells that changed sign, and whether the surface is sure to be near what was given: the data."""
-    found, spacing = raised.found, tuple(given.data.cell_size.tolist())
-    flips = Flips.of(found.against, raised.before.bits, found.height, signs=found.signs, threads=request.threads)
-    of_data = given.mesh is None and given.raw is None
+def _sign_changes(raised: Surfaced, smooth_input: Given, request: Request) -> tuple[Flips, bool]:
+    """Return the cells that changed sign, and whether the surface is sure to be near the input (only for voxels)."""
+    levelled, spacing = raised.found, tuple(smooth_input.data.cell_size.tolist())
+    flips = Flips.of(
+        levelled.against, raised.before.bits, levelled.height, signs=levelled.signs, threads=request.threads
+    )
+    of_data = smooth_input.mesh is None and smooth_input.raw is None
     return flips, of_data and near_each_other(flips, spacing=spacing, threads=request.threads)
 
 
-def _thinnest(surfaced: Surfaced, data: Volume) -> tuple[float | None, float | None]:
-    """Return how thin the walls are, in the data and smoothed, mm."""
-    found = surfaced.found
-    return thinnest_walls(found.against, found.surface, tuple(data.cell_size.tolist()), found.height)
+def _wall_thickness(surfaced: Surfaced, data: Volume) -> tuple[float | None, float | None]:
+    """Return the thickness of the thinnest wall, in the data and smoothed, mm."""
+    levelled = surfaced.found
+    return thinnest_walls(levelled.against, levelled.surface, tuple(data.cell_size.tolist()), levelled.height)
 
 
 def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differences]:
-    """Return the result of an attempt, simplified, and what is to be said of what is delivered: the fifth stage."""
-    given, request, clock, data = best.given, best.request, best.clock, best.given.data
-    judged, surfaced, found, told = best.judged, best.surfaced, best.found, best.told
+    """Simplify the surface of an attempt; return the result and its differences from the input: the fifth stage."""
+    smooth_input, request, clock, data = best.given, best.request, best.clock, best.given.data
+    judged, surfaced, deviation, final_verdict = best.judged, best.surfaced, best.found, best.told
     with clock.stage("measure", 0.75):
         surface, simplified = lightened(best.full, request)
         if surface is not best.full:
-            found = _compared(surface, given, best.field, request)
-            told = differences(judged, found, given, off=off_by(surfaced, given, request))
+            deviation = _compare_with_input(surface, smooth_input, best.field, request)
+            final_verdict = differences(judged, deviation, smooth_input, off=off_by(surfaced, smooth_input, request))
     report = report_of(
         product="smooth",
         surface=surface,
@@ -212,51 +219,58 @@ def delivered(best: Attempt) -> tuple[Result[SmoothStages, SmoothReport], Differ
             "origin": list(data.origin),
             "space": data.space,
         },
-        solid={"data": float(surfaced.targets.sum()), "level": _level(surfaced, request)},
+        solid={"data": float(surfaced.targets.sum()), "level": _level_facts(surfaced, request)},
         data=judged.data,
         result=judged.result,
         changes=judged.changes,
-        walls=_walls(best, data),
-        problems=[*told.losses, *told.problems],
+        walls=_wall_facts(best, data),
+        problems=[*final_verdict.losses, *final_verdict.problems],
         seconds=clock.seconds,
         simplified=simplified,
-        input={**given.facts, "despeckled": best.specks},
+        input={**smooth_input.facts, "despeckled": best.specks},
         distance={},
         verdict={
-            "word": told.word,
-            "changes": [*told.losses, *told.problems, *told.remarks, *_remarks(best.crumbs, best.specks)],
-            "lost": [patch.facts() for patch in found.lost[:NAMED]] if found else [],
-            "added": [patch.facts() for patch in found.added[:NAMED]] if found else [],
+            "word": final_verdict.word,
+            "changes": [
+                *final_verdict.losses,
+                *final_verdict.problems,
+                *final_verdict.remarks,
+                *_remarks(best.crumbs, best.specks),
+            ],
+            "lost": [patch.facts() for patch in deviation.lost[:NAMED]] if deviation else [],
+            "added": [patch.facts() for patch in deviation.added[:NAMED]] if deviation else [],
             "crumbs": {"removed": best.crumbs.count, "volume": best.crumbs.volume, "limit": best.crumbs.limit},
             "tried": [],
         },
     )
-    report = Sections(report, {"distance": partial(_distance, surface, given, best.field, request)})
-    stages = SmoothStages(data=data, levelled=surfaced.found, given=given.mesh)
-    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), told
+    report = Sections(report, {"distance": partial(_distance_facts, surface, smooth_input, best.field, request)})
+    stages = SmoothStages(data=data, levelled=surfaced.found, given=smooth_input.mesh)
+    return Result(surfaces={"solid": surface}, report=cast("SmoothReport", report), stages=stages), final_verdict
 
 
-def _raw(given: Given, field: SparseField, request: Request) -> Surface:
-    """Return the surface of the voxels that were given, mm."""
-    return given.raw or raw_surface(field, given.data, request.threads)
+def _raw_surface(smooth_input: Given, field: SparseField, request: Request) -> Surface:
+    """Return the surface of the input voxels, mm."""
+    return smooth_input.raw or raw_surface(field, smooth_input.data, request.threads)
 
 
-def _compared(surface: Surface, given: Given, field: SparseField, request: Request, *, exact: bool = False) -> Fidelity:
-    """Return how far a surface lies from what was given, both ways; by default, only where that is far."""
+def _compare_with_input(
+    surface: Surface, smooth_input: Given, field: SparseField, request: Request, *, exact: bool = False
+) -> Fidelity:
+    """Measure the distance between a surface and the input, both ways; by default, only where it is large."""
     return fidelity(
-        _raw(given, field, request) if given.mesh is None else given.mesh,
+        _raw_surface(smooth_input, field, request) if smooth_input.mesh is None else smooth_input.mesh,
         surface,
-        cell=given.cell or float(given.data.cell_size.max()),
-        closed=given.reference,
-        kinds=kinds_of_places(given, field, threads=request.threads),
+        cell=smooth_input.cell or float(smooth_input.data.cell_size.max()),
+        closed=smooth_input.reference,
+        kinds=kinds_of_places(smooth_input, field, threads=request.threads),
         exact=exact,
         threads=request.threads,
     )
 
 
-def _smoothed(given: Given, request: Request, clock: Clock) -> SparseField:
-    """Return the field in bricks: the second stage."""
-    values, spacing = given.data.values, tuple(given.data.cell_size.tolist())
+def _smooth_field(smooth_input: Given, request: Request, clock: Clock) -> SparseField:
+    """Smooth the data into a field of bricks: the second stage."""
+    values, spacing = smooth_input.data.values, tuple(smooth_input.data.cell_size.tolist())
 
     def progress(share: float) -> None:
         clock.tell("smooth", 0.05 + 0.3 * share)
@@ -266,22 +280,22 @@ def _smoothed(given: Given, request: Request, clock: Clock) -> SparseField:
             values,
             request.smoothing,
             spacing=spacing,
-            exact=given.exact and request.held,
+            exact=smooth_input.exact and request.held,
             threads=request.threads,
             progress=progress,
         )
     return smooth_bricks(values, request.smoothing, spacing=spacing, threads=request.threads, progress=progress)
 
 
-def off_by(surfaced: Surfaced, given: Given, request: Request) -> float:
-    """Return by which part of itself the volume is off, where a level was to keep it."""
-    held = given.enclosed
-    wanted = float(surfaced.targets.sum()) if held is None else held.total
-    off = surfaced.volume / wanted - 1
-    return off if request.level == "volume" and abs(off) > OFF else 0.0
+def off_by(surfaced: Surfaced, smooth_input: Given, request: Request) -> float:
+    """Return the relative error of the volume; 0 if it is tolerable, or the level was fixed."""
+    enclosed = smooth_input.enclosed
+    target = float(surfaced.targets.sum()) if enclosed is None else enclosed.total
+    error = surfaced.volume / target - 1
+    return error if request.level == "volume" and abs(error) > OFF else 0.0
 
 
-def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
+def _level_facts(surfaced: Surfaced, request: Request) -> dict[str, Any]:
     """Return the levels of phi at which the surface lies, for the report."""
     return {
         "method": "volume" if request.level == "volume" else "fixed",
@@ -292,42 +306,44 @@ def _level(surfaced: Surfaced, request: Request) -> dict[str, Any]:
     }
 
 
-def _walls(best: Attempt, data: Volume) -> dict[str, Any]:
-    """Return how thin the walls are, and which were lost, for the report."""
-    before, after = best.thinnest
-    lost = [{"voxels": each.voxels, "at": data.place(each.at[None])[0].tolist()} for each in best.judged.lost]
-    return {"thinnest": {"data": before, "result": after}, "lost": lost}
+def _wall_facts(best: Attempt, data: Volume) -> dict[str, Any]:
+    """Return the thickness of the thinnest walls and the places of lost ones, for the report."""
+    data_thickness, result_thickness = best.thinnest
+    lost = [{"voxels": patch.voxels, "at": data.place(patch.at[None])[0].tolist()} for patch in best.judged.lost]
+    return {"thinnest": {"data": data_thickness, "result": result_thickness}, "lost": lost}
 
 
-def _distance(surface: Surface, given: Given, field: SparseField, request: Request) -> dict[str, Any]:
-    """Return how far the result lies from what was given, both ways, and the voxels from a mesh, for the report."""
-    found = _compared(surface, given, field, request, exact=True)
+def _distance_facts(surface: Surface, smooth_input: Given, field: SparseField, request: Request) -> dict[str, Any]:
+    """Return the distances between result and input, both ways, and from voxels to mesh, for the report."""
+    deviation = _compare_with_input(surface, smooth_input, field, request, exact=True)
     facts: dict[str, Any] = {
-        "from": "voxels" if given.mesh is None else "mesh",
-        "result": found.there.facts(),
-        "input": found.back.facts(),
-        "thin": found.thin,
-        "sheet": found.sheet,
-        "hidden": found.hidden,
+        "from": "voxels" if smooth_input.mesh is None else "mesh",
+        "result": deviation.there.facts(),
+        "input": deviation.back.facts(),
+        "thin": deviation.thin,
+        "sheet": deviation.sheet,
+        "hidden": deviation.hidden,
     }
-    if given.reference is not None:
-        raw = _raw(given, field, request)
-        away = distances(
-            raw.vertices[:: max(1, len(raw.vertices) // COMPARED)], given.reference, threads=request.threads
+    if smooth_input.reference is not None:
+        raw = _raw_surface(smooth_input, field, request)
+        distances_from_mesh = distances(
+            raw.vertices[:: max(1, len(raw.vertices) // COMPARED)], smooth_input.reference, threads=request.threads
         )
         facts["data"] = {
-            "mean": float(away.mean()),
-            "rms": float(np.sqrt((away**2).mean())),
-            "max": float(away.max()),
+            "mean": float(distances_from_mesh.mean()),
+            "rms": float(np.sqrt((distances_from_mesh**2).mean())),
+            "max": float(distances_from_mesh.max()),
         }
     return facts
 
 
 def _remarks(crumbs: Crumbs, specks: int) -> list[str]:
-    """Return what was taken out on purpose, one phrase each."""
-    said = []
+    """Describe crumbs and specks that were removed on purpose, one phrase each."""
+    phrases = []
     if crumbs.count:
-        said.append(f"{crumbs.count} crumbs of up to {crumbs.limit:.3g} mm³ taken out, {crumbs.volume:.3g} mm³ in all")
+        phrases.append(
+            f"{crumbs.count} crumbs of up to {crumbs.limit:.3g} mm³ taken out, {crumbs.volume:.3g} mm³ in all"
+        )
     if specks:
-        said.append(f"{specks} specks taken out beforehand")
-    return said
+        phrases.append(f"{specks} specks taken out beforehand")
+    return phrases

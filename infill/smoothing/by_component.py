@@ -1,4 +1,4 @@
-"""Every component of a mesh as a surface of its own: what overlaps or touches in the file stays apart."""
+"""Smooth every component of a mesh by itself: components that overlap or touch in the file stay apart."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ if TYPE_CHECKING:
 
     from infill.report_keys import ComponentsReport, SmoothReport
 
-FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size was asked for
+FEWEST_ACROSS = 8  # voxels along a component: a shorter one gets finer voxels unless their size is requested
 SMALL = 100  # voxels along a component: one thread does it before others have begun
 WORDS: tuple[str, ...] = get_args(Word)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ComponentStages:
-    """What the surfaces of `infill.smooth_mesh` with `by_component` came from.
+    """The stages of `infill.smooth_mesh` with `by_component`.
 
     Parameters
     ----------
     given : Surface
-        The mesh that was given, mm.
+        The input mesh, mm.
     voxel : float
         Size of the voxels, mm.
     components : mapping of str to Surface
@@ -64,7 +64,7 @@ class ComponentStages:
 def by_components(
     surface: Surface, request: Request, *, resolution: int | None = None, voxel: float | None = None
 ) -> Result[ComponentStages, ComponentsReport]:
-    """Return a smooth surface around every component of a mesh.
+    """Smooth every component of a mesh; return one surface for each.
 
     Parameters
     ----------
@@ -83,19 +83,19 @@ def by_components(
     Raises
     ------
     GeometryError
-        If something is lost of a component, with its name, or if no component encloses anything.
+        If part of a component is lost, with its name, or if no component encloses anything.
     ParameterError, MemoryLimitError
         As `infill.smooth_mesh`, with the name of the component.
 
     Notes
     -----
     A cavity belongs to the component around it: see `infill.meshes.split_components`. All components are smoothed with
-    voxels of one size. If that was not asked for, those that are less than 8 voxels long get finer ones, and so do
-    those of which something would be lost. If broken results are allowed, a component that cannot be smoothed is left
+    voxels of one size. If none is requested, those that are less than 8 voxels long get finer ones, and so do
+    those that would lose something. If broken results are allowed, a component that cannot be smoothed is left
     out, and the report says so.
     """
     fixed = resolution is not None or voxel is not None
-    size = _voxel(surface, resolution, voxel)
+    size = _voxel_size(surface, resolution, voxel)
     clock = Clock(request.progress)
     with clock.stage("components", 0.0):
         parts = parted(surface, size)
@@ -112,12 +112,14 @@ def by_components(
     with clock.stage("smooth", 0.0):
         for (name, part), begin, end in zip(named.items(), shares[:-1].tolist(), shares[1:].tolist(), strict=True):
             longest = float(np.ptp(part.bounds, axis=0).max())
-            own = size if fixed else min(size, longest / FEWEST_ACROSS)
-            asked = replace(request, progress=told_between(request.progress, begin, end))
-            if longest < SMALL * own:
-                asked = replace(asked, threads=1)
+            voxel_size = size if fixed else min(size, longest / FEWEST_ACROSS)
+            component_request = replace(request, progress=told_between(request.progress, begin, end))
+            if longest < SMALL * voxel_size:
+                component_request = replace(component_request, threads=1)
             try:
-                result = best_of(ways_of_mesh(part, asked, voxel=own, fixed=fixed), asked)
+                result = best_of(
+                    ways_of_mesh(part, component_request, voxel=voxel_size, fixed=fixed), component_request
+                )
             except (GeometryError, ParameterError) as error:
                 if not request.allow_broken:
                     raise type(error)(f"{name}: {error}") from error
@@ -126,7 +128,7 @@ def by_components(
             except InfillError as error:
                 raise type(error)(f"{name}: {error}") from error
             surfaces[name] = result.surface
-            # Whole by now: what is measured later would hold on to the field of every one.
+            # A complete copy: measuring later would keep the field of every component in memory.
             reports[name] = result.report.copy()
     if not surfaces:
         raise GeometryError(f"no component can be smoothed; component_1: {failed['component_1']}")
@@ -138,7 +140,7 @@ def by_components(
     )
 
 
-def _voxel(surface: Surface, resolution: int | None, voxel: float | None) -> float:
+def _voxel_size(surface: Surface, resolution: int | None, voxel: float | None) -> float:
     """Return the size of the voxels, mm."""
     if voxel is not None:
         if resolution is not None:
@@ -160,21 +162,24 @@ def _report(
     notes: Sequence[str],
     clock: Clock,
 ) -> ComponentsReport:
-    """Return the report: what there is to say of all components, and the report of each."""
-    every = list(reports.values())
+    """Return the report: totals over all components, and the report of each."""
+    component_reports = list(reports.values())
     corners = np.array([surface.bounds for surface in surfaces.values()])
-    volume, data = sum(each["volume"] for each in every), sum(each["solid"]["data"] for each in every)
-    words = [each["verdict"]["word"] for each in every] + ["lost"] * bool(failed)
+    volume, data = (
+        sum(part["volume"] for part in component_reports),
+        sum(part["solid"]["data"] for part in component_reports),
+    )
+    words = [part["verdict"]["word"] for part in component_reports] + ["lost"] * bool(failed)
     report = {
         "form": FORM,
         "version": __version__,
         "product": "components",
-        "triangles": sum(each["triangles"] for each in every),
-        "closed": all(each["closed"] for each in every),
+        "triangles": sum(part["triangles"] for part in component_reports),
+        "closed": all(part["closed"] for part in component_reports),
         "extents": (corners[:, 1].max(axis=0) - corners[:, 0].min(axis=0)).tolist(),
         "volume": volume,
         "volume_change": volume / data - 1,
-        "problems": [f"{name}: {each}" for name, report in reports.items() for each in report["problems"]],
+        "problems": [f"{name}: {problem}" for name, report in reports.items() for problem in report["problems"]],
         "verdict": {"word": max(words, key=WORDS.index)},
         "request": request.facts(),
         "components": [{"name": name, "report": report} for name, report in reports.items()],

@@ -26,38 +26,38 @@ FACES_PER_CROSSING = 1.5  # along two of the three axes
 
 
 def require_room(data: Volume, request: Request) -> None:
-    """Raise MemoryLimitError if the surface will not fit into memory; its cells are estimated from a few layers."""
+    """Raise MemoryLimitError if the surface does not fit into memory; its cells are estimated from a few layers."""
     values: NDArray[Any] = data.values
     steps = max(1, values.shape[0] // SAMPLED)
     layers = values[::steps] > 0
     crossings = sum(int(np.count_nonzero(np.diff(layers, axis=axis))) for axis in (1, 2)) * steps * FACES_PER_CROSSING
-    each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refined else 0)
-    needed = crossings * each
+    bytes_per_cell = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if request.refined else 0)
+    needed = crossings * bytes_per_cell
     allowed = available_memory() if request.max_memory is None else request.max_memory
-    # Half the voxels along each side leave an eighth of a surface that is everywhere, as noise is.
+    # Half as many voxels along each side leave an eighth of the cells of a surface that fills the volume, like noise.
     larger = float(data.cell_size.max()) * 1.1 * (needed / max(allowed or needed, 1)) ** (1 / 3)
     require_memory(int(needed), request.max_memory, f"give --voxel {larger:.2g} or more, or --roi for a part of it")
 
 
 def cleaned(data: Volume, request: Request) -> tuple[Volume, int]:
-    """Return the data without components up to the requested volume, and how many were removed.
+    """Remove components up to the requested volume; return the data and the number removed.
 
     Raises
     ------
     ParameterError
-        If nothing would be left.
+        If no component would remain.
     """
     largest = request.despeckle
     if not largest:
         return data, 0
     field = smooth_bricks(data.values, Smoothing(steps=0), threads=request.threads)
-    every = components(field, data_bits(field, threads=request.threads))
-    small = every.cells * data.cell_volume <= largest
+    solid_components = components(field, data_bits(field, threads=request.threads))
+    small = solid_components.cells * data.cell_volume <= largest
     if small.all():
         raise ParameterError(
             f"despeckle is {largest:g} mm³ and the largest component has "
-            f"{every.cells.max() * data.cell_volume:g} mm³; give less"
+            f"{solid_components.cells.max() * data.cell_volume:g} mm³; give less"
         )
     if not small.any():
         return data, 0
-    return replace(data, values=without(data.values, field, every, small)), int(small.sum())
+    return replace(data, values=without(data.values, field, solid_components, small)), int(small.sum())

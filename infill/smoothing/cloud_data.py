@@ -1,4 +1,4 @@
-"""What is smoothed of points on a surface: the cells that they enclose, and where in those the surface lies."""
+"""The phase field of a surface through points: cells that they enclose, and the place of the surface in these."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from infill.voxels.point_fields import near_points
 def phase_of_points(
     solid: Volume, points: NDArray[np.float64], normals: NDArray[np.float64] | None, request: Request
 ) -> tuple[Volume, Volume, float]:
-    """Return the phase field of the surface through points, which cells are solid by it, and its volume, mm³.
+    """Return the phase field of the surface through points, the cells that it encloses, and its volume, mm³.
 
     Parameters
     ----------
@@ -32,17 +32,21 @@ def phase_of_points(
 
     Notes
     -----
-    The distances near the points give a surface; all cells get their distance from that one. Its volume is a sum over
-    cells that are solid by half a cell more than the distance of their centre, 0 at least and 1 at most: a surface of
-    triangles encloses less where the points bend outwards.
+    The distances near the points give a surface; all cells get their distance from it. Its volume is the sum over
+    cells of the signed distance of their centre plus half a cell, clipped to 0 and 1: a surface of triangles encloses
+    less where the points bend outwards.
     """
-    near = replace(solid, values=near_points(solid, points, normals, threads=request.threads))
-    found = replace(solid, values=np.asarray(near.values) > 0)
-    near = replace(near, values=np.clip(near.values, -1, 1))
-    volume = float(np.clip(np.asarray(near.values) + 0.5, 0, 1).sum(dtype=np.float64)) * solid.cell_volume
-    field = smooth_bricks(near.values, Smoothing(steps=0), threads=request.threads)
+    distances = replace(solid, values=near_points(solid, points, normals, threads=request.threads))
+    inside = replace(solid, values=np.asarray(distances.values) > 0)
+    distances = replace(distances, values=np.clip(distances.values, -1, 1))
+    volume = float(np.clip(np.asarray(distances.values) + 0.5, 0, 1).sum(dtype=np.float64)) * solid.cell_volume
+    field = smooth_bricks(distances.values, Smoothing(steps=0), threads=request.threads)
     interface = request.smoothing.interface
     distance = distances_in_cells(
-        raw_surface(field, near, request.threads), found, cut_off(interface), several=False, threads=request.threads
+        raw_surface(field, distances, request.threads),
+        inside,
+        cut_off(interface),
+        several=False,
+        threads=request.threads,
     )
-    return replace(solid, values=on_profile(distance, interface, threads=request.threads)), found, volume
+    return replace(solid, values=on_profile(distance, interface, threads=request.threads)), inside, volume

@@ -1,4 +1,4 @@
-"""A result compared with the points it was made from: what the shell around them filled, its voxels do not know."""
+"""Compare a result with the points it was made from: the voxels do not show what a shell around them filled."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ NEIGHBOURS = 6  # of a point on a surface: if all of them are as far away as it 
 def compared_with_points(
     result: Result[SmoothStages, SmoothReport], cloud: NDArray[np.float64], voxel: float, request: Request
 ) -> Result[SmoothStages, SmoothReport]:
-    """Return the result with a report on how far the points lie from its surface, and a verdict that knows it.
+    """Add the distances of the points from the surface to the report, and to the verdict; return the result.
 
     Parameters
     ----------
     result : Result
-        Whose surface should run through the points.
+        Its surface should run through the points.
     cloud : (N, 3) float64, mm
     voxel : float, mm
-        Points further than two of these from the surface are told; they are lost if all their neighbours are as well.
+        Points further than two of these from the surface are reported; they are lost if all their neighbours are too.
     request : Request
 
     Raises
@@ -41,38 +41,38 @@ def compared_with_points(
     GeometryError
         If points are lost, unless broken results are allowed.
     """
-    away = distances(cloud, result.surface, threads=request.threads)
-    far = np.flatnonzero(away > LOST * voxel)
+    distance = distances(cloud, result.surface, threads=request.threads)
+    far_points = np.flatnonzero(distance > LOST * voxel)
     facts: PointDistances = {
-        **summary(away),
-        "p95": float(np.quantile(away, 0.95)),
-        "at": cloud[int(away.argmax())].tolist(),
-        "far": len(far),
+        **summary(distance),
+        "p95": float(np.quantile(distance, 0.95)),
+        "at": cloud[int(distance.argmax())].tolist(),
+        "far": len(far_points),
         "lost": 0,
     }
     verdict: VerdictKeys = {**result.report["verdict"]}
-    if len(far):
+    if len(far_points):
         from scipy.spatial import cKDTree
 
-        _, near = cKDTree(cloud).query(cloud[far], k=min(NEIGHBOURS + 1, len(cloud)))
-        lost = (away[near] > LOST * voxel).all(axis=1)
+        _, neighbours = cKDTree(cloud).query(cloud[far_points], k=min(NEIGHBOURS + 1, len(cloud)))
+        lost = (distance[neighbours] > LOST * voxel).all(axis=1)
         facts["lost"] = int(lost.sum())
-        said = (
-            f"{len(far):,} of {len(cloud):,} points lie over {LOST:g} voxels from the surface, up to "
+        phrase = (
+            f"{len(far_points):,} of {len(cloud):,} points lie over {LOST:g} voxels from the surface, up to "
             f"{facts['max']:.3g} mm, at ({', '.join(f'{part:.4g}' for part in facts['at'])})"
         )
         if lost.any() and not request.allow_broken:
             raise GeometryError(
-                f"{said}: what they lie on is too narrow for points this far apart; give more points, --shell for a "
+                f"{phrase}: what they lie on is too narrow for points this far apart; give more points, --shell for a "
                 "narrow volume around them, or --allow-broken to have it anyway"
             )
         word = "lost" if lost.any() or verdict["word"] == "lost" else "changed a little"
-        verdict = {**verdict, "word": word, "changes": [*verdict["changes"], said]}
+        verdict = {**verdict, "word": word, "changes": [*verdict["changes"], phrase]}
     report: SmoothReport = {
         **result.report,
         "verdict": verdict,
         "distance": {**result.report["distance"], "points": facts},
     }
     if facts["lost"]:
-        report["problems"] = [*report["problems"], said]
+        report["problems"] = [*report["problems"], phrase]
     return replace(result, report=report)

@@ -1,4 +1,4 @@
-"""What a result is told to be: kept, changed a little or lost, and in which words."""
+"""The verdict on a result: kept, changed a little or lost, and the phrases that say why."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ if TYPE_CHECKING:
     from infill.phasefield.sparse import SparseField
     from infill.smoothing.request import Given
 
-JUST = 5e-5  # cells: how far from a face it is looked whether there is solid
+JUST = 5e-5  # cells: distance from a face at which solid is looked for
 SLIT = 1.0  # cells: a slit as narrow as this may close
-# Of a scan: what is thinner than this many voxels may go. Noise makes specks and pits of two and more by chance.
+# Of a scan: features thinner than this, in voxels, may vanish. Noise makes specks and pits of two and more by chance.
 THICK, THICK_IN_NOISE = 2, 4
-CAPS = 0.001  # of the area: caps smaller than this are not worth a word
+CAPS = 0.001  # of the area: caps smaller than this are not mentioned
 
 
 @dataclass(frozen=True, kw_only=True)
 class Differences:
-    """The verdict on a result, and what it rests on, one phrase each.
+    """The verdict on a result, and its reasons, one phrase each.
 
     Parameters
     ----------
     word : {"kept", "changed a little", "lost"}
     losses : tuple of str
-        What makes it "lost".
+        Features that are lost.
     problems : tuple of str
-        What broke, fused, opened or vanished, however small it is.
+        Parts that broke, fused, opened or vanished, however small.
     remarks : tuple of str
-        What else is not as it was given.
+        All other differences from the input.
     """
 
     word: Word
@@ -45,84 +45,84 @@ class Differences:
     remarks: tuple[str, ...]
 
 
-def kinds_of_places(given: Given, field: SparseField, *, threads: int | None = None) -> Kinds:
-    """Return what tells which points of what was given count when it is asked whether they were lost.
+def kinds_of_places(smooth_input: Given, field: SparseField, *, threads: int | None = None) -> Kinds:
+    """Return the function that classifies points of the input: those that count as lost, and those that do not.
 
-    Of a mesh, those with solid on one side: what lies inside the solid, and sheets without thickness, do not. Slits
-    narrower than a cell are told apart. Of voxels, those between solid and void more than one cell thick: what is one
-    cell thick, the equation removes, and it is told apart.
+    Of a mesh, points with solid on one side count; those inside the solid, and on sheets without thickness, do not.
+    Slits narrower than a cell have a class of their own. Of voxels, points between solid and void more than one cell
+    thick count; the equation removes walls one cell thick, which have a class of their own.
     """
-    if given.enclosed is not None:
-        held, mesh = given.enclosed, given.reference
+    if smooth_input.enclosed is not None:
+        enclosed, mesh = smooth_input.enclosed, smooth_input.reference
         assert mesh is not None
 
         def bounding(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:
             outside, inside, narrow = (
-                held.solid_beside(mesh, points, faces, way, threads=threads) for way in (JUST, -JUST, SLIT)
+                enclosed.solid_beside(mesh, points, faces, offset, threads=threads) for offset in (JUST, -JUST, SLIT)
             )
             sides = np.where(inside & outside, HIDDEN, np.where(inside | outside, COUNTS, SHEET))
             return np.where((sides == COUNTS) & narrow & inside, THIN, sides)
 
         return bounding
-    cells = THICK_IN_NOISE if given.facts.get("noise", 0.0) > NOISY else THICK
-    data, turn = given.data, np.asarray(given.data.direction)
+    cells = THICK_IN_NOISE if smooth_input.facts.get("noise", 0.0) > NOISY else THICK
+    data, turn = smooth_input.data, np.asarray(smooth_input.data.direction)
 
     def thick(points: NDArray[np.float64], faces: NDArray[np.integer]) -> NDArray[np.integer]:  # noqa: ARG001
         bits = data_bits(field, threads=threads)
         solid, empty = (sturdy(field, bits, void=void, cells=cells, threads=threads) for void in (False, True))
-        place_of = (points - np.array(data.origin)) @ turn / data.cell_size
+        position = (points - np.array(data.origin)) @ turn / data.cell_size
         wall, gap = np.zeros((2, len(points)), dtype=bool)
         for step in np.ndindex(2, 2, 2):
-            place = np.floor(place_of - 0.5).astype(np.int64) + step
-            wall |= set_at(field, solid, place)
-            gap |= set_at(field, empty, place, void=True)
+            cell = np.floor(position - 0.5).astype(np.int64) + step
+            wall |= set_at(field, solid, cell)
+            gap |= set_at(field, empty, cell, void=True)
         return np.where(wall & gap, COUNTS, THIN)
 
     return thick
 
 
-def differences(judged: Verdict, found: Fidelity | None, given: Given, *, off: float = 0.0) -> Differences:
-    """Return the verdict.
+def differences(judged: Verdict, deviation: Fidelity | None, smooth_input: Given, *, off: float = 0.0) -> Differences:
+    """Judge a result: return the verdict with its losses, problems and remarks.
 
     Parameters
     ----------
     judged : Verdict
-        What smoothing did to the voxels.
-    found : Fidelity or None
-        How far the result lies from what was given; None if it is sure to be near everywhere.
-    given : Given
+        The changes of the voxels in smoothing.
+    deviation : Fidelity or None
+        Distances between result and input; None if they are sure to be small everywhere.
+    smooth_input : Given
     off : float
-        By which part of itself the volume is off.
+        Relative error of the volume.
     """
-    problems = [*judged.problems, *_of_mesh(judged, given)]
+    problems = [*judged.problems, *_topology_changes(judged, smooth_input)]
     if off:
         problems.append(f"the volume is off by {off:+.1%}, which no level can correct")
     remarks = []
-    if gone := judged.changes.vanished_thin:
-        remarks.append(f"{gone} specks or flakes one voxel thick are gone")
-    if found and found.thin:
-        what = (
+    if thin_count := judged.changes.vanished_thin:
+        remarks.append(f"{thin_count} specks or flakes one voxel thick are gone")
+    if deviation and deviation.thin:
+        feature = (
             "walls or gaps one voxel thick are gone"
-            if given.enclosed is None
+            if smooth_input.enclosed is None
             else "slits narrower than a voxel are closed"
         )
-        remarks.append(f"{what}, {found.thin:.3g} mm² of their faces")
-    if found and found.sheet:
-        remarks.append(f"{found.sheet:.3g} mm² of faces that bound no solid are left out")
-    if given.enclosed is not None and given.topology is None:
-        parts, now = int((given.enclosed.volumes > 0).sum()), judged.result.components
-        if now < parts:
+        remarks.append(f"{feature}, {deviation.thin:.3g} mm² of their faces")
+    if deviation and deviation.sheet:
+        remarks.append(f"{deviation.sheet:.3g} mm² of faces that bound no solid are left out")
+    if smooth_input.enclosed is not None and smooth_input.topology is None:
+        mesh_parts, result_parts = int((smooth_input.enclosed.volumes > 0).sum()), judged.result.components
+        if result_parts < mesh_parts:
             remarks.append(
-                f"the mesh has {parts} components, some of which overlap or touch, and the result {now}; "
+                f"the mesh has {mesh_parts} components, some of which overlap or touch, and the result {result_parts}; "
                 "--by-component keeps them apart"
             )
-    if given.facts.get("coarse"):
+    if smooth_input.facts.get("coarse"):
         remarks.append("what is smaller than the voxels that were asked for was not compared")
-    repairs = given.facts.get("repairs", {})
+    repairs = smooth_input.facts.get("repairs", {})
     if (share := repairs.get("hole_share", 0.0)) > CAPS:
         remarks.append(f"{repairs['holes']} holes of the mesh were closed by caps, {share:.1%} of the area")
-    phrases = found.phrases if found else ()
-    lost = found is not None and found.word == "lost"
+    phrases = deviation.phrases if deviation else ()
+    lost = deviation is not None and deviation.word == "lost"
     losses = phrases if lost else ()
     if not lost:
         remarks = [*phrases, *remarks]
@@ -130,17 +130,17 @@ def differences(judged: Verdict, found: Fidelity | None, given: Given, *, off: f
     return Differences(word=word, losses=losses, problems=tuple(problems), remarks=tuple(remarks))
 
 
-def _of_mesh(judged: Verdict, given: Given) -> list[str]:
-    """Return how the result is connected differently from the mesh, where that is known: voxels may have lost it."""
-    if given.topology is None:
+def _topology_changes(judged: Verdict, smooth_input: Given) -> list[str]:
+    """Describe differences in topology between mesh and result, if the topology of the mesh is known."""
+    if smooth_input.topology is None:
         return []
-    was, now = given.topology, judged.result
-    said = []
-    for name, one, before, after in (
-        ("components", "component", was.components, now.components),
-        ("cavities", "cavity", was.cavities, now.cavities),
-        ("holes through the part", "hole through the part", was.tunnels, now.tunnels),
+    mesh_counts, result_counts = smooth_input.topology, judged.result
+    phrases = []
+    for name, singular, before, after in (
+        ("components", "component", mesh_counts.components, result_counts.components),
+        ("cavities", "cavity", mesh_counts.cavities, result_counts.cavities),
+        ("holes through the part", "hole through the part", mesh_counts.tunnels, result_counts.tunnels),
     ):
         if before != after:
-            said.append(f"the mesh has {before} {one if before == 1 else name}, the result {after}")
-    return said
+            phrases.append(f"the mesh has {before} {singular if before == 1 else name}, the result {after}")
+    return phrases

@@ -1,4 +1,4 @@
-"""Crumbs: pieces that smoothing itself breaks off, too small to be anything that was given."""
+"""Crumbs: pieces that smoothing breaks off, too small to be part of the input."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from infill.smoothing.levelling import Surfaced
     from infill.smoothing.request import Given, Request
 
-CRUMB = 8.0  # cells, a block of 2 x 2 x 2: what the steps leave of a wall that breaks up
+CRUMB = 8.0  # cells, a block of 2 x 2 x 2: pieces of this size remain of a wall that breaks up
 
 
 @dataclass(frozen=True, kw_only=True)
 class Crumbs:
-    """What was taken out.
+    """Number and volume of the crumbs that were removed.
 
     Parameters
     ----------
@@ -35,51 +35,53 @@ class Crumbs:
     limit: float
 
 
-def without_crumbs(surfaced: Surfaced, given: Given, request: Request) -> tuple[Surfaced, Crumbs]:
-    """Return the surface without crumbs, and what they were.
+def without_crumbs(surfaced: Surfaced, smooth_input: Given, request: Request) -> tuple[Surfaced, Crumbs]:
+    """Remove crumbs from a surface; return it and their number and volume.
 
-    A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default as much as 8 cells, and is not the
-    largest piece of what was one component of the data. Of a mesh none of whose components is so small, every such
-    piece is one, and so is every such cavity: the surface around it goes, and it is filled.
+    A piece of solid is a crumb if it has at most `request.crumbs` mm³, by default the volume of 8 cells, and is not
+    the largest piece of a component of the data. If all components of a mesh are larger than that, every such piece
+    is a crumb, and every such cavity too: the surface around it is removed, so that it is filled.
     """
-    limit = CRUMB * given.data.cell_volume if request.crumbs is None else request.crumbs
-    found = surfaced.found
-    volume = found.shells.volume
-    if found.shells.names.min(initial=0) < 0:  # vertices that no face uses
-        found = _without_shells(found, np.zeros(len(volume), dtype=bool))
-        surfaced = replace(surfaced, found=found)
-    held = given.enclosed
-    every = held is not None and not (np.abs(held.volumes[held.volumes != 0]) <= limit).any()
-    small = (np.abs(volume) if every else np.where(volume > 0, volume, np.inf)) <= limit
+    limit = CRUMB * smooth_input.data.cell_volume if request.crumbs is None else request.crumbs
+    levelled = surfaced.found
+    volume = levelled.shells.volume
+    if levelled.shells.names.min(initial=0) < 0:  # vertices that no face uses
+        levelled = _without_shells(levelled, np.zeros(len(volume), dtype=bool))
+        surfaced = replace(surfaced, found=levelled)
+    enclosed = smooth_input.enclosed
+    all_small = enclosed is not None and not (np.abs(enclosed.volumes[enclosed.volumes != 0]) <= limit).any()
+    small = (np.abs(volume) if all_small else np.where(volume > 0, volume, np.inf)) <= limit
     if not small.any() or small.all():
         return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
-    if every:
-        return replace(surfaced, found=_without_shells(found, small)), Crumbs(
+    if all_small:
+        return replace(surfaced, found=_without_shells(levelled, small)), Crumbs(
             count=int(small.sum()), volume=float(np.abs(volume[small]).sum()), limit=limit
         )
-    spacing = tuple(given.data.cell_size.tolist())
-    component = component_of_shells(found, surfaced.before, spacing=spacing)
+    spacing = tuple(smooth_input.data.cell_size.tolist())
+    component = component_of_shells(levelled, surfaced.before, spacing=spacing)
     largest = np.full(surfaced.before.count, -math.inf)
-    known = component >= 0
-    np.maximum.at(largest, component[known], volume[known])
-    own = np.where(known, largest[component], math.inf) <= volume
-    crumb = small & ~own
+    has_component = component >= 0
+    np.maximum.at(largest, component[has_component], volume[has_component])
+    is_largest = np.where(has_component, largest[component], math.inf) <= volume
+    crumb = small & ~is_largest
     if not crumb.any():
         return surfaced, Crumbs(count=0, volume=0.0, limit=limit)
-    lean = _without_shells(found, crumb)
-    return replace(surfaced, found=lean), Crumbs(count=int(crumb.sum()), volume=float(volume[crumb].sum()), limit=limit)
-
-
-def _without_shells(found: Levelled, gone: NDArray[np.bool_]) -> Levelled:
-    """Return the surface without some of its shells."""
-    names = found.shells.names
-    vertices = (names >= 0) & ~gone[names]
-    number = np.cumsum(vertices) - 1
-    faces = found.surface.faces
-    kept = faces[vertices[faces[:, 0]]]
-    surface = Surface(
-        vertices=found.surface.vertices[vertices],
-        faces=number[kept].astype(faces.dtype),
-        space=found.surface.space,
+    crumbless = _without_shells(levelled, crumb)
+    return replace(surfaced, found=crumbless), Crumbs(
+        count=int(crumb.sum()), volume=float(volume[crumb].sum()), limit=limit
     )
-    return replace(found, surface=surface, rate=found.rate[vertices], total=None)
+
+
+def _without_shells(levelled: Levelled, removed: NDArray[np.bool_]) -> Levelled:
+    """Remove shells from a surface; `removed` marks them."""
+    names = levelled.shells.names
+    vertices = (names >= 0) & ~removed[names]
+    number = np.cumsum(vertices) - 1
+    faces = levelled.surface.faces
+    remaining = faces[vertices[faces[:, 0]]]
+    surface = Surface(
+        vertices=levelled.surface.vertices[vertices],
+        faces=number[remaining].astype(faces.dtype),
+        space=levelled.surface.space,
+    )
+    return replace(levelled, surface=surface, rate=levelled.rate[vertices], total=None)

@@ -1,4 +1,4 @@
-"""What is worth knowing before a mesh is smoothed by way of voxels: that something else may serve better."""
+"""Hints before a mesh is smoothed by way of voxels: a mesh filter may serve better."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ LOG = logging.getLogger("infill")
 DENSE = 2  # voxels: a mesh whose edges are longer in the mean has no detail to keep
 
 
-def tell_of_filters(surface: Surface, found: Voxelised) -> None:
-    """Tell the log "infill", as information, if a filter of the mesh itself may be nearer than voxels.
+def tell_of_filters(surface: Surface, voxelised: Voxelised) -> None:
+    """Log a hint to "infill" if a filter of the mesh itself may stay nearer to it than voxels.
 
     That is so for a closed mesh of one component, without overlaps, whose edges are shorter than two voxels in the
     mean: filters move the corners of such a mesh, while voxels take its noise for its shape.
@@ -22,24 +22,24 @@ def tell_of_filters(surface: Surface, found: Voxelised) -> None:
     Parameters
     ----------
     surface : Surface, mm
-        The mesh as it was given.
-    found : Voxelised
+        The input mesh.
+    voxelised : Voxelised
         The cells inside it.
     """
-    edge, size = mean_edge(surface), float(found.volume.cell_size.max())
-    if edge >= DENSE * size or found.several or found.repairs.holes:
+    edge_length, cell_size = mean_edge(surface), float(voxelised.volume.cell_size.max())
+    if edge_length >= DENSE * cell_size or voxelised.several or voxelised.repairs.holes:
         return
     LOG.info(
         "hint: the mesh is closed, and its edges (%.3g mm in the mean) are short for voxels of %.3g mm; if it is a "
         "noisy scan, a filter of the mesh itself, such as Taubin's or Humphrey's in trimesh, keeps its triangles and "
         "may be nearer",
-        edge,
-        size,
+        edge_length,
+        cell_size,
     )
 
 
 def mean_edge(surface: Surface) -> float:
-    """Return the mean length of the sides of all faces, mm.
+    """Return the mean edge length over all faces, mm.
 
     >>> round(mean_edge(Surface(vertices=np.eye(3), faces=np.array([[0, 1, 2]]))), 6)
     1.414214

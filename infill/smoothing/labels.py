@@ -1,4 +1,4 @@
-"""Every label of a segmentation as a surface of its own, each smoothed in the part of the volume where it lies."""
+"""Smooth every label of a segmentation by itself, in the part of the volume where it lies."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from infill.smoothing.stages import SmoothStages
     from infill.surface import Surface
 
-# Cells around a label in which phi is not yet void to the last bit: 12 of them with the usual interface of 2 cells, a
-# fraction of the interface for others; and 8 more, for averages that refining takes.
+# Cells around a label in which phi is not yet void to the last bit: 12 with the usual interface of 2 cells, that is 6
+# interfaces; and 8 more, for the averages of refining.
 REACH, MORE = 6, 8
 LISTED = 12  # labels in a message
 SMALL = 2**20  # cells of a box: one thread does it before others have begun
@@ -41,7 +41,7 @@ SMALL = 2**20  # cells of a box: one thread does it before others have begun
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LabelStages:
-    """What the surfaces of `infill.smooth_labels` came from.
+    """The stages of `infill.smooth_labels`.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class LabelStages:
 
 @dataclass(frozen=True, kw_only=True)
 class _Piece:
-    """One label to smooth: what it is called, what it is, and where it lies."""
+    """One label to smooth: its name, its segment, and its place."""
 
     name: str
     segment: Segment
@@ -72,7 +72,7 @@ class _Piece:
 
     @property
     def cells(self) -> int:
-        """Cells of the box in which it lies."""
+        """Number of cells of its bounding box."""
         return math.prod(high - low for low, high in zip(self.extent.low, self.extent.high, strict=True))
 
 
@@ -86,18 +86,18 @@ def smooth_labels(
     keep_going: bool = False,
     **options: Unpack[Options],
 ) -> Result[LabelStages, LabelsReport]:
-    """Return a smooth surface around every label of a segmentation.
+    """Smooth every label of a segmentation; return one surface for each.
 
     Parameters
     ----------
     volume : (nx, ny, nz) array, Volume or Segmentation
-        Whole numbers [x, y, z], 0 where no label is.
+        Whole numbers [x, y, z], 0 for cells without a label.
     spacing, origin
         See `infill.smooth_volume`; only for an array.
     label : int or tuple of int, optional
         Only these, instead of every value but 0.
     table : iterable of Segment
-        Names and colours, in the place of those of the segmentation: see `infill.read_labels`.
+        Names and colours, instead of those of the segmentation: see `infill.read_labels`.
     keep_going : bool
         Leave out a label that cannot be smoothed, and say so in the report, instead of raising.
     **options
@@ -112,13 +112,13 @@ def smooth_labels(
     Raises
     ------
     ParameterError
-        If there is no label, or not the one asked for; or as `infill.smooth_volume`.
+        If there is no label, or the requested one is missing; or as `infill.smooth_volume`.
     GeometryError, MemoryLimitError
         As `infill.smooth_volume`, with the name of the label.
 
     Notes
     -----
-    Each label is smoothed in the smallest part of the volume around which nothing else has an effect: the surface is
+    Each label is smoothed in the smallest part of the volume beyond which nothing has an effect: the surface equals
     that of the whole volume, and many small labels take little more than their own share of time and memory.
 
     >>> balls = np.zeros((60, 24, 24), int)
@@ -128,42 +128,44 @@ def smooth_labels(
     >>> {name: surface.closed for name, surface in smooth_labels(balls).surfaces.items()}
     {'label_1': True, 'label_2': True}
     """
-    request = Request(**options)  # so that a mistake in the options is not one of the first label
-    segmentation = _segmentation(volume, spacing, origin)
+    request = Request(**options)  # so that a mistake in the options is not reported for the first label
+    segmentation = _as_segmentation(volume, spacing, origin)
     clock = Clock(request.progress)
     with clock.stage("labels", 0.0):
-        pieces = _pieces(segmentation, label, tuple(table))
-        absent = _absent(segmentation, pieces) if label is None else []
+        pieces = _find_pieces(segmentation, label, tuple(table))
+        absent = _absent_names(segmentation, pieces) if label is None else []
     surfaces: dict[str, Surface] = {}
     reports: dict[str, SmoothReport] = {}
     failed: dict[str, str] = {}
     with clock.stage("smooth", 0.0):
         shares = np.cumsum([0, *(piece.cells for piece in pieces)]) / sum(piece.cells for piece in pieces)
         for piece, begin, end in zip(pieces, shares[:-1], shares[1:], strict=True):
-            told: Options = {**options, "progress": told_between(request.progress, float(begin), float(end))}
+            label_options: Options = {**options, "progress": told_between(request.progress, float(begin), float(end))}
             try:
-                result = _smoothed(segmentation.layers[piece.segment.layer], piece, request, told)
+                result = _smooth_piece(segmentation.layers[piece.segment.layer], piece, request, label_options)
             except InfillError as error:
-                said = f"{_called(piece)}: {error}"
+                message = f"{_title(piece)}: {error}"
                 if not keep_going:
-                    raise type(error)(said) from error
+                    raise type(error)(message) from error
                 failed[piece.name] = str(error)
                 if len(failed) == len(pieces):
-                    raise type(error)(f"no label can be smoothed; {said}") from error
+                    raise type(error)(f"no label can be smoothed; {message}") from error
                 continue
             surfaces[piece.name] = result.surface
-            # Whole by now: what is measured later would hold on to the field of every one.
+            # A complete copy: measuring later would keep the field of every label in memory.
             reports[piece.name] = result.report.copy()
-    done, broken = ([piece for piece in pieces if piece.name in some] for some in (surfaces, failed))
+    smoothed_pieces, failed_pieces = (
+        [piece for piece in pieces if piece.name in names] for names in (surfaces, failed)
+    )
     return Result(
         surfaces=surfaces,
-        report=_report(request, done, reports, broken, failed, absent, clock),
+        report=_report(request, smoothed_pieces, reports, failed_pieces, failed, absent, clock),
         stages=LabelStages(segments={piece.name: piece.segment for piece in pieces}, failed=failed),
-        colours={piece.name: piece.segment.colour for piece in done if piece.segment.colour is not None},
+        colours={piece.name: piece.segment.colour for piece in smoothed_pieces if piece.segment.colour is not None},
     )
 
 
-def _segmentation(
+def _as_segmentation(
     volume: ArrayLike | Volume | Segmentation, spacing: float | tuple[float, ...], origin: tuple[float, ...]
 ) -> Segmentation:
     if isinstance(volume, Segmentation):
@@ -173,56 +175,62 @@ def _segmentation(
     return Segmentation(layers=(volume,))
 
 
-def _pieces(
+def _find_pieces(
     segmentation: Segmentation, label: int | tuple[int, ...] | None, table: tuple[Segment, ...]
 ) -> list[_Piece]:
-    """Return the labels to smooth, each with a name of its own."""
-    wanted = None if label is None else label if isinstance(label, tuple) else (label,)
-    known = {(each.layer, each.value): each for each in segmentation.segments}
-    given = {each.value: each for each in table}
-    found = []
+    """Return the labels to smooth, each with a unique name."""
+    requested = None if label is None else label if isinstance(label, tuple) else (label,)
+    file_segments = {(segment.layer, segment.value): segment for segment in segmentation.segments}
+    table_segments = {segment.value: segment for segment in table}
+    present = []
     for layer, volume in enumerate(segmentation.layers):
-        for each in extents(volume):
-            named = given.get(each.value) or known.get((layer, each.value)) or Segment(value=each.value)
-            found.append((replace(named, layer=layer), each))
-    there = sorted({segment.value for segment, _ in found})
-    if not found:
+        for extent in extents(volume):
+            template = (
+                table_segments.get(extent.value)
+                or file_segments.get((layer, extent.value))
+                or Segment(value=extent.value)
+            )
+            present.append((replace(template, layer=layer), extent))
+    values = sorted({segment.value for segment, _ in present})
+    if not present:
         raise ParameterError("the volume holds no label, only 0; check that it is the right file")
-    for value in wanted or ():
-        if value not in there:
-            listed = ", ".join(map(str, there[:LISTED])) + (", …" if len(there) > LISTED else "")
-            raise ParameterError(f"label is {value}, and the volume holds {listed}; give one that is there")
-    taken: set[str] = set()
+    for value in requested or ():
+        if value not in values:
+            excerpt = ", ".join(map(str, values[:LISTED])) + (", …" if len(values) > LISTED else "")
+            raise ParameterError(f"label is {value}, and the volume holds {excerpt}; give one that is there")
+    used_names: set[str] = set()
     pieces = []
-    for segment, extent in found:
-        if wanted is not None and segment.value not in wanted:
+    for segment, extent in present:
+        if requested is not None and segment.value not in requested:
             continue
-        name = _name_beside(segment, taken)
-        taken.add(name)
+        name = _unique_name(segment, used_names)
+        used_names.add(name)
         pieces.append(_Piece(name=name, segment=segment, extent=extent))
     return pieces
 
 
-def _name_beside(segment: Segment, taken: set[str]) -> str:
-    """Return the name of a label, with its number or more where another one has that name."""
-    plain = " ".join(segment.name.split()) or f"label_{segment.value}"
-    candidates = (plain, f"{plain}_{segment.value}", f"{plain}_{segment.value}_layer_{segment.layer}")
-    free = [each for each in candidates if each not in taken]
+def _unique_name(segment: Segment, used_names: set[str]) -> str:
+    """Return the name of a label, made unique with its number, layer or a counter if the name is taken."""
+    base = " ".join(segment.name.split()) or f"label_{segment.value}"
+    candidates = (base, f"{base}_{segment.value}", f"{base}_{segment.value}_layer_{segment.layer}")
+    unused = [name for name in candidates if name not in used_names]
     number = 2
-    while not free:
-        free = [each for each in [f"{plain}_{number}"] if each not in taken]
+    while not unused:
+        unused = [name for name in [f"{base}_{number}"] if name not in used_names]
         number += 1
-    return free[0]
+    return unused[0]
 
 
-def _absent(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[str]:
+def _absent_names(segmentation: Segmentation, pieces: Sequence[_Piece]) -> list[str]:
     """Return the names of the segments that hold no cell."""
-    there = {(piece.segment.layer, piece.segment.value) for piece in pieces}
-    return [each.name for each in segmentation.segments if (each.layer, each.value) not in there]
+    present = {(piece.segment.layer, piece.segment.value) for piece in pieces}
+    return [segment.name for segment in segmentation.segments if (segment.layer, segment.value) not in present]
 
 
-def _smoothed(volume: Volume, piece: _Piece, request: Request, options: Options) -> Result[SmoothStages, SmoothReport]:
-    """Return one label, smoothed in its part of the volume, which begins and ends where bricks of the whole do."""
+def _smooth_piece(
+    volume: Volume, piece: _Piece, request: Request, options: Options
+) -> Result[SmoothStages, SmoothReport]:
+    """Smooth one label in its part of the volume, whose sides lie between bricks of the whole volume."""
     margin = math.ceil(REACH * request.smoothing.interface) + MORE
     low = tuple(max(0, (at - margin) // size * size) for at, size in zip(piece.extent.low, BRICK, strict=True))
     high = tuple(
@@ -234,44 +242,46 @@ def _smoothed(volume: Volume, piece: _Piece, request: Request, options: Options)
     return smooth_volume(box, label=piece.segment.value, **chosen)
 
 
-def _called(piece: _Piece) -> str:
+def _title(piece: _Piece) -> str:
     number = f"label {piece.segment.value}"
     return number if piece.name == f"label_{piece.segment.value}" else f"{number} ({piece.name})"
 
 
 def _report(
     request: Request,
-    done: Sequence[_Piece],
+    smoothed_pieces: Sequence[_Piece],
     reports: Mapping[str, SmoothReport],
-    broken: Sequence[_Piece],
+    failed_pieces: Sequence[_Piece],
     failed: Mapping[str, str],
     absent: Sequence[str],
     clock: Clock,
 ) -> LabelsReport:
-    """Return the report: what there is to say of all labels, and the report of each."""
+    """Return the report: totals over all labels, and the report of each."""
 
-    def described(piece: _Piece) -> dict[str, Any]:
+    def label_facts(piece: _Piece) -> dict[str, Any]:
         segment = piece.segment
         return {"name": piece.name, "number": segment.value, "layer": segment.layer}
 
-    every = [reports[piece.name] for piece in done]
+    label_reports = [reports[piece.name] for piece in smoothed_pieces]
     report = {
         "form": FORM,
         "version": __version__,
         "product": "labels",
-        "triangles": sum(each["triangles"] for each in every),
-        "closed": all(each["closed"] for each in every),
-        "problems": [f"{piece.name}: {each}" for piece in done for each in reports[piece.name]["problems"]],
+        "triangles": sum(part["triangles"] for part in label_reports),
+        "closed": all(part["closed"] for part in label_reports),
+        "problems": [
+            f"{piece.name}: {problem}" for piece in smoothed_pieces for problem in reports[piece.name]["problems"]
+        ],
         "request": request.facts(),
         "labels": [
             {
-                **described(piece),
+                **label_facts(piece),
                 "colour": None if piece.segment.colour is None else hexadecimal(piece.segment.colour),
                 "report": reports[piece.name],
             }
-            for piece in done
+            for piece in smoothed_pieces
         ],
-        "failed": [{**described(piece), "error": failed[piece.name]} for piece in broken],
+        "failed": [{**label_facts(piece), "error": failed[piece.name]} for piece in failed_pieces],
         "absent": list(absent),
         "seconds": {**clock.seconds, "total": sum(clock.seconds.values())},
     }

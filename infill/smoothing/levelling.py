@@ -1,4 +1,4 @@
-"""The third stage: the surface at the level at which every component has the volume it has in the data."""
+"""The third stage: find the surface at the level at which every component keeps its volume."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from infill.volume import Volume
     from infill.voxels.partial import Enclosed
 
-# Of the area of a component of a mesh that lies nearest to one component of the data: if less lies nearest to another
-# one, that is by chance, as where two of them touch.
+# Of the largest area of a mesh component that is nearest to one component of the data: smaller areas nearest to other
+# components are chance, as where two components touch.
 FEW = 0.02
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Surfaced:
-    """A surface, what it was found from, and its levels in terms of phi.
+    """A surface, the components of the data, and its levels in terms of phi.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Surfaced:
     targets : (b,) float64
         Volume of each component, mm³.
     common : float
-        Level of phi of everything that has no level of its own.
+        Level of phi of components without their own level.
     levels : (b,) float64
         Level of phi of each component.
     """
@@ -53,77 +53,92 @@ class Surfaced:
         return float(self.found.shells.volume.sum())
 
 
-def levelled(field: SparseField, given: Given, request: Request) -> Surfaced:
-    """Return the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
+def levelled(field: SparseField, smooth_input: Given, request: Request) -> Surfaced:
+    """Extract the surface of a smoothed field: at the level that keeps the volume, or at the requested one.
 
     If the field is straightened along the way, its values are overwritten.
     """
-    threads, level, spacing = request.threads, request.level, tuple(given.data.cell_size.tolist())
+    threads, level, spacing = request.threads, request.level, tuple(smooth_input.data.cell_size.tolist())
     if isinstance(level, str):
         before, field, start = counted(field, spacing=spacing, straighten=not request.refined, threads=threads)
-        targets = _targets(field, before, given, threads)
-        found = at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
-        said = request.profile.phase_level
-        common, levels = said(found.common), np.array([said(float(each)) for each in found.levels])
+        targets = _target_volumes(field, before, smooth_input, threads)
+        level_surface = at_volume(field, before, spacing=spacing, targets=targets, start=start, threads=threads)
+        to_phase_level = request.profile.phase_level
+        common, levels = (
+            to_phase_level(level_surface.common),
+            np.array([to_phase_level(float(height)) for height in level_surface.levels]),
+        )
     else:
         before = components(field, data_bits(field, threads=threads))
-        targets = _targets(field, before, given, threads)
-        cut = request.profile.distance_level(level) if request.refined else level
-        found = at_level(field, before, spacing=spacing, level=cut, threads=threads)
+        targets = _target_volumes(field, before, smooth_input, threads)
+        threshold = request.profile.distance_level(level) if request.refined else level
+        level_surface = at_level(field, before, spacing=spacing, level=threshold, threads=threads)
         common, levels = level, np.full(before.count, level)
-    return Surfaced(found=found, before=before, targets=targets, common=common, levels=levels)
+    return Surfaced(found=level_surface, before=before, targets=targets, common=common, levels=levels)
 
 
-def _targets(field: SparseField, data: Components, given: Given, threads: int | None) -> NDArray[np.float64]:
-    """Return the volume of each component of the data, mm³: its cells, or what their mesh or grey surface encloses."""
-    spacing = tuple(given.data.cell_size.tolist())
+def _target_volumes(
+    field: SparseField, data: Components, smooth_input: Given, threads: int | None
+) -> NDArray[np.float64]:
+    """Return the volume of each component of the data, mm³: of its cells, or inside its mesh or grey surface."""
+    spacing = tuple(smooth_input.data.cell_size.tolist())
     cells: NDArray[np.float64] = data.cells.astype(np.float64) * math.prod(spacing)
     if field.data.dtype == np.int8:
         return cells
     grey = replace(field, values=field.data.astype(np.float32))
-    if given.enclosed is not None:
+    if smooth_input.enclosed is not None:
         grey = replace(grey, values=REFINED.distance(grey.values, threads=threads))
     volume = volumes_of(grey, data, spacing=spacing, threads=threads)
     volume = np.where(volume > 0, volume, cells)
-    if given.volume is not None:
-        whole: NDArray[np.float64] = volume * (given.volume / volume.sum())
-        return whole
-    return volume if given.enclosed is None else _enclosed(field, data, given.data, given.enclosed, volume)
+    if smooth_input.volume is not None:
+        scaled: NDArray[np.float64] = volume * (smooth_input.volume / volume.sum())
+        return scaled
+    return (
+        volume
+        if smooth_input.enclosed is None
+        else _mesh_targets(field, data, smooth_input.data, smooth_input.enclosed, volume)
+    )
 
 
-def _enclosed(
-    field: SparseField, data: Components, grid: Volume, held: Enclosed, volume: NDArray[np.float64]
+def _mesh_targets(
+    field: SparseField, data: Components, grid: Volume, enclosed: Enclosed, volume: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Return the volume that a mesh encloses in each component of the data, mm³; `volume` is what its field encloses.
+    """Return the volume of the mesh in each component of the data, mm³; `volume` is that inside its field.
 
-    Components of the mesh that lie in one of the data are summed up. Where one of the mesh lies in several, because a
-    wall between them is too thin for the cells, those share its volume as they share that of the field.
+    Mesh components that lie in the same component of the data are summed up. Where a mesh component lies in several,
+    because a wall between them is too thin for the cells, these share its volume as they share that of the field.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
-    of_face = nearest_components((held.beside - np.array(grid.origin)) / grid.cell_size, field, data)
-    known = of_face >= 0
-    count = len(held.volumes)
-    key, index = np.unique(held.component[known].astype(np.int64) * data.count + of_face[known], return_inverse=True)
-    area = np.bincount(index, weights=held.area[known], minlength=len(key))
+    of_face = nearest_components((enclosed.beside - np.array(grid.origin)) / grid.cell_size, field, data)
+    has_component = of_face >= 0
+    count = len(enclosed.volumes)
+    key, index = np.unique(
+        enclosed.component[has_component].astype(np.int64) * data.count + of_face[has_component], return_inverse=True
+    )
+    area = np.bincount(index, weights=enclosed.area[has_component], minlength=len(key))
     of_mesh, of_data = np.divmod(key, data.count)
-    most = np.zeros(count)
-    np.maximum.at(most, of_mesh, area)
-    real = area > FEW * most[of_mesh]
+    largest_area = np.zeros(count)
+    np.maximum.at(largest_area, of_mesh, area)
+    is_linked = area > FEW * largest_area[of_mesh]
     graph = coo_array(
-        (np.ones(int(real.sum()), dtype=np.int8), (of_mesh[real], count + of_data[real])),
+        (np.ones(int(is_linked.sum()), dtype=np.int8), (of_mesh[is_linked], count + of_data[is_linked])),
         shape=(count + data.count,) * 2,
     )
     _, group = connected_components(graph, directed=False)
     groups = int(group.max()) + 1
-    total = np.bincount(group[:count], weights=held.volumes, minlength=groups)
-    if len(held.excess):
-        over = nearest_components((held.over - np.array(grid.origin)) / grid.cell_size, field, data)
-        total -= np.bincount(group[count + over[over >= 0]], weights=held.excess[over >= 0], minlength=groups)
-    shared = np.bincount(group[count:], weights=volume, minlength=groups)
-    own = np.bincount(group[:count], minlength=groups) > 0
+    mesh_volume = np.bincount(group[:count], weights=enclosed.volumes, minlength=groups)
+    if len(enclosed.excess):
+        excess_component = nearest_components((enclosed.over - np.array(grid.origin)) / grid.cell_size, field, data)
+        mesh_volume -= np.bincount(
+            group[count + excess_component[excess_component >= 0]],
+            weights=enclosed.excess[excess_component >= 0],
+            minlength=groups,
+        )
+    field_volume = np.bincount(group[count:], weights=volume, minlength=groups)
+    has_mesh = np.bincount(group[:count], minlength=groups) > 0
     with np.errstate(divide="ignore", invalid="ignore"):
-        scale = np.where(own & (total > 0) & (shared > 0), total / shared, 1.0)
-    found: NDArray[np.float64] = volume * scale[group[count:]]
-    return found
+        scale = np.where(has_mesh & (mesh_volume > 0) & (field_volume > 0), mesh_volume / field_volume, 1.0)
+    targets: NDArray[np.float64] = volume * scale[group[count:]]
+    return targets

@@ -1,4 +1,4 @@
-"""How to smooth a mesh: by way of its exact distances on a grid, refined, and what to try if that loses something."""
+"""Strategies for a mesh: exact distances on a grid, refined; and finer voxels if that loses something."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from infill.smoothing.request import AUTO, Given, Method, Request
 from infill.surface import Surface
 from infill.voxels.from_mesh import RESOLUTION, Voxelised, grid_around, voxelise_reported
 
-BYTES_PER_CELL = 22  # a measured peak: which cells are inside, their distances, and the field that is made of those
+BYTES_PER_CELL = 22  # a measured peak: the mask of cells inside, their distances, and the field made from these
 MARGIN = 8  # cells of void around a mesh or points, so that the edge of the grid has no effect
-FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side: what is tried where something would be lost
+FINER = (1.5, 2.0, 3.0)  # times as many voxels along each side, tried in turn where something would be lost
 
 
 def ways_of_mesh(
@@ -31,7 +31,7 @@ def ways_of_mesh(
     fixed: bool = True,
     hint: bool = False,
 ) -> Iterator[Way]:
-    """Yield the ways to smooth a mesh: refined, and with finer voxels unless their size was asked for.
+    """Yield the strategies for a mesh: refined, then with finer voxels unless their size is fixed.
 
     Parameters
     ----------
@@ -40,13 +40,13 @@ def ways_of_mesh(
     resolution, voxel
         See `infill.smooth_mesh`.
     fixed : bool
-        Whether the size of the voxels was asked for.
+        Whether the size of the voxels is requested.
     hint : bool
-        Whether to tell of filters that may be nearer: see `infill.smoothing.hints`.
+        Whether to log a hint at filters that may stay nearer to the mesh: see `infill.smoothing.hints`.
     """
     auto: Method = "refine" if request.smoothing.steps >= FEWEST and request.level == "volume" else "plain"
-    first = replace(request, method=auto if request.method == AUTO else request.method, refine=None)
-    if first.method == "grey":
+    base_request = replace(request, method=auto if request.method == AUTO else request.method, refine=None)
+    if base_request.method == "grey":
         raise ParameterError("grey levels are those of scans; choose plain or refine for a mesh")
 
     def with_voxels(resolution: int | None, voxel: float | None, *, hint: bool = False) -> tuple[Given, Request]:
@@ -54,14 +54,14 @@ def ways_of_mesh(
             grid = grid_around(surface, voxel=voxel, resolution=resolution, margin=MARGIN)
             advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or a lower resolution"
             require_memory(BYTES_PER_CELL * grid.cells, request.max_memory, advice)
-        found = voxelise_reported(
+        voxelised = voxelise_reported(
             surface, voxel=voxel, resolution=resolution, margin=MARGIN, max_memory=request.max_memory
         )
         if hint:
-            tell_of_filters(surface, found)
-        return _given_mesh(surface, found, first), first
+            tell_of_filters(surface, voxelised)
+        return _mesh_input(surface, voxelised, base_request), base_request
 
-    yield Way(name=first.method, make=partial(with_voxels, resolution, voxel, hint=hint))
+    yield Way(name=base_request.method, make=partial(with_voxels, resolution, voxel, hint=hint))
     if request.method == AUTO and not fixed:
         for times in FINER:
             finer = round(times * RESOLUTION)
@@ -69,28 +69,32 @@ def ways_of_mesh(
             yield Way(name=f"{finer} voxels", make=partial(with_voxels, *size), cost=times**2.5)
 
 
-def _given_mesh(surface: Surface, found: Voxelised, request: Request) -> Given:
-    """Return the distances from a mesh as data, and what is known about it."""
+def _mesh_input(surface: Surface, voxelised: Voxelised, request: Request) -> Given:
+    """Return the distances from a mesh as data, with its topology if that is known."""
     interface = request.smoothing.interface
-    distance = found.distances(cut_off(interface), threads=request.threads)
-    held = found.enclosed
-    # How the mesh is connected is known if its components neither touch nor overlap, and nothing had to be added.
-    whole = found.closed.closed and found.repairs.holes == 0 and (not found.several or len(held.excess) == 0)
+    distance = voxelised.distances(cut_off(interface), threads=request.threads)
+    enclosed = voxelised.enclosed
+    # The topology of the mesh is known if its components neither touch nor overlap, and no caps had to be added.
+    is_exact = (
+        voxelised.closed.closed
+        and voxelised.repairs.holes == 0
+        and (not voxelised.several or len(enclosed.excess) == 0)
+    )
     topology = None
-    if whole:
-        solids, cavities = int((held.volumes > 0).sum()), int((held.volumes < 0).sum())
-        tunnels = solids + cavities - found.closed.euler_number // 2
+    if is_exact:
+        solids, cavities = int((enclosed.volumes > 0).sum()), int((enclosed.volumes < 0).sum())
+        tunnels = solids + cavities - voxelised.closed.euler_number // 2
         topology = Counts.of(components=solids, cavities=cavities, tunnels=tunnels) if tunnels >= 0 else None
     return Given(
-        data=replace(found.volume, values=on_profile(distance, interface, threads=request.threads)),
+        data=replace(voxelised.volume, values=on_profile(distance, interface, threads=request.threads)),
         facts={
             "source": "mesh",
-            "repairs": asdict(found.repairs),
-            "several": found.several,
+            "repairs": asdict(voxelised.repairs),
+            "several": voxelised.several,
             "notes": list(surface.notes),
         },
-        reference=found.closed,
+        reference=voxelised.closed,
         mesh=surface,
-        enclosed=held,
+        enclosed=enclosed,
         topology=topology,
     )

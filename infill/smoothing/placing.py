@@ -1,4 +1,4 @@
-"""A result and the data it was made from: where it lies, what it looked like before, and how far it moved."""
+"""Place a result in space, simplify it, extract the surface of its data, and summarise distances."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ SIMPLER = 0.05  # of the volume: how much simplification may change
 
 
 def placed(surface: Surface, data: Volume) -> Surface:
-    """Return the surface placed in space where the volume lies."""
+    """Move a surface from grid coordinates to the place of the volume in space."""
     return surface.moved(data.place(surface.vertices), space=data.space, mirrored=data.mirrored)
 
 
 def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] | None]:
-    """Return the surface simplified as requested, and what that cost; None if no simplification was requested.
+    """Simplify the surface as requested; return it and the changes, None if it stays as it is.
 
     Raises
     ------
@@ -41,36 +41,38 @@ def lightened(full: Surface, request: Request) -> tuple[Surface, dict[str, Any] 
     """
     if request.tolerance is None and request.max_triangles is None:
         return full, None
-    assert not isinstance(request.tolerance, str)  # it is a number by now
+    assert not isinstance(request.tolerance, str)  # `Request.at` has made it a number
     if request.lenient and request.tolerance is not None:
-        fewer = collapsed(full, tolerance=request.tolerance, threads=request.threads)
-        if fewer is None or fewer is full:
+        simplified_surface = collapsed(full, tolerance=request.tolerance, threads=request.threads)
+        if simplified_surface is None or simplified_surface is full:
             return full, None
     else:
-        fewer = simplified(full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads)
-    light = replace(with_volume(fewer, full.volume), space=full.space)
-    change = light.volume / full.volume - 1
+        simplified_surface = simplified(
+            full, tolerance=request.tolerance, triangles=request.max_triangles, threads=request.threads
+        )
+    result = replace(with_volume(simplified_surface, full.volume), space=full.space)
+    change = result.volume / full.volume - 1
     if abs(change) > SIMPLER and not request.allow_broken:
         raise GeometryError(
-            f"simplifying to {len(light.faces):,} triangles would change the volume by {change:+.0%}; "
+            f"simplifying to {len(result.faces):,} triangles would change the volume by {change:+.0%}; "
             "allow more triangles or give a smaller tolerance"
         )
-    return light, {
+    return result, {
         "triangles_before": len(full.faces),
         "volume_change": change,
-        "shells": shell_names(light)[1],
-        "distance": summary(distances(some(full.vertices), light, threads=request.threads)),
+        "shells": shell_names(result)[1],
+        "distance": summary(distances(some(full.vertices), result, threads=request.threads)),
     }
 
 
 def raw_surface(field: SparseField, data: Volume, threads: int | None) -> Surface:
-    """Return the surface of the data in the bricks, placed in space."""
+    """Extract the surface of the unsmoothed data in the bricks, placed in space."""
     grey = replace(field, values=field.data.astype(np.float32))
     return placed(extract_bricks(grey, spacing=tuple(data.cell_size), threads=threads), data)
 
 
 def some(vertices: NDArray[np.floating]) -> NDArray[np.floating]:
-    """Return the vertices that are compared, spread evenly over all of them."""
+    """Return at most about 5000 vertices, spread evenly over all of them."""
     return vertices[:: max(1, len(vertices) // COMPARED)]
 
 

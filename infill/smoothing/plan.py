@@ -1,8 +1,8 @@
-"""What smoothing would do, without doing it: the grid, the method, what would be tried, and what it would take.
+"""Plan smoothing without doing it: the grid, the method, the strategies, and expected time and memory.
 
-Time and memory grow with the surface. How many triangles it has before it is simplified is known beforehand: marching
-cubes puts a vertex on every edge of the grid that crosses it, and there are twice as many triangles as vertices. What a
-triangle takes is measured on a ball, since it depends on the machine, on what else that does, and on the options.
+Time and memory grow with the surface. Its number of triangles before simplification is known beforehand: marching
+cubes puts a vertex on every edge of the grid that crosses it, and there are twice as many triangles as vertices. The
+time per triangle is measured on a ball, since it depends on the machine, on its load, and on the options.
 """
 
 from __future__ import annotations
@@ -38,36 +38,36 @@ if TYPE_CHECKING:
     from infill.smoothing.request import Method, Options
 
 PER_VERTEX = 2  # triangles
-BALL = 16.0  # cells: the radius of the ball on which it is measured how long a triangle takes
-MESHES = 0.85  # of that: a triangle of a mesh takes 0.5 to 1.6 times as long, one of a scan 1.0 to 1.2 times; measured
-COARSE = 60  # voxels along the longest side: points are looked at with as many
+BALL = 16.0  # cells: the radius of the ball on which the time per triangle is measured
+MESHES = 0.85  # of that time, measured: a triangle of a mesh takes 0.5 to 1.6 times as long, one of a scan 1.0 to 1.2
+COARSE = 60  # voxels along the longest side of the grid on which points are surveyed
 BYTES_BEFORE = 300e6  # of the program itself, a measured peak
-BYTES_PER_CELL = 6  # of a volume: which cells are solid, and the data as 32-bit numbers, beside what was read
+BYTES_PER_CELL = 6  # of a volume: the mask of solid cells, and the data as 32-bit numbers, besides its own array
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Plan:
-    """What smoothing would do.
+    """The plan of a smoothing run.
 
     Parameters
     ----------
     request : Request
-        The first way to smooth, with lengths in cells of the grid.
+        The options of the first strategy, with lengths in cells of the grid.
     grid : Grid
     space : str
         Name of the axes: see `infill.Volume`.
     facts : mapping
-        What is known about the input, as the report has it.
+        The section `input` of the report.
     solid : float
         Cells that are solid; of a mesh and of points, about.
     ways : tuple of str
-        Ways to smooth that would be tried in turn until nothing is lost; the first one is expected to do.
+        Strategies that would be tried in turn until nothing is lost; usually the first one suffices.
     triangles : int
         Of the surface before it is simplified, about.
     memory : int
         Bytes, about.
     seconds : float
-        That the first way takes, about: on this machine, as busy as it is.
+        Expected time of the first strategy on this machine, at its present load.
     """
 
     request: Request
@@ -86,7 +86,7 @@ class Plan:
         return self.solid * float(np.prod(self.grid.cell_size))
 
     def report(self) -> dict[str, Any]:
-        """Return the plan as plain numbers, by the names that the report of a run has for them: see docs/report.md."""
+        """Return the plan as plain numbers, with the keys of the report of a run: see docs/report.md."""
         return {
             "request": self.request.facts(),
             "grid": {
@@ -119,17 +119,17 @@ def planned(
     by_component: bool = False,
     **options: Unpack[Options],
 ) -> Plan:
-    """Return what `infill.smoothing.sources.smooth_source` would do with the same arguments.
+    """Return the plan for `infill.smoothing.sources.smooth_source` with the same arguments.
 
     Parameters
     ----------
     begin : float
-        When reading the input began, by `time.perf_counter`: a run takes that time as well.
+        Start of reading the input, by `time.perf_counter`: the plan includes that time.
 
     Raises
     ------
     ParameterError
-        For options that do not fit the input, or do not say what is solid.
+        For options that do not fit the input, or do not determine the solid.
     MemoryLimitError
         If a limit is given and the work needs more.
     """
@@ -148,38 +148,38 @@ def planned(
     request = Request(**options)
     if isinstance(source, Volume):
         chosen = threshold_of(threshold, between, otsu=otsu)
-        found = _of_volume(ways_of_volume(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel))
+        survey = _survey_volume(ways_of_volume(source, request, threshold=chosen, label=label, grey=grey, voxel=voxel))
     elif isinstance(source, Surface):
-        found = _of_mesh(source, request, resolution, voxel)
+        survey = _survey_mesh(source, request, resolution, voxel)
     else:
         points = source[:, :AXES]
-        found = _of_points(points, voxel_of_points(points, resolution, voxel), shell, request)
-    grid, asked = found.grid, found.request.at(float(found.grid.cell_size.min()))
-    each = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if asked.refined else 0)
-    cells, surface = found.bytes_per_cell * grid.cells, each * found.vertices
+        survey = _survey_points(points, voxel_of_points(points, resolution, voxel), shell, request)
+    grid, cell_request = survey.grid, survey.request.at(float(survey.grid.cell_size.min()))
+    bytes_per_surface_cell = BYTES_PER_SURFACE_CELL + (BYTES_TO_REFINE if cell_request.refined else 0)
+    cells, surface = survey.bytes_per_cell * grid.cells, bytes_per_surface_cell * survey.vertices
     if request.max_memory is not None:
         needed = round(max(cells, surface))
         require_memory(needed, request.max_memory, "give larger voxels, or --roi for a part of a volume")
-    few = replace(asked.smoothing, steps=min(asked.smoothing.steps, FEWEST))
-    _trial(replace(asked, smoothing=few), grid)  # which loads what a run has to load
+    shortest_smoothing = replace(cell_request.smoothing, steps=min(cell_request.smoothing.steps, FEWEST))
+    _seconds_per_triangle(replace(cell_request, smoothing=shortest_smoothing), grid)  # loads what a run needs
     loaded = time.perf_counter()
-    work = found.share * _trial(asked, grid) * PER_VERTEX * found.vertices
+    work = survey.share * _seconds_per_triangle(cell_request, grid) * PER_VERTEX * survey.vertices
     return Plan(
-        request=asked,
+        request=cell_request,
         grid=grid,
-        space=found.space,
-        facts=found.facts,
-        solid=found.solid,
-        ways=found.ways,
-        triangles=round(PER_VERTEX * found.vertices),
+        space=survey.space,
+        facts=survey.facts,
+        solid=survey.solid,
+        ways=survey.ways,
+        triangles=round(PER_VERTEX * survey.vertices),
         memory=round(BYTES_BEFORE + cells + surface),
-        seconds=loaded - begin + work + found.seconds,
+        seconds=loaded - begin + work + survey.seconds,
     )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Found:
-    """What is known of an input before it is smoothed.
+class _InputSurvey:
+    """Properties of an input that are known before it is smoothed.
 
     Parameters
     ----------
@@ -190,9 +190,9 @@ class _Found:
     bytes_per_cell : int
         Of the grid.
     share : float
-        How long a triangle takes, relative to one of the ball.
+        Time per triangle, relative to that of the ball.
     seconds : float
-        That it takes to find what is solid, if that was not done here.
+        Time to find the solid cells, if they were not found here.
     """
 
     request: Request
@@ -207,69 +207,69 @@ class _Found:
     seconds: float = 0.0
 
 
-def _of_volume(ways: Iterator[Way]) -> _Found:
-    first = next(ways)
-    given, asked = first.make()
-    data = given.data
-    solid, vertices = _counted(np.asarray(data.values) > 0)
-    return _Found(
-        request=asked,
+def _survey_volume(ways: Iterator[Way]) -> _InputSurvey:
+    first_strategy = next(ways)
+    smooth_input, request = first_strategy.make()
+    data = smooth_input.data
+    solid, vertices = _count_cells(np.asarray(data.values) > 0)
+    return _InputSurvey(
+        request=request,
         grid=Grid(shape=data.values.shape, spacing=tuple(data.cell_size.tolist()), origin=data.origin),
         space=data.space,
-        facts=given.facts,
+        facts=smooth_input.facts,
         solid=solid,
         vertices=vertices,
-        ways=(first.name, *(way.name for way in ways)),
+        ways=(first_strategy.name, *(way.name for way in ways)),
     )
 
 
-def _of_mesh(surface: Surface, request: Request, resolution: int | None, voxel: float | None) -> _Found:
-    """Return what is known of a mesh: nothing of it is looked at cell by cell."""
+def _survey_mesh(surface: Surface, request: Request, resolution: int | None, voxel: float | None) -> _InputSurvey:
+    """Survey a mesh without voxelising it."""
     fixed = resolution is not None or voxel is not None
     ways = [way.name for way in ways_of_mesh(surface, request, resolution=resolution, voxel=voxel, fixed=fixed)]
     mesh = closed_or_merged(surface.vertices, surface.faces)
     grid = grid_around(mesh, voxel=voxel, resolution=resolution, margin=MARGIN)
-    return _Found(
+    return _InputSurvey(
         request=replace(request, method=cast("Method", ways[0]), refine=None),
         grid=grid,
         facts={"source": "mesh", "triangles": len(surface.faces)},
         solid=enclosed_cells(mesh, grid),
-        vertices=_crossed(mesh) / float(grid.cell_size[0]) ** 2,
+        vertices=_crossings_per_area(mesh) / float(grid.cell_size[0]) ** 2,
         ways=tuple(ways),
         bytes_per_cell=MESH_BYTES_PER_CELL,
         share=MESHES,
     )
 
 
-def _of_points(points: NDArray[np.float64], cell: float, shell: float | None, request: Request) -> _Found:
-    """Return what is known of points, looked at with voxels so large that it is quickly done."""
-    narrow = shell is not None and shell < cell  # an error, of the voxels that were asked for
-    times = 1.0 if narrow else max(1.0, float(np.ptp(points, axis=0).max()) / cell / COARSE)
+def _survey_points(points: NDArray[np.float64], cell: float, shell: float | None, request: Request) -> _InputSurvey:
+    """Survey points with large voxels, which is quick."""
+    narrow = shell is not None and shell < cell  # raises an error for the requested voxels
+    coarsening = 1.0 if narrow else max(1.0, float(np.ptp(points, axis=0).max()) / cell / COARSE)
     begin = time.perf_counter()
-    wide = shell if shell is None or narrow else max(shell, times * cell)
-    solid = voxelise_points(points, voxel=times * cell, shell=wide, margin=MARGIN, threads=request.threads)
-    took = time.perf_counter() - begin
-    cells, vertices = _counted(np.asarray(solid.values))
+    coarse_shell = shell if shell is None or narrow else max(shell, coarsening * cell)
+    solid = voxelise_points(points, voxel=coarsening * cell, shell=coarse_shell, margin=MARGIN, threads=request.threads)
+    seconds = time.perf_counter() - begin
+    cells, vertices = _count_cells(np.asarray(solid.values))
     phase = shell is None and request.method != "plain"
     ways = ways_of_scan(solid, solid, {"method": "points"}, {}, request, grey=False, phase=phase)
-    first = next(ways)
-    return _Found(
-        request=first.make()[1],
+    first_strategy = next(ways)
+    return _InputSurvey(
+        request=first_strategy.make()[1],
         grid=grid_around_points(points, voxel=cell, shell=shell, margin=MARGIN),
         facts={"source": "points", "points": len(points), "shell": shell},
-        solid=cells * times**3,
-        vertices=vertices * times**2,
-        ways=(first.name, *(way.name for way in ways)),
-        seconds=took * (times**2 - 1),
+        solid=cells * coarsening**3,
+        vertices=vertices * coarsening**2,
+        ways=(first_strategy.name, *(way.name for way in ways)),
+        seconds=seconds * (coarsening**2 - 1),
     )
 
 
 @told_of_compiling("the smoother")
-def _trial(request: Request, grid: Grid) -> float:
-    """Return how many seconds a triangle takes: of a ball of cells of the same size, smoothed in the same way."""
-    far = np.indices((round(2 * BALL) + 2 * MARGIN,) * 3) - (BALL + MARGIN - 0.5)
-    ball = Volume(values=(far**2).sum(axis=0) <= BALL**2, spacing=tuple(grid.cell_size.tolist()))
-    asked = replace(
+def _seconds_per_triangle(request: Request, grid: Grid) -> float:
+    """Measure the seconds per triangle on a ball of cells of the same size, smoothed in the same way."""
+    offsets = np.indices((round(2 * BALL) + 2 * MARGIN,) * 3) - (BALL + MARGIN - 0.5)
+    ball = Volume(values=(offsets**2).sum(axis=0) <= BALL**2, spacing=tuple(grid.cell_size.tolist()))
+    trial_request = replace(
         request,
         method="refine" if request.refined else "plain",
         despeckle=0.0,
@@ -280,19 +280,19 @@ def _trial(request: Request, grid: Grid) -> float:
         progress=None,
     )
     begin = time.perf_counter()
-    with contextlib.suppress(GeometryError):  # nothing is left of it after many steps, which took as long
-        best_of(ways_of_volume(ball, asked), asked)
-    return (time.perf_counter() - begin) / (PER_VERTEX * _counted(np.asarray(ball.values))[1])
+    with contextlib.suppress(GeometryError):  # many steps leave nothing of the ball, and take as long
+        best_of(ways_of_volume(ball, trial_request), trial_request)
+    return (time.perf_counter() - begin) / (PER_VERTEX * _count_cells(np.asarray(ball.values))[1])
 
 
-def _counted(solid: NDArray[np.bool_]) -> tuple[int, int]:
-    """Return how many cells are solid, and how many edges of the grid cross their surface, at its rim too."""
+def _count_cells(solid: NDArray[np.bool_]) -> tuple[int, int]:
+    """Count the solid cells, and the grid edges that cross their surface, including the rim of the grid."""
     inside = sum(int(np.count_nonzero(np.diff(solid, axis=axis))) for axis in range(solid.ndim))
     rim = sum(int(np.count_nonzero(solid.take((0, -1), axis))) for axis in range(solid.ndim))
     return int(np.count_nonzero(solid)), inside + rim
 
 
-def _crossed(mesh: Surface) -> float:
-    """Return how many lines along the axes, one a square mm, cross the surface of a mesh: its projected areas."""
+def _crossings_per_area(mesh: Surface) -> float:
+    """Count crossings of a mesh with lines along the axes, one per mm²: the sum of its projected areas."""
     a, b, c = (np.asarray(mesh.vertices, dtype=np.float64)[mesh.faces[:, i]] for i in range(3))
     return float(np.abs(np.cross(b - a, c - a)).sum()) / 2

@@ -1,4 +1,4 @@
-"""What is tried before a result is refused: the next way to smooth, until nothing real is lost.
+"""Try one strategy after another until nothing real is lost, before a result is refused.
 
 Each remedy is a whole run. The first result that is sound is taken; if none is, the best of them.
 """
@@ -21,23 +21,23 @@ if TYPE_CHECKING:
     from infill.smoothing.request import Given, Request
     from infill.smoothing.stages import SmoothStages
 
-# Seconds of all cores together: nothing that takes longer than the first way is begun if it would end later than this.
-# Not seconds on the clock: what is tried must not depend on what else the machine does.
+# Seconds of all cores together: a strategy that takes longer than the first is skipped if it would end later than this.
+# CPU time, not wall time: the choice must not depend on the load of the machine.
 PATIENCE = 100.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Way:
-    """A way to smooth.
+    """One strategy of smoothing.
 
     Parameters
     ----------
     name : str
-        What it does, for the report: "refined".
+        Its name in the report, such as "refined".
     make : callable
         Returns the data and the request.
     cost : float
-        How long it takes, relative to the first way.
+        Its time, relative to the first strategy.
     """
 
     name: str
@@ -46,32 +46,32 @@ class Way:
 
 
 def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, SmoothReport]:
-    """Return the result of the first way that loses nothing, or else of the best.
+    """Run strategies until one loses nothing; return its result, or else the best one.
 
     Parameters
     ----------
     ways : iterable of Way
-        The first is the one that was asked for. The others are tried as long as there is time and memory.
+        The first is the requested one. The others are tried as long as there is time and memory.
     request : Request
 
     Raises
     ------
     GeometryError
-        If something was lost whatever was tried, unless broken results are allowed. With `strict`, only the first way
-        is tried, and whatever broke, fused or vanished is refused.
+        If every strategy loses something, unless broken results are allowed. With `strict`, only the first strategy
+        is tried, and a result in which anything broke, fused or vanished is refused.
     """
-    begin, first = time.process_time(), 0.0
+    begin, first_seconds = time.process_time(), 0.0
     best: Attempt | None = None
-    taken = ""
+    best_name = ""
     tried: list[str] = []
     failed: GeometryError | None = None
     for way in ways:
         if tried and (request.strict or (request.allow_broken and best is not None)):
             break
-        if way.cost > 1 and time.process_time() - begin + way.cost * first > PATIENCE:
+        if way.cost > 1 and time.process_time() - begin + way.cost * first_seconds > PATIENCE:
             break
         try:
-            found = attempted(*way.make())
+            attempt = attempted(*way.make())
         except GeometryError as error:
             failed = failed or error
         except (MemoryLimitError, ParameterError):
@@ -79,31 +79,31 @@ def best_of(ways: Iterable[Way], request: Request) -> Result[SmoothStages, Smoot
                 raise
             break
         else:
-            if best is None or found.rank < best.rank:
-                best, taken = found, way.name
+            if best is None or attempt.rank < best.rank:
+                best, best_name = attempt, way.name
         tried.append(way.name)
-        first = first or time.process_time() - begin
+        first_seconds = first_seconds or time.process_time() - begin
         if best is not None and (best.sound or (best.told.word != "lost" and len(tried) > 1)):
-            break  # what is connected differently is worth one more run, what is lost all of them
+            break  # a difference in topology is worth one more run, a loss all of them
     if best is None:
         assert failed is not None
-        raise GeometryError(f"{failed}{_after(tried[1:])}") from failed
-    result, told = delivered(best)
-    refused = told.losses if not request.strict else (*told.losses, *told.problems)
-    if refused and not request.allow_broken:
-        raise GeometryError(f"{'; '.join(refused)}{_after(tried[1:])}; {_advice(best)}")
-    verdict: VerdictKeys = {**result.report["verdict"], "tried": tried, "taken": taken}
+        raise GeometryError(f"{failed}{_list_tried(tried[1:])}") from failed
+    result, verdict_words = delivered(best)
+    reasons = verdict_words.losses if not request.strict else (*verdict_words.losses, *verdict_words.problems)
+    if reasons and not request.allow_broken:
+        raise GeometryError(f"{'; '.join(reasons)}{_list_tried(tried[1:])}; {_advice(best)}")
+    verdict: VerdictKeys = {**result.report["verdict"], "tried": tried, "taken": best_name}
     report = Sections(result.report).replaced(verdict=verdict)
     return replace(result, report=cast("SmoothReport", report))
 
 
-def _after(others: list[str]) -> str:
-    """Return what was tried in vain, as the end of a phrase."""
-    return f" (tried in vain: {', '.join(others)})" if others else ""
+def _list_tried(strategies: list[str]) -> str:
+    """List the strategies tried in vain, as the end of a phrase."""
+    return f" (tried in vain: {', '.join(strategies)})" if strategies else ""
 
 
 def _advice(best: Attempt) -> str:
-    """Return what to do about what is lost; simplification comes after all that was tried."""
+    """Return advice on a loss: about simplification if only that caused it."""
     request = best.request
     if not best.told.losses and (request.tolerance is not None or request.max_triangles is not None):
         return "give a smaller --tolerance or more --max-triangles, or --allow-broken to have it anyway"
@@ -113,9 +113,9 @@ def _advice(best: Attempt) -> str:
 
 
 def fewer_steps(request: Request) -> list[int]:
-    """Return the numbers of steps to try when those asked for lose something."""
-    steps, found = request.smoothing.steps, []
+    """Return the smaller numbers of steps to try if the requested number loses something."""
+    steps, counts = request.smoothing.steps, []
     while steps > FEWEST:
         steps = max(FEWEST, steps // 2)
-        found.append(steps)
-    return found
+        counts.append(steps)
+    return counts

@@ -24,7 +24,7 @@ LevelMethod = Literal["volume"] | float
 Method = Literal["auto", "plain", "refine", "grey"]
 METHODS = ("auto", "plain", "refine", "grey")
 AUTO: Literal["auto"] = "auto"
-LEAN = 0.1  # of a cell: how far simplification by default may move the surface
+LEAN = 0.1  # of a cell: the distance by which simplification may move the surface by default
 STEPS_PER_VARIANCE = 3.5  # cells²: the standard deviation of n steps is sqrt(2 n / 7) cells
 MOST_STEPS = 2000  # minutes
 HIGHEST, HIGHEST_REFINED = 0.999, 0.99  # of a fixed level of phi; beyond these, there is no profile to find it on
@@ -51,7 +51,7 @@ class Options(TypedDict, total=False):
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """The same options, checked, with defaults.
+    """The options of `Options`, checked, with defaults.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Request:
     refine : bool, optional
         True is `method="refine"`, False is `method="plain"`.
     held : bool
-        Whether exact data hold the surface: see `infill.phasefield.refining.Exact`. A radius that is asked for is kept.
+        Whether exact data bound the surface: see `infill.phasefield.refining.Exact`. False if a radius is requested.
     lenient : bool
         Whether a surface that cannot be simplified to the tolerance is left as it is.
 
@@ -89,7 +89,7 @@ class Request:
     held: bool = True
 
     def __post_init__(self) -> None:
-        """Check what does not depend on the data."""
+        """Check all options that do not depend on the data."""
         if self.method not in METHODS:
             raise UsageError(f"method is {self.method!r}; choose from {', '.join(METHODS)}")
         if self.refine is not None:
@@ -113,7 +113,7 @@ class Request:
 
     @property
     def refined(self) -> bool:
-        """Whether edges and thin walls are refined, once it is known how to smooth."""
+        """Whether edges and thin walls are refined; "auto" counts as no."""
         return self.method in ("refine", "grey")
 
     @property
@@ -124,7 +124,7 @@ class Request:
     def at(self, cell: float) -> Request:
         """Return the request with its lengths in cells of a size, mm: a radius becomes steps, `auto` a tolerance.
 
-        What n steps make of a field is about what a Gaussian of a standard deviation of sqrt(2 n / 7) cells does.
+        n steps blur a field about as much as a Gaussian with a standard deviation of sqrt(2 n / 7) cells.
         """
         smoothing, tolerance = self.smoothing, self.tolerance
         if self.radius is not None:
@@ -168,28 +168,28 @@ class Request:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Given:
-    """What is solid, and what is known about its origin.
+    """The solid to smooth, and facts about its origin.
 
     Parameters
     ----------
     data : Volume
         Booleans, or a phase field.
     facts : mapping
-        For the report: `source`, and anything else worth reporting.
+        The section `input` of the report: `source` and others.
     reference : Surface, optional
         The closed mesh that the volume was made from, mm.
     mesh : Surface, optional
-        The mesh as it was given, mm: the closed one without its caps.
+        The input mesh, mm: the closed one without its caps.
     enclosed : Enclosed, optional
-        What the mesh encloses; the data are then its distances, exactly, and not a staircase.
+        The volumes inside the mesh; the data are then its exact distances, not a staircase.
     topology : Counts, optional
-        How the mesh is connected, if that is known.
+        The topology of the mesh, if it is known.
     raw : Surface, optional
-        The surface of the voxels that were given, mm, if the data are others.
+        The surface of the input voxels, mm, if the data differ from them.
     volume : float, optional
-        Volume of what was given, mm³, if the data do not tell it.
+        Volume of the input, mm³, if the data do not give it.
     cell : float, optional
-        What distances are judged by, mm; by default, the longest side of a cell of the data.
+        Unit by which distances are judged, mm; by default, the longest side of a cell of the data.
     """
 
     data: Volume

@@ -1,4 +1,4 @@
-"""How to smooth a scan: which of its values to keep, by which method, and what to try if that loses something."""
+"""Strategies for a scan: the values to keep, the method, and remedies if that loses something."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from infill.voxels.slices import interpolated, layers_between
 
 Threshold = float | tuple[float | None, float | None] | Literal["otsu"] | None
 
-LAYERS = 16  # that are looked at for grey values
+LAYERS = 16  # sampled for grey values
 SPECK = 27  # cells: specks up to this size are taken out of noisy data
 
 
@@ -40,7 +40,7 @@ def ways_of_volume(
     grey: bool = False,
     voxel: float | None = None,
 ) -> Iterator[Way]:
-    """Return the ways to smooth what is solid in a volume, the right one first.
+    """Return the strategies for the solid in a volume, the preferred one first.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def ways_of_volume(
         if phase or used["method"] in ("range", "otsu"):
             scan = coarser(scan, voxel)
             solid, _ = segment(scan, low=used["low"], high=used.get("high"))
-        else:  # a mask: what share of a larger voxel is solid tells where in it the surface lies
+        else:  # a mask: the solid share of a larger voxel gives the place of the surface in it
             scan = coarser(replace(solid, values=np.asarray(solid.values) > 0), voxel)
             scan, phase = replace(scan, values=2 * np.asarray(scan.values) - 1), True
             solid = replace(scan, values=np.asarray(scan.values) > 0)
@@ -72,7 +72,7 @@ def ways_of_volume(
 
 
 def range_of(threshold: Threshold) -> tuple[float | None, float | None]:
-    """Return from which value on, and up to which, cells are solid; both None where Otsu's method is to find it.
+    """Return the lowest and highest value of solid cells; both None if Otsu's method is to find them.
 
     >>> range_of(226), range_of((None, 900.0)), range_of("otsu")
     ((226.0, None), (None, 900.0), (None, None))
@@ -96,19 +96,19 @@ def ways_of_scan(
     phase: bool,
     volume: float | None = None,
 ) -> Iterator[Way]:
-    """Yield the ways to smooth a scan, the right one first.
+    """Yield the strategies for a scan, the preferred one first.
 
     Parameters
     ----------
     scan, solid : Volume
-        Its values, and which cells are solid.
+        The values, and the mask of solid cells.
     used : mapping
-        How that was told: see `infill.voxels.segmentation.threshold`.
+        How the solid was determined: see `infill.voxels.segmentation.threshold`.
     facts : mapping
         For the report.
     request : Request
     grey : bool
-        Whether grey levels were asked for.
+        Whether grey levels are requested.
     phase : bool
         Whether the values are a phase field, which is smoothed as it is.
     volume : float, optional
@@ -117,7 +117,7 @@ def ways_of_scan(
     Raises
     ------
     ParameterError
-        If grey levels were asked for and there is no threshold.
+        If grey levels are requested without a threshold.
     """
     level = used.get("low") if used.get("high") is None else None
     if (grey or request.method == "grey") and level is None:
@@ -126,42 +126,42 @@ def ways_of_scan(
     facts = {**facts, "noise": noise}
     method, despeckle, paper = request.method, request.despeckle, False
     if method == AUTO:
-        kept = level is not None and not phase and _shaded(np.asarray(scan.values), used["values"])
+        keeps_grey = level is not None and not phase and _has_grey_values(np.asarray(scan.values), used["values"])
         paper = request.level != "volume" or request.smoothing.steps < FEWEST
-        method = "plain" if noise > NOISY or paper else "grey" if grey or kept else "refine"
+        method = "plain" if noise > NOISY or paper else "grey" if grey or keeps_grey else "refine"
         despeckle = despeckle or (SPECK * scan.cell_volume if noise > NOISY and not paper else 0.0)
     axis, count = layers_between(solid)
     data = scan if phase else solid
     if (grey or method == "grey") and not phase:
         data = grey_levels(scan, float(used["low"]))
-    given = _given(data, solid, {**facts, "grey": grey or method == "grey"}, axis=axis, count=count)
-    given = given if volume is None else replace(given, volume=volume)
-    first = replace(request, method=method, refine=None, despeckle=despeckle)
-    yield Way(name=method, make=partial(_same, given, first))
+    smooth_input = _scan_input(data, solid, {**facts, "grey": grey or method == "grey"}, axis=axis, count=count)
+    smooth_input = smooth_input if volume is None else replace(smooth_input, volume=volume)
+    base_request = replace(request, method=method, refine=None, despeckle=despeckle)
+    yield Way(name=method, make=partial(_pass_through, smooth_input, base_request))
     if request.method == AUTO and method == "plain" and not paper:
-        kept_more = replace(first, method="refine")
-        yield Way(name="refine", make=partial(_same, given, kept_more), cost=2)
-    for steps in fewer_steps(first):
-        fewer = replace(first, smoothing=replace(first.smoothing, steps=steps), radius=None)
-        yield Way(name=f"{method}, {steps} steps", make=partial(_same, given, fewer))
+        refined_request = replace(base_request, method="refine")
+        yield Way(name="refine", make=partial(_pass_through, smooth_input, refined_request), cost=2)
+    for steps in fewer_steps(base_request):
+        fewer = replace(base_request, smoothing=replace(base_request.smoothing, steps=steps), radius=None)
+        yield Way(name=f"{method}, {steps} steps", make=partial(_pass_through, smooth_input, fewer))
     if request.method == AUTO and method != "plain":
-        plain = replace(first, method="plain")
-        yield Way(name="plain", make=partial(_same, given, plain), cost=0.5)
+        plain = replace(base_request, method="plain")
+        yield Way(name="plain", make=partial(_pass_through, smooth_input, plain), cost=0.5)
 
 
-def _same(given: Given, request: Request) -> tuple[Given, Request]:
-    """Return both: what a way makes that needs no other data."""
-    return given, request
+def _pass_through(smooth_input: Given, request: Request) -> tuple[Given, Request]:
+    """Return both arguments: `make` of a strategy that needs no other data."""
+    return smooth_input, request
 
 
-def _shaded(values: NDArray[Any], ends: list[float]) -> bool:
-    """Return whether any of some layers has values between the least and the greatest: a mask has none."""
-    some = values[:: max(1, len(values) // LAYERS)]
-    return bool(((some > ends[0]) & (some < ends[1])).any())
+def _has_grey_values(values: NDArray[Any], ends: list[float]) -> bool:
+    """Tell whether sampled layers have values between the lowest and the highest: those of a mask have none."""
+    sampled_layers = values[:: max(1, len(values) // LAYERS)]
+    return bool(((sampled_layers > ends[0]) & (sampled_layers < ends[1])).any())
 
 
-def _given(data: Volume, solid: Volume, facts: Mapping[str, Any], *, axis: int, count: int) -> Given:
-    """Return the data to smooth, slices between thick ones included."""
+def _scan_input(data: Volume, solid: Volume, facts: Mapping[str, Any], *, axis: int, count: int) -> Given:
+    """Return the input of a scan; thick slices are interpolated."""
     facts = {**facts, "slices": count}
     if count == 1:
         return Given(data=data, facts=facts)

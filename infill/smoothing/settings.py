@@ -34,14 +34,14 @@ if TYPE_CHECKING:
     from infill.smoothing.request import LevelMethod, Method, Options
 
 AUTO, REFINE, PLAIN = "auto", "refine", "plain"
-# What says the same thing in two ways: one that is typed drops those that only the file gives.
+# Options that exclude each other: a flag on the command line drops its rivals in the file.
 RIVALS = (
     ("threshold", "range", "label", "otsu"),
     ("resolution", "voxel"),
     ("steps", "smooth_radius"),
     ("smooth", "refine", "fidelity"),
 )
-FIELDS = {"as": "kind", "range": "between", "smooth": "method"}  # whose names are taken by Python, or say too little
+FIELDS = {"as": "kind", "range": "between", "smooth": "method"}  # names that Python reserves, or that say too little
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,9 +51,9 @@ class SmoothSettings:
     Parameters
     ----------
     kind, units, array, series, frame, spacing, roi
-        How the input is read: see `infill.smoothing.sources.read_source`.
+        Options of reading the input: see `infill.smoothing.sources.read_source`.
     resolution, voxel, shell, threshold, between, label, otsu, grey, by_component
-        What is solid, and on which grid: see `infill.smooth_volume` and its siblings. `between` is ``--range``.
+        Choice of the solid and of the grid: see `infill.smooth_volume` and its siblings. `between` is ``--range``.
     each_label, labels, keep_going
         See `infill.smooth_labels`; `labels` is a file of names and colours.
     steps, fidelity, interface
@@ -105,7 +105,7 @@ class SmoothSettings:
     strict: bool = False
 
     def __post_init__(self) -> None:
-        """Check what says the same thing in two ways."""
+        """Raise ParameterError for options that contradict each other."""
         if self.refine and self.method not in (AUTO, REFINE):
             raise ParameterError(f"refine is smooth = refine, and smooth is {self.method}; leave one of them out")
         if self.fidelity is not None and (self.refine or self.method not in (AUTO, PLAIN)):
@@ -113,28 +113,28 @@ class SmoothSettings:
 
     @property
     def way(self) -> Method:
-        """How to smooth: only the plain way has a fidelity."""
+        """Method of smoothing: a fidelity implies the plain method."""
         return cast("Method", REFINE if self.refine else self.method if self.fidelity is None else PLAIN)
 
     @property
     def reading(self) -> dict[str, Any]:
-        """How the input is read, as `read_source` takes it."""
+        """Keywords of `read_source`: how to read the input."""
         return {name: getattr(self, name) for name in ("kind", "units", "array", "series", "frame", "spacing", "roi")}
 
     @property
     def choice(self) -> dict[str, Any]:
-        """What is solid and on which grid, as `infill.smoothing.sources.smooth_source` takes it."""
+        """Keywords of `infill.smoothing.sources.smooth_source`: the choice of the solid and of the grid."""
         names = ("resolution", "voxel", "shell", "threshold", "between", "label", "otsu", "grey", "by_component")
         return {name: getattr(self, name) for name in names}
 
     @property
     def options(self) -> Options:
-        """What the functions that smooth have in common."""
+        """Options that all smoothing functions share."""
         from infill.phasefield.allen_cahn import Smoothing
 
-        held = {} if self.fidelity is None else {"fidelity": self.fidelity}
+        fidelity = {} if self.fidelity is None else {"fidelity": self.fidelity}
         return {
-            "smoothing": Smoothing(steps=self.steps, interface=self.interface, **held),
+            "smoothing": Smoothing(steps=self.steps, interface=self.interface, **fidelity),
             "method": self.way,
             "radius": self.smooth_radius,
             "crumbs": self.crumbs,
@@ -147,7 +147,7 @@ class SmoothSettings:
         }
 
     def check(self) -> None:
-        """Raise ParameterError for what no input could be smoothed with."""
+        """Raise ParameterError for options that suit no input."""
         from infill.smoothing.request import Request
 
         Request(**self.options)
@@ -165,7 +165,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool
     Parameters
     ----------
     flags : mapping
-        What was typed, by its name on the command line; None counts as not given.
+        Options by their names on the command line; None counts as absent.
     config : Path, optional
         A TOML file.
     trust : bool
@@ -186,7 +186,7 @@ def resolve(flags: Mapping[str, Any], config: Path | None = None, *, trust: bool
         )
     filed = parsed("smooth", READERS, read)
     for rivals in RIVALS:
-        if any(typed.get(name, False) is not False for name in rivals):  # what is turned off takes no place
+        if any(typed.get(name, False) is not False for name in rivals):  # a flag that is off excludes nothing
             filed = {name: value for name, value in filed.items() if name not in rivals}
     return SmoothSettings(**{FIELDS.get(name, name): value for name, value in {**filed, **typed}.items()})
 

@@ -2,8 +2,8 @@
 
     data  ->  solid on a grid  ->  bricks, smoothed  ->  level of the right volume  ->  closed surface
 
-Each of the three functions finds in its own way what is solid, and which ways of smoothing to try, the right one first:
-see `infill.smoothing.remedies`. What is done for each is the same: see `infill.smoothing.attempt`.
+Each of the three functions determines the solid and the strategies of smoothing to try, the preferred one first: see
+`infill.smoothing.remedies`. The stages of a strategy are the same for all: see `infill.smoothing.attempt`.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def smooth_volume(
     voxel: float | None = None,
     **options: Unpack[Options],
 ) -> Result[SmoothStages, SmoothReport]:
-    """Return a smooth surface around what is solid in a volume.
+    """Return a smooth surface around the solid in a volume.
 
     Parameters
     ----------
@@ -60,14 +60,14 @@ def smooth_volume(
     origin : (x, y, z)
         Lower corner of the first cell, mm; only for an array.
     threshold : float, (low, high) or "otsu", optional
-        Solid is what has at least this value, has a value in this range, or lies above the threshold that Otsu's
-        method finds.
+        Cells are solid that have at least this value, a value in this range, or a value above the threshold of Otsu's
+        method.
     label : int or sequence of int, optional
-        Solid is what has this label, or one of these labels.
+        Cells are solid that have this label, or one of these labels.
     grey : bool
         Keep the grey levels around the threshold (2): they show where between two cells the surface lies.
     voxel : float, optional
-        Larger cells than the volume has, mm: each has the mean of what it covers. What is smaller than that is gone
+        Larger cells than those of the volume, mm: each has the mean of the cells it covers. Smaller features are gone
         before anything is compared.
     smoothing : Smoothing
         By default 20 steps, which the paper uses for complex models; it uses 30 for medical data.
@@ -84,11 +84,11 @@ def smooth_volume(
     despeckle : float
         Components up to this volume are removed first, mm³.
     crumbs : float, optional
-        Pieces up to this volume that smoothing broke off are removed, mm³; by default, those of up to 8 cells.
+        Pieces up to this volume that smoothing breaks off are removed, mm³; by default, those of up to 8 cells.
     allow_broken : bool
         Return a result in which something was lost, and say so in the report, instead of raising.
     strict : bool
-        Try no remedies, and raise whatever breaks, fuses or vanishes.
+        Try no remedies, and raise if anything breaks, fuses or vanishes.
     tolerance, max_triangles : float (mm) or "auto", and int, optional
         Simplify the mesh; "auto" moves it by at most a tenth of a cell.
     threads, max_memory : int, optional
@@ -104,9 +104,9 @@ def smooth_volume(
     Raises
     ------
     ParameterError
-        If the values do not show what is solid, or a number is out of range.
+        If the values do not determine the solid, or a number is out of range.
     GeometryError
-        If something of more than two cells would be lost whatever was tried: fewer steps, finer cells for a mesh.
+        If parts thicker than two cells are lost with every strategy: fewer steps, finer cells for a mesh.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -123,12 +123,12 @@ def smooth_volume(
     request = Request(**options)
     low, _ = range_of(threshold)
     chosen = threshold is not None or label is not None
-    scan = volume if isinstance(volume, Volume) else _volume(volume, spacing, origin, low, chosen=chosen)
+    scan = volume if isinstance(volume, Volume) else _as_volume(volume, spacing, origin, low, chosen=chosen)
     ways = ways_of_volume(scan, request, threshold=threshold, label=label, grey=grey, voxel=voxel)
     return best_of(ways, request)
 
 
-def _volume(
+def _as_volume(
     values: ArrayLike,
     spacing: float | tuple[float, ...],
     origin: tuple[float, ...],
@@ -223,16 +223,16 @@ def smooth_points(
     ParameterError
         If there is not one normal for each point, or they are given for a shell. Otherwise as `smooth_volume`.
     GeometryError
-        If the solid leaves out points with all their neighbours: of a groove, say, that is too narrow for points this
-        far apart. Otherwise as `smooth_volume`.
+        If the solid leaves out points with all their neighbours, as in a groove that is too narrow for points this far
+        apart. Otherwise as `smooth_volume`.
 
     Notes
     -----
-    Cells say what the points enclose; where in a cell the surface lies, points and normals: see
+    The cells show the solid that the points enclose; points and normals place the surface within a cell: see
     `infill.voxels.point_fields.distance_from_points`. A shell, or `method="plain"`, smooths the cells alone.
     """
     cloud, request = np.asarray(points, dtype=np.float64), Request(**options)
-    across = _normals_of(normals, cloud, shell)
+    across = _checked_normals(normals, cloud, shell)
     solid = voxelise_points(
         cloud,
         voxel=voxel,
@@ -251,15 +251,15 @@ def smooth_points(
     return compared_with_points(result, cloud, voxel, request) if shell is None else result
 
 
-def _normals_of(
-    given: ArrayLike | None, points: NDArray[np.float64], shell: float | None
+def _checked_normals(
+    normals: ArrayLike | None, points: NDArray[np.float64], shell: float | None
 ) -> NDArray[np.float64] | None:
-    """Return the normals as numbers, those that are not finite as 0."""
-    if given is None:
+    """Check normals and return them as an array, with zeros where they are not finite."""
+    if normals is None:
         return None
     if shell is not None:
         raise ParameterError("a shell lies on both sides of the points and takes no normals; leave one of them out")
-    normals = np.asarray(given, dtype=np.float64)
-    if normals.shape != points.shape:
-        raise ParameterError(f"the normals have the shape {normals.shape} and the points {points.shape}; give one each")
-    return np.where(np.isfinite(normals).all(axis=1, keepdims=True), normals, 0.0)
+    array = np.asarray(normals, dtype=np.float64)
+    if array.shape != points.shape:
+        raise ParameterError(f"the normals have the shape {array.shape} and the points {points.shape}; give one each")
+    return np.where(np.isfinite(array).all(axis=1, keepdims=True), array, 0.0)

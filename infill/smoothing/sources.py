@@ -1,4 +1,4 @@
-"""What `infill smooth` accepts: a mesh, points or a volume, recognised by the file, and smoothed accordingly."""
+"""Read the input of `infill smooth` (a mesh, points or a volume, recognised by the file) and smooth it accordingly."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def read_source(
     ----------
     path : str or Path
     kind : {"mesh", "points", "volume"}, optional
-        What to read it as; inferred from the file if left out.
+        Kind to read it as; inferred from the file if left out.
     units : {"um", "mm", "cm", "m", "in"}, optional
         Unit of the coordinates of a mesh or of points, whatever the file says. If left out, the unit that a .3mf or
         .glb states, or else mm if the size is plausible.
@@ -92,24 +92,26 @@ def read_source(
         raise UsageError(f"kind is {kind!r}; choose from {', '.join(KINDS)}")
     if units is not None and units not in UNITS:
         raise UsageError(f"units is {units!r}; choose from {', '.join(UNITS)}")
-    found = kind or _kind_of(source)
-    if found == "volume":
+    source_kind = kind or _guess_kind(source)
+    if source_kind == "volume":
         if units is not None:
             raise ParameterError("units is for meshes and points; give the spacing of a volume in mm")
-        return _placed(read_volume(source, array=array, series=series, frame=frame, spacing=spacing), spacing, roi)
-    own = {"spacing": spacing, "array": array, "series": series, "frame": frame, "roi": roi}
-    if any(each is not None for each in own.values()):
-        names = " and ".join(name for name, each in own.items() if each is not None)
-        raise ParameterError(f"{names} is for volumes, and {source} is read as {found}; leave it out")
-    if found == "points":
+        return _resize_and_crop(
+            read_volume(source, array=array, series=series, frame=frame, spacing=spacing), spacing, roi
+        )
+    volume_options = {"spacing": spacing, "array": array, "series": series, "frame": frame, "roi": roi}
+    if any(value is not None for value in volume_options.values()):
+        names = " and ".join(name for name, value in volume_options.items() if value is not None)
+        raise ParameterError(f"{names} is for volumes, and {source} is read as {source_kind}; leave it out")
+    if source_kind == "points":
         points, normals = read_points_and_normals(source)
-        points = points * _scale(source, points, units)
+        points = points * _unit_in_mm(source, points, units)
         return points if normals is None else np.concatenate([points, normals], axis=1)
     mesh = read_mesh(source)
     stated = STATED.get(source.suffix.lower())
     if stated is not None:
         return replace(mesh, vertices=mesh.vertices * (UNITS[units] / stated)) if units else mesh
-    return replace(mesh, vertices=mesh.vertices * _scale(source, mesh.vertices, units))
+    return replace(mesh, vertices=mesh.vertices * _unit_in_mm(source, mesh.vertices, units))
 
 
 def read_labelled(
@@ -137,21 +139,23 @@ def read_labelled(
         As `read_source`.
     """
     source = Path(path)
-    found = kind or _kind_of(source)
-    if found != "volume":
-        raise ParameterError(f"labels are those of a volume, and {source} is read as {found}; leave them out")
-    read = read_segmentation(source, array=array, series=series, frame=frame, spacing=spacing)
-    return replace(read, layers=tuple(_placed(layer, spacing, roi, varied=False) for layer in read.layers))
+    source_kind = kind or _guess_kind(source)
+    if source_kind != "volume":
+        raise ParameterError(f"labels are those of a volume, and {source} is read as {source_kind}; leave them out")
+    segmentation = read_segmentation(source, array=array, series=series, frame=frame, spacing=spacing)
+    return replace(
+        segmentation, layers=tuple(_resize_and_crop(layer, spacing, roi, varied=False) for layer in segmentation.layers)
+    )
 
 
-def _placed(
+def _resize_and_crop(
     volume: Volume,
     spacing: float | tuple[float, ...] | None,
     roi: tuple[float, ...] | None,
     *,
     varied: bool = True,
 ) -> Volume:
-    """Return a volume with another cell size, if one is given, and of that the part in a box."""
+    """Set the cell size of a volume, if one is given, and crop it to a box."""
     sized = volume if spacing is None else replace(volume, spacing=spacing_of(spacing, 3))
     return sized if roi is None else cropped(sized, roi, varied=varied)
 
@@ -170,7 +174,7 @@ def smooth_source(
     by_component: bool = False,
     **options: Unpack[Options],
 ) -> Result[SmoothStages, SmoothReport] | Result[ComponentStages, ComponentsReport]:
-    """Smooth what `read_source` returned; raise ParameterError for options that do not fit its kind."""
+    """Smooth the data of `read_source`; raise ParameterError for options that do not fit their kind."""
     from infill.smoothing.solids import smooth_mesh, smooth_points, smooth_volume
 
     check_fitting(
@@ -199,20 +203,20 @@ def smooth_source(
 
 
 def kind_of(source: Source) -> Kind:
-    """Return what `read_source` returned."""
+    """Return the kind of data that `read_source` returned."""
     return "volume" if isinstance(source, Volume) else "mesh" if isinstance(source, Surface) else "points"
 
 
 def check_fitting(source: Source, **given: bool) -> None:
-    """Raise ParameterError if an option that is given does not fit what is smoothed, or excludes another."""
+    """Raise ParameterError if an option does not fit the kind of data, or excludes another."""
     kind = kind_of(source)
-    wrong = [name for name, used in given.items() if used and name not in FITTING[kind]]
-    if wrong:
-        fits = [each for each in KINDS if wrong[0] in FITTING[each]]
-        raise ParameterError(f"{wrong[0]} is for {' and '.join(fits)}, and the input is read as {kind}; leave it out")
-    ways = [name for name in ("threshold", "between", "otsu") if given[name]]
-    if len(ways) > 1:
-        raise UsageError(f"{' and '.join(ways)} exclude each other; give one of them")
+    unfit = [name for name, used in given.items() if used and name not in FITTING[kind]]
+    if unfit:
+        kinds = [candidate for candidate in KINDS if unfit[0] in FITTING[candidate]]
+        raise ParameterError(f"{unfit[0]} is for {' and '.join(kinds)}, and the input is read as {kind}; leave it out")
+    choices = [name for name in ("threshold", "between", "otsu") if given[name]]
+    if len(choices) > 1:
+        raise UsageError(f"{' and '.join(choices)} exclude each other; give one of them")
 
 
 def threshold_of(threshold: float | None, between: tuple[float, ...] | None, *, otsu: bool) -> Any:  # noqa: ANN401
@@ -232,26 +236,26 @@ def voxel_of_points(points: NDArray[np.float64], resolution: int | None, voxel: 
     return longest / whole("resolution", RESOLUTION if resolution is None else resolution, 1)
 
 
-def _kind_of(path: Path) -> Kind:
-    """Return what a file holds, judging by its suffix or, where that is ambiguous, by its contents."""
+def _guess_kind(path: Path) -> Kind:
+    """Guess the kind of data in a file by its suffix or, where that is ambiguous, by its contents."""
     suffix = path.suffix.lower()
     if path.is_dir():
         return "volume"
     if suffix in POINT_SUFFIXES:
         return "points"
     if suffix == ".npy":
-        return "points" if _axes_of_npy(path) == 2 else "volume"
+        return "points" if _npy_axis_count(path) == 2 else "volume"
     if suffix == ".ply":
         return "mesh" if _ply_has_faces(path) else "points"
     return "mesh" if suffix in READERS else "volume"
 
 
-def _axes_of_npy(path: Path) -> int | None:
-    """Return how many axes the array in a file has, or None if it cannot be read."""
+def _npy_axis_count(path: Path) -> int | None:
+    """Return the number of axes of the array in a file, or None if it cannot be read."""
     try:
         return np.load(path, mmap_mode="r", allow_pickle=False).ndim  # type: ignore[no-any-return]
     except (OSError, *BROKEN):
-        return None  # whoever reads it will report what is wrong
+        return None  # the reader will report the error
 
 
 def _ply_has_faces(path: Path) -> bool:
@@ -266,8 +270,8 @@ def _ply_has_faces(path: Path) -> bool:
     return any(words[:2] == [b"element", b"face"] and words[-1] != b"0" for words in lines)
 
 
-def _scale(path: Path, points: NDArray[np.floating], units: str | None) -> float:
-    """Return mm per unit; if no unit is given, question sizes that would be very small in mm."""
+def _unit_in_mm(path: Path, points: NDArray[np.floating], units: str | None) -> float:
+    """Return mm per unit; if no unit is given, warn of implausible sizes in mm."""
     if units is not None:
         return UNITS[units]
     longest = float(np.ptp(points, axis=0).max())

@@ -1,4 +1,4 @@
-"""What a smooth solid was made from, stage by stage."""
+"""The stages of smoothing: data, field and surface."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ class SmoothStages:
     Parameters
     ----------
     data : Volume
-        What is solid on the grid, and where the grid lies in space.
+        The solid on the grid, and the place of the grid in space.
     levelled : Levelled
         The smoothed field in bricks, the surface in cells of the grid, and the level of each component.
     given : Surface, optional
-        The mesh that was given, mm.
+        The input mesh, mm.
     """
 
     data: Volume
@@ -58,12 +58,12 @@ class SmoothStages:
         return replace(self.data, values=values.clip(-1, 1, out=values))
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:
-        """Return what was given, a mesh or the surface of the voxels, and the smoothed surface."""
+        """Return a picture of the input (a mesh, or the surface of the voxels) beside the smoothed surface."""
         from infill.pictures.before_and_after import before_and_after
 
         shape = " x ".join(map(str, report["grid"]["shape"]))
-        given = self.staircase() if self.given is None else self.given
-        before = f"data: {shape} voxels" if self.given is None else f"given: {len(given.faces):,} triangles"
+        input_surface = self.staircase() if self.given is None else self.given
+        before = f"data: {shape} voxels" if self.given is None else f"given: {len(input_surface.faces):,} triangles"
         after = f"smoothed: {report['request']['steps']} steps, {report['triangles']:,} triangles"
         cell = float(self.data.cell_size.max())
-        return before_and_after(given, surface, cell=cell, report=report, captions=(before, after))
+        return before_and_after(input_surface, surface, cell=cell, report=report, captions=(before, after))
