@@ -272,7 +272,7 @@ def _sample_voids(below: Below, needs: Needs) -> tuple[Floats, Integers]:
 def _pick_evenly(names: NDArray[np.integer], count: int, most: int) -> Integers:
     """Pick up to a number of places of each name, in even steps; names are in rising order.
 
-    >>> _evenly(np.array([0, 0, 0, 0, 0, 1]), 2, 3).tolist()
+    >>> _pick_evenly(np.array([0, 0, 0, 0, 0, 1]), 2, 3).tolist()
     [0, 2, 4, 5]
     """
     ends = np.searchsorted(names, np.arange(count + 1))

@@ -274,7 +274,7 @@ def _record_fits(voids: list[Undrained], width: float, without: set[int]) -> lis
 def _narrower_diameters(diameter: float) -> list[float]:
     """List the diameters to try in place of one, mm, in steps of drill sizes.
 
-    >>> _narrower(3.0), _narrower(0.6)
+    >>> _narrower_diameters(3.0), _narrower_diameters(0.6)
     ([2.2, 1.5, 1.0, 0.7], [0.5])
     """
     widths = [math.floor(10 * share * diameter + 1e-9) / 10 for share in NARROWER]
@@ -490,7 +490,7 @@ def _normal(part: Surface, face: int) -> Floats:
 def _rotation_down(direction: Floats) -> Floats:
     """Compute the rotation that turns a direction straight down.
 
-    >>> _turning_down(np.array([1.0, 0, 0])).dot([1.0, 0, 0]).round(9).tolist()
+    >>> _rotation_down(np.array([1.0, 0, 0])).dot([1.0, 0, 0]).round(9).tolist()
     [0.0, 0.0, -1.0]
     """
     axis = np.eye(3)[int(np.argmin(np.abs(direction)))]
