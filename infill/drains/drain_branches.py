@@ -1,4 +1,4 @@
-"""Holes from voids that no hole straight down can drain into voids beside them that are drained."""
+"""Branches: holes from voids that no hole straight down can drain, into voids beside them that are drained."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from infill.surface import Surface
 
 MOST_POINTS, LINES, LATTICE = 400, 1600, 40_000  # of a void; lines through a void, and through all
 LEVELS = 12  # heights of a line in a void
-OVERLAP = 0.15, 0.3  # mm, and of the radius, the lesser: by which a branch reaches into a void
+OVERLAP = 0.15, 0.3  # mm, and share of the radius; the lesser is the reach of a branch into a void
 PUSHES = 6  # steps by which points are moved inwards
-ASIDE = 0.01  # mm: for the way inwards
+ASIDE = 0.01  # mm: step of the difference that gives the direction inwards
 NEAREST = 12  # places that are tried for each point
-LONGER = 1.5  # times the shortest: branches that are longer wait, as a void between may be drained by then
-RISE = 0.5  # of a mm of length for each mm that a branch begins above the lowest place
-ALONG = 0.2  # mm, or less: between the points at which a branch is measured
+LONGER = 1.5  # times the shortest: longer branches wait, as a void in between may be drained by then
+RISE = 0.5  # mm of length that a branch is worth for each mm that it begins above the lowest place
+ALONG = 0.2  # mm: largest distance between the points at which a branch is measured
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -42,9 +42,9 @@ class Branch:
     clearance : float
         Least distance of the hole from the skin, mm.
     near : (3,) float64, mm
-        Where on the axis that is.
+        The place of that distance on the axis.
     above : float
-        How much higher than the lowest place of its void it begins, mm.
+        Height of its start above the lowest place of its void, mm.
     """
 
     start: Floats
@@ -67,9 +67,9 @@ class Reach:
     void : (N,) int64
         The void that a ball around each cuts.
     cost : (N,) float64
-        mm by which it was moved, and by which it is above the lowest place of its void, in part.
+        mm by which it was moved, plus a part of its height above the lowest place of its void.
     above : (N,) float64
-        How far the lowest place of the ball is above that of its void, mm; 0 if it is not.
+        Height of the lowest place of the ball above that of its void, mm; 0 if it is lower.
     """
 
     at: Floats
@@ -79,7 +79,7 @@ class Reach:
 
 
 def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: Iterable[int]) -> list[Branch]:
-    """Find branches by which voids are joined to drained ones, or to one another on the way there.
+    """Find branches that join voids to drained ones, or to other voids on the way there.
 
     Parameters
     ----------
@@ -94,78 +94,78 @@ def find_branches(below: Below, needs: Needs, drained: Iterable[int], wanting: I
     if not open_ or not shut:
         return []
     tree = below.skin.whole
-    reach = _reach(below, needs, open_, shut)
-    found: list[Branch] = []
+    reach = _find_ends(below, needs, open_, shut)
+    branches: list[Branch] = []
     while shut:
         goals = np.flatnonzero(np.isin(reach.void, list(open_)))
         starts = np.flatnonzero(np.isin(reach.void, list(shut)))
         if not len(goals) or not len(starts):
             break
         count = min(NEAREST, len(goals))
-        away, number = cKDTree(reach.at[goals]).query(reach.at[starts], k=count)
-        away, number = away.reshape(len(starts), count), number.reshape(len(starts), count)
-        cost = away + reach.cost[starts][:, None] + reach.cost[goals][number]
-        best = _best(needs, tree, reach, starts, goals[number], cost)
+        distance, number = cKDTree(reach.at[goals]).query(reach.at[starts], k=count)
+        distance, number = distance.reshape(len(starts), count), number.reshape(len(starts), count)
+        cost = distance + reach.cost[starts][:, None] + reach.cost[goals][number]
+        best = _find_cheapest(needs, tree, reach, starts, goals[number], cost)
         if not best:
             break
         shortest = min(price for price, _ in best)
         for price, branch in best:
             if price <= LONGER * shortest + needs.diameter:
-                found.append(branch)
+                branches.append(branch)
                 open_.add(branch.void)
                 shut.discard(branch.void)
-    return found
+    return branches
 
 
-def _best(
+def _find_cheapest(
     needs: Needs, tree: Tree, reach: Reach, starts: Integers, goals: Integers, cost: Floats
 ) -> list[tuple[float, Branch]]:
-    """Return the cheapest branch of every void that keeps the wall, with its cost."""
-    found = []
+    """Find the cheapest branch of every void that keeps the wall; return each with its cost."""
+    branches = []
     order = np.argsort(cost, axis=None, kind="stable")
     row, column = np.unravel_index(order, cost.shape)
     void = reach.void[starts[row]]
-    for each in np.unique(void).tolist():
-        own = np.flatnonzero(void == each)[: 3 * NEAREST]
-        for index in own.tolist():
+    for name in np.unique(void).tolist():
+        candidates = np.flatnonzero(void == name)[: 3 * NEAREST]
+        for index in candidates.tolist():
             start, end = int(starts[row[index]]), int(goals[row[index], column[index]])
-            clearance, near = _clearance(tree, reach.at[start], reach.at[end], needs)
+            clearance, place = _measure_clearance(tree, reach.at[start], reach.at[end], needs)
             if clearance >= needs.wall:
                 branch = Branch(
                     start=reach.at[start],
                     end=reach.at[end],
-                    void=each,
+                    void=name,
                     into=int(reach.void[end]),
                     diameter=needs.diameter,
                     clearance=clearance,
-                    near=near,
+                    near=place,
                     above=float(reach.above[start]),
                 )
-                found.append((float(cost[row[index], column[index]]), branch))
+                branches.append((float(cost[row[index], column[index]]), branch))
                 break
-    return found
+    return branches
 
 
-def _clearance(tree: Tree, start: Floats, end: Floats, needs: Needs) -> tuple[float, Floats]:
-    """Return how far a branch stays from all skin, mm, and where on its axis that is."""
+def _measure_clearance(tree: Tree, start: Floats, end: Floats, needs: Needs) -> tuple[float, Floats]:
+    """Measure the least distance of a branch from all skin, mm, and its place on the axis."""
     length = float(np.linalg.norm(end - start))
     count = math.ceil(length / min(ALONG, needs.radius / 4)) + 1
     points = start + np.linspace(0, 1, count)[:, None] * (end - start)
-    away, _ = tree.nearest(points, threads=needs.threads)
-    nearest = int(np.argmin(away))
+    distances, _ = tree.nearest(points, threads=needs.threads)
+    nearest = int(np.argmin(distances))
     half = length / max(count - 1, 1) / 2
-    return math.sqrt(max(float(away[nearest]) ** 2 - half**2, 0.0)) - needs.radius, points[nearest]
+    return math.sqrt(max(float(distances[nearest]) ** 2 - half**2, 0.0)) - needs.radius, points[nearest]
 
 
-def _reach(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> Reach:
-    """Return places for the ends of branches: in all voids that want one, and near those in the drained ones."""
-    points, void = _points_inside(below, needs)
-    want = np.isin(void, list(wanting))
-    starts = _deep_enough(below, needs, points[want], void[want])
+def _find_ends(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> Reach:
+    """Find places for the ends of branches: in all voids that want one, and near those in the drained voids."""
+    points, void = _sample_voids(below, needs)
+    is_wanting = np.isin(void, list(wanting))
+    starts = _push_inwards(below, needs, points[is_wanting], void[is_wanting])
     if not len(starts.at):
         return starts
-    goals, owner = _points_near(below, needs, starts, points[~want], void[~want], drained)
-    ends = _deep_enough(below, needs, goals, owner)
+    goals, owner = _find_goals(below, needs, starts, points[~is_wanting], void[~is_wanting], drained)
+    ends = _push_inwards(below, needs, goals, owner)
     return Reach(
         at=np.concatenate([starts.at, ends.at]),
         void=np.concatenate([starts.void, ends.void]),
@@ -174,20 +174,20 @@ def _reach(below: Below, needs: Needs, drained: set[int], wanting: set[int]) -> 
     )
 
 
-def _points_near(
+def _find_goals(
     below: Below, needs: Needs, starts: Reach, points: Floats, void: Integers, drained: set[int]
 ) -> tuple[Floats, Integers]:
-    """Return the points of drained voids that are nearest to some starts: of those given, and of their surfaces."""
+    """Find the points of drained voids nearest to the starts: of the candidates, and of their surfaces."""
     from scipy.spatial import cKDTree
     from trimesh.triangles import closest_point
 
-    own = np.isin(void, list(drained))
-    points, void = points[own], void[own]
+    is_drained = np.isin(void, list(drained))
+    points, void = points[is_drained], void[is_drained]
     if len(points):
         _, number = cKDTree(points).query(starts.at, k=min(NEAREST, len(points)))
-        near = np.unique(number)
-        points, void = points[near], void[near]
-    faces = _faces_near(below, starts, drained, needs.cell + 2 * (needs.diameter + needs.wall))
+        selected = np.unique(number)
+        points, void = points[selected], void[selected]
+    faces = _find_faces_near(below, starts, drained, needs.cell + 2 * (needs.diameter + needs.wall))
     if len(faces):
         surface = Surface(vertices=below.voids.vertices, faces=below.voids.faces[faces])
         _, face = Tree.of(surface).nearest(starts.at, threads=needs.threads)
@@ -197,79 +197,82 @@ def _points_near(
     return points, void
 
 
-def _faces_near(below: Below, starts: Reach, drained: set[int], far: float) -> Integers:
-    """Return the faces of drained voids that come within a distance of the box of the starts of some void."""
+def _find_faces_near(below: Below, starts: Reach, drained: set[int], distance: float) -> Integers:
+    """Find the faces of drained voids within a distance of the box of the starts of any void."""
     faces = np.flatnonzero(np.isin(below.owners, list(drained)))
     low, high = below.boxes[:, faces]
-    near = np.zeros(len(faces), dtype=bool)
-    for each in np.unique(starts.void).tolist():
-        own = starts.at[starts.void == each].astype(np.float32)
-        least, most = own.min(axis=0) - np.float32(far), own.max(axis=0) + np.float32(far)
-        some = np.flatnonzero(~near)
+    is_near = np.zeros(len(faces), dtype=bool)
+    for name in np.unique(starts.void).tolist():
+        places = starts.at[starts.void == name].astype(np.float32)
+        lower, upper = places.min(axis=0) - np.float32(distance), places.max(axis=0) + np.float32(distance)
+        candidates = np.flatnonzero(~is_near)
         for axis in range(3):
-            some = some[(low[some, axis] <= most[axis]) & (high[some, axis] >= least[axis])]
-        near[some] = True
-    return faces[near]
+            candidates = candidates[(low[candidates, axis] <= upper[axis]) & (high[candidates, axis] >= lower[axis])]
+        is_near[candidates] = True
+    return faces[is_near]
 
 
-def _deep_enough(below: Below, needs: Needs, points: Floats, void: Integers) -> Reach:
-    """Move points inwards until a hole around them keeps the wall; leave out those that leave their void by that."""
+def _push_inwards(below: Below, needs: Needs, points: Floats, void: Integers) -> Reach:
+    """Move points inwards until a hole around them keeps the wall; drop points that leave their void by that."""
     tree, lowest = below.skin.whole, below.lowest
-    at, deep = points.copy(), needs.radius + needs.wall
-    away = np.full(len(at), -np.inf)
+    at, needed = points.copy(), needs.radius + needs.wall
+    distance = np.full(len(at), -np.inf)
     for push in range(PUSHES + 1):
-        short = np.flatnonzero(away < deep)
-        if not len(short):
+        shallow = np.flatnonzero(distance < needed)
+        if not len(shallow):
             break
-        away[short] = tree.nearest(at[short], threads=needs.threads)[0]
+        distance[shallow] = tree.nearest(at[shallow], threads=needs.threads)[0]
         if push == PUSHES:
             break
-        short = short[away[short] < deep]
+        shallow = shallow[distance[shallow] < needed]
         slope = np.stack(
-            [tree.nearest(at[short] + ASIDE * step, threads=needs.threads)[0] - away[short] for step in np.eye(3)],
+            [
+                tree.nearest(at[shallow] + ASIDE * step, threads=needs.threads)[0] - distance[shallow]
+                for step in np.eye(3)
+            ],
             axis=1,
         )
         length = np.linalg.norm(slope, axis=1, keepdims=True)
         inwards = np.divide(slope, length, out=np.zeros_like(slope), where=length > 0)
-        at[short] += (deep - away[short] + ASIDE / 10)[:, None] * inwards
+        at[shallow] += (needed - distance[shallow] + ASIDE / 10)[:, None] * inwards
     moved = np.linalg.norm(at - points, axis=1)
     overlap = min(OVERLAP[0], OVERLAP[1] * needs.radius)
-    kept = (away >= deep) & (moved <= needs.radius - overlap)
-    at, void, moved = at[kept], void[kept], moved[kept]
+    is_kept = (distance >= needed) & (moved <= needs.radius - overlap)
+    at, void, moved = at[is_kept], void[is_kept], moved[is_kept]
     above = np.clip(at[:, 2] - needs.radius - lowest[void], 0, None)
     return Reach(at=at, void=void, cost=moved + RISE * above, above=above)
 
 
-def _points_inside(below: Below, needs: Needs) -> tuple[Floats, Integers]:
-    """Return points in voids, (N, 3) mm, and which void each is in."""
+def _sample_voids(below: Below, needs: Needs) -> tuple[Floats, Integers]:
+    """Sample points inside voids, (N, 3) mm, and the void of each."""
     lattice = below.lattice(needs, LATTICE)
     line, height, up, face = cross(below.voids, lattice)
     void = below.owners[face]
     order = np.argsort(void, kind="stable")  # lines and heights stay in order
     line, height, up, void = line[order], height[order], up[order], void[order]
-    first = np.flatnonzero((line[1:] == line[:-1]) & (void[1:] == void[:-1]) & (up[:-1] > 0) & (up[1:] < 0))
-    first = first[_evenly(void[first], below.count, LINES)]
-    low, high = height[first], height[first + 1]
-    places, owner = lattice.places(line[first]), void[first]
+    lower_crossing = np.flatnonzero((line[1:] == line[:-1]) & (void[1:] == void[:-1]) & (up[:-1] > 0) & (up[1:] < 0))
+    lower_crossing = lower_crossing[_pick_evenly(void[lower_crossing], below.count, LINES)]
+    low, high = height[lower_crossing], height[lower_crossing + 1]
+    places, owner = lattice.places(line[lower_crossing]), void[lower_crossing]
     at = low + np.minimum(needs.radius, (high - low) / 2) + np.arange(LEVELS)[:, None] * needs.radius
     level, segment = np.nonzero(at < high)
-    inside = np.column_stack([places[segment], at[level, segment]])
-    corners = np.flatnonzero(below.names >= 0)
-    corners = corners[np.argsort(below.names[corners], kind="stable")]
-    corners = corners[_evenly(below.names[corners], below.count, MOST_POINTS)]
-    points = np.concatenate([inside, np.asarray(below.voids.vertices, dtype=np.float64)[corners]])
-    void = np.concatenate([owner[segment], below.names[corners].astype(np.int64)])
+    on_lines = np.column_stack([places[segment], at[level, segment]])
+    used_vertices = np.flatnonzero(below.names >= 0)
+    used_vertices = used_vertices[np.argsort(below.names[used_vertices], kind="stable")]
+    used_vertices = used_vertices[_pick_evenly(below.names[used_vertices], below.count, MOST_POINTS)]
+    points = np.concatenate([on_lines, np.asarray(below.voids.vertices, dtype=np.float64)[used_vertices]])
+    void = np.concatenate([owner[segment], below.names[used_vertices].astype(np.int64)])
     # The corners of a void come last: they are of use only where no line passes through it.
-    rank = np.repeat([0, 1], [len(inside), len(corners)])
+    rank = np.repeat([0, 1], [len(on_lines), len(used_vertices)])
     order = np.lexsort((points[:, 2], rank, void))
-    kept = order[_evenly(void[order], below.count, MOST_POINTS)]
-    return points[kept], void[kept]
+    selected = order[_pick_evenly(void[order], below.count, MOST_POINTS)]
+    return points[selected], void[selected]
 
 
-def _evenly(names: NDArray[np.integer], count: int, most: int) -> Integers:
-    """Return up to so many places of each name, in even steps, of names in rising order.
+def _pick_evenly(names: NDArray[np.integer], count: int, most: int) -> Integers:
+    """Pick up to a number of places of each name, in even steps; names are in rising order.
 
-    >>> _evenly(np.array([0, 0, 0, 0, 0, 1]), 2, 3).tolist()
+    >>> _pick_evenly(np.array([0, 0, 0, 0, 0, 1]), 2, 3).tolist()
     [0, 2, 4, 5]
     """
     ends = np.searchsorted(names, np.arange(count + 1))

@@ -1,4 +1,4 @@
-"""How far a hole straight down out of a part stays from its skin, the face that it leaves through left aside.
+"""The distance of a hole straight down out of a part from its skin, except the face that it leaves through.
 
 mouth      the smooth face around the place where the axis leaves, as far as it looks down
 other skin everything else: sides, bolt holes, chamfers, whatever lies above or below
@@ -18,14 +18,14 @@ from infill.meshes.distance import Tree
 from infill.meshes.shells import shell_volumes
 from infill.surface import Surface
 
-LEAVING, FACING = 0.5, 0.35  # cosines: how far a face may be from level for a hole to leave through it, or be its mouth
-SMOOTH = math.cos(math.radians(30))  # faces that meet at more are two
+LEAVING, FACING = 0.5, 0.35  # cosines of the largest slopes of a face for a hole to leave through it, and for its mouth
+SMOOTH = math.cos(math.radians(30))  # triangles that meet at a larger angle belong to different faces
 ENDS = (0.0, 0.4, 0.75)  # of the radius: circles on the ends of a hole
 FEW, COARSE, FINE = (4, 3, ()), (16, 8, ENDS), (64, 24)  # points around a hole and along it, and circles on its ends
-CERTAIN = 0.999  # of the wall: what is nearer need not be measured
+CERTAIN = 0.999  # of the wall: smaller distances need not be exact
 RIM = 24  # lines along a hole by which its mouth is found
 NEAR = 1.0  # of diameter and wall: within this of a hole, faces are joined to its mouth
-OUT = 0.25, 0.4  # of the diameter and of the wall, the lesser: how far a hole goes on outside
+OUT = 0.25, 0.4  # of the diameter and of the wall; the lesser is the length of a hole outside
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -48,7 +48,7 @@ class Shaft:
     clearance : float
         Least distance of the hole from the other skin, mm.
     near : (3,) float64, mm
-        Where on the hole that is.
+        The place of that distance on the hole.
     """
 
     at: Floats
@@ -75,13 +75,13 @@ class Skin:
 
     @cached_property
     def corners(self) -> Floats:
-        """Of every face, (F, 3, 3) mm."""
+        """Corners of every face, (F, 3, 3) mm."""
         corners: Floats = np.asarray(self.part.vertices, dtype=np.float64)[self.part.faces]
         return corners
 
     @cached_property
     def normals(self) -> Floats:
-        """Of every face, (F, 3); 0 for a face without area."""
+        """Normals of all faces, (F, 3); 0 for a face without area."""
         a, b, c = self.corners[:, 0], self.corners[:, 1], self.corners[:, 2]
         normal = np.cross(b - a, c - a)
         length = np.linalg.norm(normal, axis=1, keepdims=True)
@@ -97,25 +97,25 @@ class Skin:
         order = np.lexsort(edges.T)
         edges, owner = edges[order], owner[order]
         same = (edges[1:] == edges[:-1]).all(axis=1)
-        one, other = owner[:-1][same], owner[1:][same]
-        smooth = (self.normals[one] * self.normals[other]).sum(axis=1) >= SMOOTH
-        kept = smooth & self.facing[one] & self.facing[other]
-        return np.stack([one[kept], other[kept]], axis=1)
+        before, after = owner[:-1][same], owner[1:][same]
+        smooth = (self.normals[before] * self.normals[after]).sum(axis=1) >= SMOOTH
+        is_pair = smooth & self.facing[before] & self.facing[after]
+        return np.stack([before[is_pair], after[is_pair]], axis=1)
 
     @cached_property
     def facing(self) -> Bools:
-        """Which faces look down."""
+        """True for faces that look down."""
         return -self.normals[:, 2] >= FACING
 
     @cached_property
     def mouths(self) -> Integers:
-        """The smooth face that each face of the mesh belongs to, (F,); -1 for one that does not look down."""
-        names = _components(self.neighbours, len(self.part.faces))
+        """Number of the smooth face that each face of the mesh belongs to, (F,); -1 if it does not look down."""
+        names = _label_components(self.neighbours, len(self.part.faces))
         return np.where(self.facing, names, -1)
 
     @cached_property
     def leaving(self) -> Bools:
-        """Which faces a hole may leave through: near level, and not those of a closed cavity."""
+        """True for faces a hole may leave through: nearly level, and not those of a closed cavity."""
         names, count = shell_names(self.part)
         outer = shell_volumes(self.part, names, count) > 0
         level: Bools = (-self.normals[:, 2] >= LEAVING) & outer[names[self.part.faces[:, 0]]]
@@ -123,20 +123,20 @@ class Skin:
 
     @cached_property
     def whole(self) -> Tree:
-        """All faces."""
+        """Search tree of all faces."""
         return Tree.of(self.part)
 
     def tree(self, mouth: int) -> Tree | None:
-        """Return the faces that do not belong to a mouth; None if there are none. -1 for all that do not look down."""
+        """Build the tree of faces outside a mouth, or of all that do not look down for -1; None without faces."""
         if mouth not in self._trees:
-            kept = ~self.facing if mouth < 0 else self.mouths != mouth
+            is_outside = ~self.facing if mouth < 0 else self.mouths != mouth
             self._trees[mouth] = None
-            if kept.any():
-                self._trees[mouth] = Tree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[kept]))
+            if is_outside.any():
+                self._trees[mouth] = Tree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[is_outside]))
         return self._trees[mouth]
 
     def knows(self, mouth: int) -> bool:
-        """Return whether the tree of a mouth is there already."""
+        """Tell whether the tree of a mouth is built already."""
         return mouth in self._trees
 
     def may_keep(
@@ -151,31 +151,33 @@ class Skin:
         mouth: int,
         threads: int | None,
     ) -> Bools:
-        """Return which holes may keep the wall from the skin besides a mouth, (N,): by points on them, few at first.
+        """Test which holes may keep the wall from the skin outside a mouth, (N,), by points on them, few at first.
 
         Parameters
         ----------
         at : (N, 2) float64, mm
         face : (N,) int64
-            Where the axis leaves.
+            The face through which the axis leaves.
         low, high : (N,) float64, mm
-            Where the axis leaves, and where the hole ends.
+            Heights at which the axis leaves, and at which the hole ends.
         radius, wall : float, mm
         mouth : int
         threads : int, optional
         """
         tree = self.tree(mouth)
-        left = np.arange(len(at))
+        remaining = np.arange(len(at))
         if tree is not None:
             z = -self.normals[face, 2]
             slope = radius * np.sqrt(np.clip(1 - z**2, 0, None)) / z
             for around, along, ends in (FEW, COARSE):
-                points = _surface_points(at[left], (low - slope)[left], high[left], radius, around, along, ends)
-                away, _ = tree.nearest(points.reshape(-1, 3), enough=CERTAIN * wall, threads=threads)
-                left = left[away.reshape(points.shape[:2]).min(axis=1, initial=np.inf) >= wall]
-        kept = np.zeros(len(at), dtype=bool)
-        kept[left] = True
-        return kept
+                points = _surface_points(
+                    at[remaining], (low - slope)[remaining], high[remaining], radius, around, along, ends
+                )
+                distances, _ = tree.nearest(points.reshape(-1, 3), enough=CERTAIN * wall, threads=threads)
+                remaining = remaining[distances.reshape(points.shape[:2]).min(axis=1, initial=np.inf) >= wall]
+        may_keep = np.zeros(len(at), dtype=bool)
+        may_keep[remaining] = True
+        return may_keep
 
     def shaft(
         self,
@@ -189,13 +191,13 @@ class Skin:
         wall: float,
         threads: int | None,
     ) -> Shaft | None:
-        """Measure a hole: where its rim leaves the part, and how far it stays from the other skin.
+        """Measure a hole: the heights at which its rim leaves the part, and its distance from the other skin.
 
         Parameters
         ----------
         at : (2,) float64, mm
         face : int
-            Where the axis leaves.
+            The face through which the axis leaves.
         low, floor, high : float
             Heights at which the axis leaves the part and enters the void, and at which the hole ends, mm.
         radius, wall : float, mm
@@ -207,8 +209,8 @@ class Skin:
             None if the hole runs over the edge of the face that it leaves through.
         """
         reach = NEAR * (2 * radius + wall)
-        mine, stray = self._around(at, face, low - reach, high, radius + reach)
-        rim = self._rim(at, mine, low, radius)
+        mouth_faces, stray = self._split_mouth(at, face, low - reach, high, radius + reach)
+        rim = self._find_rim(at, mouth_faces, low, radius)
         if rim is None:
             return None
         lowest, highest = min(low, *rim), max(low, *rim)
@@ -218,14 +220,18 @@ class Skin:
         trees = [self.tree(int(self.mouths[face]))]
         if len(stray):
             trees.append(Tree.of(Surface(vertices=self.part.vertices, faces=self.part.faces[stray])))
-        away = np.full(len(points), np.inf)
+        distances = np.full(len(points), np.inf)
         for tree in trees:
             if tree is not None:
-                away = np.minimum(away, tree.nearest(points, threads=threads)[0])
-        nearest = int(np.argmin(away))
-        # Between two of these points the hole may come nearer: the distance is that of the nearest of them, less this.
-        near = float(away[nearest])
-        clearance = math.sqrt(max(near**2 - spacing**2 * (1 + near / radius), 0.0)) if math.isfinite(near) else near
+                distances = np.minimum(distances, tree.nearest(points, threads=threads)[0])
+        nearest = int(np.argmin(distances))
+        # Between two of these points the hole may come nearer, so the distance of the nearest point is reduced.
+        distance = float(distances[nearest])
+        clearance = (
+            math.sqrt(max(distance**2 - spacing**2 * (1 + distance / radius), 0.0))
+            if math.isfinite(distance)
+            else distance
+        )
         return Shaft(
             at=at,
             low=lowest - min(OUT[0] * 2 * radius, OUT[1] * wall),
@@ -236,36 +242,40 @@ class Skin:
             near=points[nearest],
         )
 
-    def _around(self, at: Floats, face: int, low: float, high: float, far: float) -> tuple[Integers, Integers]:
-        """Return the faces of the mouth near a hole that go on from a face there, and those that do not."""
-        least, most = np.array([*(at - far), low]), np.array([*(at + far), high])
-        own = np.flatnonzero(self.mouths == self.mouths[face])
-        boxes = self.corners[own]
-        own = own[(boxes.min(axis=1) <= most).all(axis=1) & (boxes.max(axis=1) >= least).all(axis=1)]
+    def _split_mouth(
+        self, at: Floats, face: int, low: float, high: float, distance: float
+    ) -> tuple[Integers, Integers]:
+        """Divide the faces of the mouth near a hole into those connected to a face there, and the others."""
+        lower, upper = np.array([*(at - distance), low]), np.array([*(at + distance), high])
+        nearby = np.flatnonzero(self.mouths == self.mouths[face])
+        boxes = self.corners[nearby]
+        nearby = nearby[(boxes.min(axis=1) <= upper).all(axis=1) & (boxes.max(axis=1) >= lower).all(axis=1)]
         inside = np.zeros(len(self.part.faces), dtype=bool)
-        inside[own] = True
+        inside[nearby] = True
         pairs = self.neighbours[inside[self.neighbours].all(axis=1)]
         number = np.full(len(inside), -1, dtype=np.int64)
-        number[own] = np.arange(len(own))
-        names = _components(number[pairs], len(own))
+        number[nearby] = np.arange(len(nearby))
+        names = _label_components(number[pairs], len(nearby))
         reached = names == names[number[face]]
-        return own[reached], own[~reached]
+        return nearby[reached], nearby[~reached]
 
-    def _rim(self, at: Floats, faces: Integers, low: float, radius: float) -> Floats | None:
+    def _find_rim(self, at: Floats, faces: Integers, low: float, radius: float) -> Floats | None:
         """Return the heights at which a hole leaves faces, all around and half way in; None if it runs off them."""
         angle = 2 * np.pi * np.arange(RIM) / RIM
         circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
-        heights = np.abs((found := _heights(self.corners[faces], at + np.concatenate([circle, circle / 2]))) - low)
-        nearest = np.argmin(np.where(np.isnan(heights), np.inf, heights), axis=0)
-        rim: Floats = found[nearest, np.arange(2 * RIM)]
+        offsets = np.abs(
+            (heights := _crossing_heights(self.corners[faces], at + np.concatenate([circle, circle / 2]))) - low
+        )
+        nearest = np.argmin(np.where(np.isnan(offsets), np.inf, offsets), axis=0)
+        rim: Floats = heights[nearest, np.arange(2 * RIM)]
         return None if np.isnan(rim).any() else rim
 
 
-def _heights(corners: Floats, places: Floats) -> Floats:
-    """Return the heights at which vertical lines at places (M, 2) cross triangles (F, 3, 3), (F, M); or nan."""
+def _crossing_heights(corners: Floats, places: Floats) -> Floats:
+    """Return the heights at which vertical lines at places (M, 2) cross triangles (F, 3, 3): (F, M), or nan."""
     x, y = (corners[:, None, :, axis] - places[None, :, None, axis] for axis in (0, 1))
-    after, last = [1, 2, 0], [2, 0, 1]
-    shares = x[:, :, after] * y[:, :, last] - x[:, :, last] * y[:, :, after]
+    following, before = [1, 2, 0], [2, 0, 1]
+    shares = x[:, :, following] * y[:, :, before] - x[:, :, before] * y[:, :, following]
     area = shares.sum(axis=2)
     hit = (area != 0) & ((shares * np.sign(area)[:, :, None]) >= 0).all(axis=2)
     height: Floats = np.full(hit.shape, np.nan)
@@ -273,7 +283,7 @@ def _heights(corners: Floats, places: Floats) -> Floats:
     return height
 
 
-def _components(pairs: Integers, count: int) -> Integers:
+def _label_components(pairs: Integers, count: int) -> Integers:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
@@ -285,7 +295,7 @@ def _components(pairs: Integers, count: int) -> Integers:
 def _surface_points(
     at: Floats, low: Floats, high: Floats, radius: float, around: int, along: int, ends: tuple[float, ...] = ENDS
 ) -> Floats:
-    """Return points on holes, (N, M, 3): on circles along them, and on both ends."""
+    """Place points on holes, (N, M, 3): on circles along them, and on both ends."""
     angle = 2 * np.pi * np.arange(around) / around
     circle = np.column_stack([np.cos(angle), np.sin(angle)])
     shares = np.linspace(0, 1, along)
@@ -299,7 +309,7 @@ def _surface_points(
 
 
 def _fine_points(at: Floats, low: float, high: float, radius: float) -> tuple[Floats, float]:
-    """Return many points on a hole, (M, 3), and how far any other is from one of them at most, mm."""
+    """Place many points on a hole, (M, 3); return the largest distance of any other point from one of them too, mm."""
     around, least = FINE
     arc = 2 * np.pi * radius / around
     along = max(least, math.ceil((high - low) / arc) + 1)

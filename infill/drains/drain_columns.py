@@ -1,4 +1,4 @@
-"""Lines straight up through a part: where each enters its solid, and the void it meets first above that."""
+"""Lines straight up through a part: the place where each enters its solid, and the first void above that."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Lattice:
     shape: tuple[int, int]
 
     def places(self, lines: Integers) -> Floats:
-        """Return where lines stand, (N, 2) mm."""
+        """Return the places of lines, (N, 2) mm."""
         return self.low + self.step * np.stack(np.divmod(lines, self.shape[1]), axis=1)
 
 
@@ -49,7 +49,7 @@ class Ways:
     skin : (N,) float64, mm
         Height at which the line enters the solid.
     face : (N,) int64
-        The face of the part there.
+        The face of the part at that height.
     void : (N,) int64
         The void above.
     floor, ceiling : (N,) float64, mm
@@ -80,8 +80,8 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
 
     Notes
     -----
-    Upwards along a line, the skin of the part and those of the voids are crossed in the order of their heights. A way
-    is a crossing into the part that is followed at once by one into a void. Lines that leave the part or a void more or
+    Upwards along a line, the skins of the part and of the voids are crossed in the order of their heights. A way is a
+    crossing into the part that is directly followed by one into a void. Lines that leave the part or a void more or
     less often than they enter it run along an edge, and are left out.
     """
     both = joined([part, voids])
@@ -89,44 +89,47 @@ def find_ways(part: Surface, voids: Surface, names: NDArray[np.integer], lattice
     owner[len(part.faces) :] = names[voids.faces[:, 0]]
     lines, heights, rising, faces = cross(both, lattice)
     owners = owner[faces]
-    kind, count = owners == PART, int(np.prod(lattice.shape))
-    even = np.ones(count, dtype=bool)
-    for some in (kind, ~kind):
-        even &= np.bincount(lines[some], weights=rising[some], minlength=count) == 0
-    depth = np.cumsum(np.where(kind, rising, 0))  # of all lines before too
-    odd = np.concatenate(
-        [[0.0], np.cumsum(np.where(~even, np.bincount(lines[kind], weights=rising[kind], minlength=count), 0))]
+    of_part, count = owners == PART, int(np.prod(lattice.shape))
+    is_balanced = np.ones(count, dtype=bool)
+    for selection in (of_part, ~of_part):
+        is_balanced &= np.bincount(lines[selection], weights=rising[selection], minlength=count) == 0
+    depth = np.cumsum(np.where(of_part, rising, 0))  # of all lines before too
+    correction = np.concatenate(
+        [
+            [0.0],
+            np.cumsum(np.where(~is_balanced, np.bincount(lines[of_part], weights=rising[of_part], minlength=count), 0)),
+        ]
     )
-    depth = depth - odd[lines]
+    depth = depth - correction[lines]
     first = np.arange(max(len(lines) - 2, 0))
     second, third = first + 1, first + 2
-    kept = (
+    is_way = (
         (lines[first] == lines[third])
-        & even[lines[first]]
-        & kind[first]
+        & is_balanced[lines[first]]
+        & of_part[first]
         & (rising[first] > 0)
         & (depth[first] == 1)
-        & ~kind[second]
+        & ~of_part[second]
         & (rising[second] > 0)
         & (owners[third] == owners[second])
         & (rising[third] < 0)
     )
-    found = np.flatnonzero(kept)
+    ways = np.flatnonzero(is_way)
     return Ways(
-        line=lines[found],
-        at=lattice.places(lines[found]),
-        skin=heights[found],
-        face=faces[found],
-        void=owners[found + 1],
-        floor=heights[found + 1],
-        ceiling=heights[found + 2],
+        line=lines[ways],
+        at=lattice.places(lines[ways]),
+        skin=heights[ways],
+        face=faces[ways],
+        void=owners[ways + 1],
+        floor=heights[ways + 1],
+        ceiling=heights[ways + 2],
     )
 
 
 def cross(surface: Surface, lattice: Lattice) -> tuple[Integers, Floats, Integers, Integers]:
-    """Find where the lines of a lattice cross a surface: the line, the height in mm, 1 into it or -1 out, and the face.
+    """Find the crossings of lines with a surface: the line, the height in mm, 1 into it or -1 out, and the face.
 
-    They are in the order of the lines, and of the heights on each.
+    Crossings are in the order of the lines, and of the heights on each line.
 
     >>> import trimesh
     >>> box = trimesh.creation.box((2, 2, 2))

@@ -1,4 +1,4 @@
-"""The holes of a part: a drain for every void, vents and places of one's own if asked for, and what stays closed."""
+"""The holes of a part: a drain for every void, vents and places on request, and the voids that stay closed."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ Kind = Literal["drain", "vent", "place", "branch"]
 Floats = NDArray[np.float64]
 
 DOWN = np.eye(3)
-NUDGE = 1e-4, 0.7e-4  # of the diameter: a line through a corner of a face would cross several
-LEVEL = 0.99  # cosine: ways this near to one another are one
-BRANCHES, NARROWEST = (1.0, 0.5, 0.25), 0.5  # of the diameter, tried in turn for voids that are narrower; mm
-NARROWER = 0.75, 0.5, 0.35, 0.25  # of the diameter: what is tried in turn for voids without a hole
+NUDGE = 1e-4, 0.7e-4  # of the diameter: shift of a line, as one through a corner would cross several faces
+LEVEL = 0.99  # cosine: directions at a smaller angle count as equal
+BRANCHES, NARROWEST = (1.0, 0.5, 0.25), 0.5  # of the diameter, tried in order for narrower voids; mm
+NARROWER = 0.75, 0.5, 0.35, 0.25  # of the diameter: tried in order for voids without a hole
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -37,27 +37,27 @@ class Hole:
     Parameters
     ----------
     kind : {"drain", "vent", "place", "branch"}
-        Down, up, where it was asked for, or into another void.
+        Down, up, at a requested place, or into another void.
     at : (3,) float64, mm
-        Where its axis leaves the part; of a branch, where it begins in its void.
+        The place where its axis leaves the part; of a branch, where it begins in its void.
     to : (3,) float64, mm
-        Where its axis ends in the void; of a branch, in the other one.
+        The place where its axis ends in the void; of a branch, in the other void.
     way : (3,) float64
         The way out along the axis, of length 1.
     out : float
-        How far the hole goes on beyond `at`, mm: where its rim leaves the part, and a little more. 0 of a branch.
+        Length of the hole beyond `at`, mm: to where its rim leaves the part, and a little more. 0 of a branch.
     void : int
         Number of the void, the largest is 0.
     into : int or None
         Of a branch, the other void.
     diameter : float
-        mm; that of a branch may be less than was asked for, where the void is narrower.
+        mm; that of a branch may be less than requested, where the void is narrower.
     clearance : float
-        Least distance from all skin but the face that it leaves through, mm.
+        Least distance from all skin except the face that it leaves through, mm.
     near : (3,) float64, mm
-        Where that is.
+        The place of that distance.
     above : float
-        How much higher than the lowest place of the void (of a vent: lower than the highest) it begins, mm.
+        Height of its start above the lowest place of the void, mm; of a vent, below the highest place.
     """
 
     kind: Kind
@@ -75,7 +75,7 @@ class Hole:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Undrained:
-    """A void for which there is no hole.
+    """A void without a hole.
 
     Parameters
     ----------
@@ -86,13 +86,13 @@ class Undrained:
     at : (3,) float64, mm
         Its lowest place; for a vent that is missing, its highest.
     blocked : bool
-        Whether nothing leads straight out of it through solid alone.
+        True if no line leads straight out of it through solid alone.
     fits : float or None
         The widest diameter of those tried with which the whole plan has a hole for this void, mm.
     together : int
-        How many of the voids that are listed with this one have a hole then.
+        Number of voids in the same list that have a hole then.
     place : (x, y, z) or None
-        Of the largest that no diameter fits: a place of the skin from which a hole straight in drains it, mm.
+        Of the largest void that no diameter fits: a place of the skin from which a hole straight in drains it, mm.
     """
 
     void: int
@@ -134,13 +134,13 @@ class DrainPlan:
 
     @property
     def narrow(self) -> tuple[Hole, ...]:
-        """The branches that are narrower than requested, that of the largest void first."""
-        return tuple(sorted((each for each in self.holes if each.diameter < self.diameter), key=lambda each: each.void))
+        """The branches that are narrower than requested, the branch of the largest void first."""
+        return tuple(sorted((hole for hole in self.holes if hole.diameter < self.diameter), key=lambda hole: hole.void))
 
     @property
     def high(self) -> tuple[Hole, ...]:
         """The drains that begin more than their diameter above the lowest place of their void."""
-        return tuple(each for each in self.holes if each.kind == "drain" and each.above > each.diameter)
+        return tuple(hole for hole in self.holes if hole.kind == "drain" and hole.above > hole.diameter)
 
 
 def plan_drains(
@@ -152,7 +152,7 @@ def plan_drains(
     places: tuple[tuple[float, float, float], ...] = (),
     opening: Opening | None = None,
 ) -> DrainPlan:
-    """Find the holes of a part.
+    """Plan the holes of a part.
 
     Parameters
     ----------
@@ -161,31 +161,31 @@ def plan_drains(
         Facing outwards from themselves.
     needs : Needs
     vent : bool
-        Whether every void also gets a hole up from its highest place.
+        True if every void also gets a hole up from its highest place.
     places : tuple of (x, y, z), mm
-        On the skin, where there are to be holes.
+        Requested places of holes on the skin.
     opening : Opening or None
-        Voids that reach out of it need no drain.
+        Sides of the part that are open; voids that reach out of them need no drain.
 
     Raises
     ------
     GeometryError
-        If there cannot be a hole at one of the places.
+        If a hole cannot be made at one of the places.
     """
-    names, volume = _by_volume(voids)
+    names, volume = _number_by_volume(voids)
     views = _Views(part=part, voids=voids, names=names, count=len(volume))
     wish = _Wish(vent=vent, places=places, opening=opening)
-    plan = _plan(views, volume, needs, wish)
+    plan = _plan_holes(views, volume, needs, wish)
     if plan.undrained or plan.unvented or plan.high:
-        plan = _with_remedies(plan, views, volume, needs, wish)
+        plan = _add_remedies(plan, views, volume, needs, wish)
     if plan.narrow:
-        plan = replace(plan, beside=_place_for(plan.narrow[0].void, views, needs, wish))
+        plan = replace(plan, beside=_find_place(plan.narrow[0].void, views, needs, wish))
     return plan
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Views:
-    """A part and its voids as they are seen from several directions."""
+    """A part and its voids, seen from several directions."""
 
     part: Surface
     voids: Surface
@@ -194,7 +194,7 @@ class _Views:
     _seen: dict[bytes, Below] = field(default_factory=dict)
 
     def along(self, turned: Floats) -> Below:
-        """Return the part turned, which is kept."""
+        """Return the part turned, from a cache."""
         key = turned.round(12).tobytes()
         if key not in self._seen:
             self._seen[key] = Below.of(self.part, self.voids, self.names, self.count, turned)
@@ -203,35 +203,37 @@ class _Views:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Wish:
-    """Which holes are requested besides a drain for each void, and the opening: see `plan_drains`."""
+    """Requested holes besides a drain for each void, and the opening: see `plan_drains`."""
 
     vent: bool
     places: tuple[tuple[float, float, float], ...]
     opening: Opening | None
 
 
-def _plan(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
-    """Return the holes of one diameter, without remedies for voids that have none."""
+def _plan_holes(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
+    """Plan holes of one diameter, without remedies for voids that have none."""
     names, opening, count = views.names, wish.opening, views.count
-    voids_open = np.zeros(count, dtype=bool)
+    is_open = np.zeros(count, dtype=bool)
     if opening is not None:
-        own, _ = shell_names(views.voids)
-        first = np.unique(own, return_index=True)[1]
-        voids_open[names[first[own[first] >= 0]]] = opening.opened(views.voids)
-    holes = [_hole_at(place, views, needs) for place in wish.places]
+        shells, _ = shell_names(views.voids)
+        starts = np.unique(shells, return_index=True)[1]
+        is_open[names[starts[shells[starts] >= 0]]] = opening.opened(views.voids)
+    holes = [_make_hole_at(place, views, needs) for place in wish.places]
     low = needs if opening is None or not math.isfinite(opening.low) else replace(needs, closed_at=opening.low)
-    done = set(np.flatnonzero(voids_open).tolist()) | {hole.void for hole in holes}
-    found, undrained = _one_way(views.along(DOWN), low, "drain", done, set(range(count)) - done, volume, holes)
-    holes += found
+    drained = set(np.flatnonzero(is_open).tolist()) | {hole.void for hole in holes}
+    drains, undrained = _drain_one_way(
+        views.along(DOWN), low, "drain", drained, set(range(count)) - drained, volume, holes
+    )
+    holes += drains
     unvented: tuple[Undrained, ...] = ()
     if wish.vent:
         high = needs if opening is None or not math.isfinite(opening.high) else replace(needs, closed_at=-opening.high)
-        shut = {each.void for each in undrained}
-        wanting = set(range(count)) - shut - set(np.flatnonzero(voids_open).tolist())
+        shut = {closed.void for closed in undrained}
+        wanting = set(range(count)) - shut - set(np.flatnonzero(is_open).tolist())
         # Voids that are open at a side have their vent there.
-        opened = set(np.flatnonzero(voids_open).tolist())
-        found, unvented = _one_way(views.along(TURN_OVER), high, "vent", opened, wanting, volume, holes)
-        holes += found
+        opened = set(np.flatnonzero(is_open).tolist())
+        vents, unvented = _drain_one_way(views.along(TURN_OVER), high, "vent", opened, wanting, volume, holes)
+        holes += vents
     return DrainPlan(
         holes=tuple(holes),
         volumes=tuple(volume.tolist()),
@@ -241,77 +243,77 @@ def _plan(views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan
     )
 
 
-def _with_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
-    """Return a plan that says, of voids without a hole, which of some narrower diameters gives them one."""
+def _add_remedies(plan: DrainPlan, views: _Views, volume: Floats, needs: Needs, wish: _Wish) -> DrainPlan:
+    """Complete a plan with the narrower diameters that give a hole to voids without one."""
     undrained, unvented, lower = list(plan.undrained), list(plan.unvented), None
-    for width in _narrower(needs.diameter):
-        if all(each.fits is not None for each in undrained + unvented) and (lower is not None or not plan.high):
+    for width in _narrower_diameters(needs.diameter):
+        if all(void.fits is not None for void in undrained + unvented) and (lower is not None or not plan.high):
             break
         try:
-            other = _plan(views, volume, replace(needs, diameter=width), wish)
+            narrower_plan = _plan_holes(views, volume, replace(needs, diameter=width), wish)
         except GeometryError:
             continue
-        lower = width if lower is None and not other.high and not other.undrained else lower
-        shut = {each.void for each in other.undrained}
-        dark = shut | {each.void for each in other.unvented}
-        undrained, unvented = _fitted(undrained, width, shut), _fitted(unvented, width, dark)
+        lower = width if lower is None and not narrower_plan.high and not narrower_plan.undrained else lower
+        shut = {closed.void for closed in narrower_plan.undrained}
+        unreached = shut | {closed.void for closed in narrower_plan.unvented}
+        undrained, unvented = _record_fits(undrained, width, shut), _record_fits(unvented, width, unreached)
     if undrained and undrained[0].fits is None:
-        undrained[0] = replace(undrained[0], place=_place_for(undrained[0].void, views, needs, wish))
+        undrained[0] = replace(undrained[0], place=_find_place(undrained[0].void, views, needs, wish))
     return replace(plan, undrained=tuple(undrained), unvented=tuple(unvented), lower=lower)
 
 
-def _fitted(voids: list[Undrained], width: float, without: set[int]) -> list[Undrained]:
-    """Return voids, of which those that have a hole of a width and had none of a wider one say so."""
-    together = sum(each.void not in without for each in voids)
+def _record_fits(voids: list[Undrained], width: float, without: set[int]) -> list[Undrained]:
+    """Record a width in voids that have a hole of that width, and had none of a wider one."""
+    together = sum(void.void not in without for void in voids)
     return [
-        replace(each, fits=width, together=together) if each.fits is None and each.void not in without else each
-        for each in voids
+        replace(void, fits=width, together=together) if void.fits is None and void.void not in without else void
+        for void in voids
     ]
 
 
-def _narrower(diameter: float) -> list[float]:
-    """Return the diameters to try in place of one, mm, in steps that a drill has.
+def _narrower_diameters(diameter: float) -> list[float]:
+    """List the diameters to try in place of one, mm, in steps of drill sizes.
 
-    >>> _narrower(3.0), _narrower(0.6)
+    >>> _narrower_diameters(3.0), _narrower_diameters(0.6)
     ([2.2, 1.5, 1.0, 0.7], [0.5])
     """
     widths = [math.floor(10 * share * diameter + 1e-9) / 10 for share in NARROWER]
-    kept = [width for width in widths if width >= NARROWEST]
-    return kept or ([NARROWEST] if diameter > NARROWEST else [])
+    sizes = [width for width in widths if width >= NARROWEST]
+    return sizes or ([NARROWEST] if diameter > NARROWEST else [])
 
 
-def _place_for(void: int, views: _Views, needs: Needs, wish: _Wish) -> tuple[float, float, float] | None:
-    """Return a place of the skin, upwards or at a side, from which a hole straight in drains a void, or None."""
+def _find_place(void: int, views: _Views, needs: Needs, wish: _Wish) -> tuple[float, float, float] | None:
+    """Find a place of the skin, upwards or at a side, from which a hole straight in drains a void, or return None."""
     for way in np.concatenate([DOWN[2:], DOWN[:2], -DOWN[:2]]):
-        below = views.along(_turning_down(way))
+        below = views.along(_rotation_down(way))
         if (shaft := Places.of(below, needs, void=void).shaft(void, None)) is None:
             continue
-        place = _rounded(below.back(np.array([*shaft.at, shaft.skin])))
-        if _stands(place, void, views, needs, wish.opening):
+        place = _round_place(below.back(np.array([*shaft.at, shaft.skin])))
+        if _is_possible(place, void, views, needs, wish.opening):
             return place
     return None
 
 
-def _stands(
+def _is_possible(
     place: tuple[float, float, float], void: int | None, views: _Views, needs: Needs, opening: Opening | None
 ) -> bool:
-    """Return whether a hole at a place is made as requested, into a void if one is given, not at an open side."""
+    """Tell whether a hole at a place is made as requested, into a void if given, and not at an open side."""
     if opening is not None and not opening.low < place[2] < opening.high:
         return False
     try:
-        return _hole_at(place, views, needs, remedies=False).void == void or void is None
+        return _make_hole_at(place, views, needs, remedies=False).void == void or void is None
     except GeometryError:
         return False
 
 
-def _rounded(place: Floats) -> tuple[float, float, float]:
-    """Return a place as messages give it, mm."""
-    x, y, z = (round(each, 2) + 0.0 for each in place.tolist())
+def _round_place(place: Floats) -> tuple[float, float, float]:
+    """Round a place as messages give it, mm."""
+    x, y, z = (round(coordinate, 2) + 0.0 for coordinate in place.tolist())
     return x, y, z
 
 
-def _by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
-    """Return the void of every vertex, the largest is 0, and their volumes, mm³."""
+def _number_by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
+    """Rank voids by falling volume; return the rank of every vertex's void, and their volumes, mm³."""
     names, count = shell_names(voids)
     volume = shell_volumes(voids, names, count)
     order = np.argsort(-volume, kind="stable")
@@ -320,40 +322,42 @@ def _by_volume(voids: Surface) -> tuple[NDArray[np.int64], Floats]:
     return np.where(names >= 0, rank[names], -1), volume[order]
 
 
-def _one_way(
-    below: Below, needs: Needs, kind: Kind, done: set[int], wanting: set[int], volume: Floats, holes: list[Hole]
+def _drain_one_way(
+    below: Below, needs: Needs, kind: Kind, drained: set[int], wanting: set[int], volume: Floats, holes: list[Hole]
 ) -> tuple[list[Hole], tuple[Undrained, ...]]:
-    """Return holes one way out of voids, branches to those included, and the voids that have none."""
+    """Drain voids one way; return the holes, including branches to drained voids, and the voids that have none."""
     places = Places.of(below, needs)
     taken = [(below.turned @ hole.at)[:2] for hole in holes if -(below.turned @ hole.way)[2] > LEVEL]
-    found: list[Hole] = []
-    done, left = set(done), sorted(wanting)
+    new_holes: list[Hole] = []
+    drained, remaining = set(drained), sorted(wanting)
 
-    def drill(each: int, apart: bool) -> bool:
-        shaft = places.shaft(each, np.array(taken).reshape(-1, 2) if apart else None)
+    def drill(void: int, apart: bool) -> bool:
+        shaft = places.shaft(void, np.array(taken).reshape(-1, 2) if apart else None)
         if shaft is not None:
             taken.append(shaft.at)
-            found.append(_hole(shaft, below, kind, each, needs.diameter, float(places.lowest[each])))
-            done.add(each)
+            new_holes.append(_make_hole(shaft, below, kind, void, needs.diameter, float(places.lowest[void])))
+            drained.add(void)
         return shaft is not None
 
-    left = [each for each in left if not drill(each, apart=True)]
-    branches = find_branches(below, needs, done, left)
+    remaining = [void for void in remaining if not drill(void, apart=True)]
+    branches = find_branches(below, needs, drained, remaining)
     joined = {branch.void for branch in branches}
-    # Holes that are near one another leave a thin web between them, and nothing that is seen from the side.
-    alone = [each for each in left if each not in joined]
-    still = [each for each in alone if not drill(each, apart=False)]
-    for share in BRANCHES[len(still) == len(alone) :]:
+    # Holes that are near each other leave a thin web between them, which does not show from the side.
+    alone = [void for void in remaining if void not in joined]
+    without_hole = [void for void in alone if not drill(void, apart=False)]
+    for share in BRANCHES[len(without_hole) == len(alone) :]:
         width = share * needs.diameter
         if share == 1 or width >= NARROWEST:
-            branches += find_branches(below, replace(needs, diameter=width), done | joined, set(still) - joined)
+            branches += find_branches(
+                below, replace(needs, diameter=width), drained | joined, set(without_hole) - joined
+            )
             joined = {branch.void for branch in branches}
-    found += [_branch(each, below) for each in branches]
-    missing = [each for each in still if each not in joined]
-    return found, tuple(_undrained(each, below, places, float(volume[each])) for each in missing)
+    new_holes += [_make_branch(branch, below) for branch in branches]
+    missing = [void for void in without_hole if void not in joined]
+    return new_holes, tuple(_describe_undrained(void, below, places, float(volume[void])) for void in missing)
 
 
-def _hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: float, lowest: float) -> Hole:
+def _make_hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: float, lowest: float) -> Hole:
     at = np.array([*shaft.at, shaft.skin])
     to = np.array([*shaft.at, shaft.high])
     return Hole(
@@ -371,7 +375,7 @@ def _hole(shaft: Shaft, below: Below, kind: Kind, void: int, diameter: float, lo
     )
 
 
-def _branch(branch: Branch, below: Below) -> Hole:
+def _make_branch(branch: Branch, below: Below) -> Hole:
     start, end = below.back(branch.start), below.back(branch.end)
     length = float(np.linalg.norm(end - start))
     return Hole(
@@ -389,53 +393,55 @@ def _branch(branch: Branch, below: Below) -> Hole:
     )
 
 
-def _undrained(void: int, below: Below, places: Places, volume: float) -> Undrained:
-    """Return a void that has no hole."""
+def _describe_undrained(void: int, below: Below, places: Places, volume: float) -> Undrained:
+    """Describe a void without a hole."""
     vertices = np.asarray(below.voids.vertices, dtype=np.float64)
-    own = np.flatnonzero(below.names == void)
-    lowest = vertices[own[np.argmin(vertices[own, 2])]]
+    corners = np.flatnonzero(below.names == void)
+    lowest = vertices[corners[np.argmin(vertices[corners, 2])]]
     return Undrained(void=void, volume=volume, at=below.back(lowest), blocked=not len(places.order[void]))
 
 
-def _hole_at(place: tuple[float, float, float], views: _Views, needs: Needs, *, remedies: bool = True) -> Hole:
-    """Return the hole at a place of the skin, straight in from there, or raise GeometryError."""
-    asked = "drain_at is ({:g}, {:g}, {:g})".format(*place)
-    point, face, away = _on_skin(np.array(place), views.part)
-    below = views.along(_turning_down(_normal(views.part, face)))
+def _make_hole_at(place: tuple[float, float, float], views: _Views, needs: Needs, *, remedies: bool = True) -> Hole:
+    """Make the hole at a place of the skin, straight in from there, or raise GeometryError."""
+    request = "drain_at is ({:g}, {:g}, {:g})".format(*place)
+    point, face, distance = _nearest_on_skin(np.array(place), views.part)
+    below = views.along(_rotation_down(_normal(views.part, face)))
     x, y, z = below.turned @ point
     line = Lattice(low=np.array([x, y]) + needs.diameter * np.array(NUDGE), step=1.0, shape=(1, 1))
     ways = find_ways(below.part, below.voids, below.names, line)
-    mine = np.flatnonzero(np.abs(ways.skin - z) < needs.radius)
-    way = int(mine[0]) if len(mine) and below.skin.leaving[ways.face[mine[0]]] else None
-    shaft = None if way is None else _shaft_at(below, ways, way, needs)
-    if away <= needs.radius and way is not None and shaft is not None and shaft.clearance >= needs.wall:
+    at_place = np.flatnonzero(np.abs(ways.skin - z) < needs.radius)
+    way = int(at_place[0]) if len(at_place) and below.skin.leaving[ways.face[at_place[0]]] else None
+    shaft = None if way is None else _measure_shaft(below, ways, way, needs)
+    if distance <= needs.radius and way is not None and shaft is not None and shaft.clearance >= needs.wall:
         void = int(ways.void[way])
         upright = np.asarray(views.voids.vertices, dtype=np.float64)[:, 2]
         lowest = float(upright[views.names == void].min())
-        hole = _hole(shaft, below, "place", void, needs.diameter, 0.0)
+        hole = _make_hole(shaft, below, "place", void, needs.diameter, 0.0)
         return replace(hole, above=max(0.0, float(below.back(np.array([*shaft.at, shaft.floor]))[2]) - lowest))
-    if away > needs.radius:
-        said = f"{asked}, {away:.3g} mm from the skin of the part"
+    if distance > needs.radius:
+        fault = f"{request}, {distance:.3g} mm from the skin of the part"
     elif way is None:
-        said = f"{asked}, and no void lies straight behind it"
+        fault = f"{request}, and no void lies straight behind it"
     elif shaft is None:
-        said = f"{asked}, and a hole of {needs.diameter:g} mm runs over the edge of the face there"
+        fault = f"{request}, and a hole of {needs.diameter:g} mm runs over the edge of the face there"
     else:
-        near = ", ".join(f"{each:.4g}" for each in below.back(shaft.near))
-        said = (
-            f"{asked}, and a hole of {needs.diameter:g} mm there leaves {shaft.clearance:.2g} mm of wall at ({near}), "
-            f"less than the {needs.wall:g} mm requested"
+        worst = ", ".join(f"{coordinate:.4g}" for coordinate in below.back(shaft.near))
+        fault = (
+            f"{request}, and a hole of {needs.diameter:g} mm there leaves {shaft.clearance:.2g} mm of wall at "
+            f"({worst}), less than the {needs.wall:g} mm requested"
         )
-    remedy = _instead(point, below, views, needs) if remedies else "leave it out"
+    remedy = _advise_place(point, below, views, needs) if remedies else "leave it out"
     if remedies and shaft is not None:
-        widths = (replace(needs, diameter=width) for width in _narrower(needs.diameter))
-        fits = next((each.diameter for each in widths if _stands(place, None, views, each, None)), None)
+        widths = (replace(needs, diameter=width) for width in _narrower_diameters(needs.diameter))
+        fits = next(
+            (narrower.diameter for narrower in widths if _is_possible(place, None, views, narrower, None)), None
+        )
         remedy = remedy if fits is None else f"{remedy}, or give drains of {fits:g} mm"
-    raise GeometryError(f"{said}; {remedy}")
+    raise GeometryError(f"{fault}; {remedy}")
 
 
-def _shaft_at(below: Below, ways: Ways, way: int, needs: Needs) -> Shaft | None:
-    """Return the hole along a way, which reaches less far into the void where it would not keep the wall."""
+def _measure_shaft(below: Below, ways: Ways, way: int, needs: Needs) -> Shaft | None:
+    """Measure the hole along a way; it reaches less far into the void if it would not keep the wall."""
     shaft = None
     for up in UP:
         floor, ceiling = float(ways.floor[way]), float(ways.ceiling[way])
@@ -454,25 +460,25 @@ def _shaft_at(below: Below, ways: Ways, way: int, needs: Needs) -> Shaft | None:
     return shaft
 
 
-def _instead(point: Floats, below: Below, views: _Views, needs: Needs) -> str:
-    """Return what to do in place of a hole that cannot be: the nearest place where one can, seen the same way."""
+def _advise_place(point: Floats, below: Below, views: _Views, needs: Needs) -> str:
+    """Advise what to do in place of an impossible hole: the nearest possible place, seen from the same direction."""
     x, y, z = below.turned @ point
     shaft = Places.of(below, needs).nearest(np.array([x, y]), z)
     if shaft is not None:
-        place = _rounded(below.back(np.array([*shaft.at, shaft.skin])))
-        if _stands(place, None, views, needs, None):
+        place = _round_place(below.back(np.array([*shaft.at, shaft.skin])))
+        if _is_possible(place, None, views, needs, None):
             return "give ({:g}, {:g}, {:g})".format(*place)
     return "leave it out: no place that was tried on that side keeps the wall"
 
 
-def _on_skin(place: Floats, part: Surface) -> tuple[Floats, int, float]:
-    """Return the point of the skin that is nearest to a place, its face, and how far it is, mm."""
+def _nearest_on_skin(place: Floats, part: Surface) -> tuple[Floats, int, float]:
+    """Find the nearest point of the skin to a place; return it, its face, and its distance, mm."""
     from trimesh.triangles import closest_point
 
-    away, face = Tree.of(part).nearest(place[None])
+    distance, face = Tree.of(part).nearest(place[None])
     corners = np.asarray(part.vertices, dtype=np.float64)[part.faces[face]]
     nearest = closest_point(corners, place[None])  # type: ignore[no-untyped-call]
-    return np.asarray(nearest, dtype=np.float64)[0], int(face[0]), float(away[0])
+    return np.asarray(nearest, dtype=np.float64)[0], int(face[0]), float(distance[0])
 
 
 def _normal(part: Surface, face: int) -> Floats:
@@ -481,13 +487,13 @@ def _normal(part: Surface, face: int) -> Floats:
     return normal / max(float(np.linalg.norm(normal)), 1e-300)
 
 
-def _turning_down(way: Floats) -> Floats:
-    """Return the rotation that takes a direction to straight down.
+def _rotation_down(direction: Floats) -> Floats:
+    """Compute the rotation that turns a direction straight down.
 
-    >>> _turning_down(np.array([1.0, 0, 0])).dot([1.0, 0, 0]).round(9).tolist()
+    >>> _rotation_down(np.array([1.0, 0, 0])).dot([1.0, 0, 0]).round(9).tolist()
     [0.0, 0.0, -1.0]
     """
-    beside = np.eye(3)[int(np.argmin(np.abs(way)))]
-    one = np.cross(way, beside)
-    one /= np.linalg.norm(one)
-    return np.stack([one, np.cross(-way, one), -way])
+    axis = np.eye(3)[int(np.argmin(np.abs(direction)))]
+    across = np.cross(direction, axis)
+    across /= np.linalg.norm(across)
+    return np.stack([across, np.cross(-direction, across), -direction])

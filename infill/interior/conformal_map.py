@@ -1,4 +1,4 @@
-"""Coordinates in which cells of one size follow a field: where it is high, they are small, and nowhere are they torn.
+"""Coordinates in which cells of one size follow a field: where it is high, cells are small, and none are torn.
 
 Cells of a size that changes cannot all be cubes. So the coordinates are those whose slopes come nearest to the scales
 asked for, in the sense of least squares: along each axis the solution of Poisson's equation, whose right side is the
@@ -14,74 +14,73 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-ROUNDS = 6  # in which scales are corrected for cells that are no cubes
-MOST = 2.5  # times what was asked for, or that part of it: how far scales are corrected
-FOLDED = 0.02  # of the number of cells in a volume where they are to be largest: with fewer, cells all but fold over
-EASED = 0.8  # power of scales that would fold cells
-DIRECTIONS = 32  # over half a sphere, in which walls are taken to lie
+ROUNDS = 6  # of corrections of the scales for cells that are not cubes
+MOST = 2.5  # largest correction of a scale, up or down, as a factor
+FOLDED = 0.02  # of the number of cells in a volume where they are largest: with fewer, cells nearly fold over
+EASED = 0.8  # power by which scales that would fold cells are evened out
+DIRECTIONS = 32  # of walls, over half a sphere
 
 
 def stretched(scales: NDArray[np.floating]) -> tuple[Floats, Floats]:
-    """Return coordinates in which about so many cells more fit into a length, and how much more wall they mean.
+    """Compute coordinates in which cells follow scales; return them and the resulting increase of wall.
 
     Parameters
     ----------
     scales : (n, m, k) float
-        At nodes one apart, two or more along each axis: how many times as much wall is to be in a volume, which for
-        cubes is how many times as many cells are in a length.
+        At nodes one apart, two or more along each axis: factor of the wall in a volume, which for cubes is the factor
+        of the number of cells in a length.
 
     Returns
     -------
     coordinates : (n + 2, m + 2, k + 2, 3) float64
-        The coefficients of a cubic spline over the nodes and one more on either side, in nodes: `place` says where each
-        point is in it. The node in the middle stays where it is.
+        The coefficients of a cubic spline over the nodes and one more on either side, in nodes: `place` evaluates it.
+        The node in the middle stays where it is.
     more : (n, m, k) float64
-        How many times as much wall there is in a volume.
+        Factor of the wall in a volume.
 
     Notes
     -----
-    Where scales change so much within so little room that cells would fold over one another, they are evened out until
-    none does.
+    Where scales change so quickly that cells would fold over each other, the scales are evened out until no cell folds.
     """
-    wanted = np.asarray(scales, dtype=np.float64)
+    targets = np.asarray(scales, dtype=np.float64)
     while True:
-        coordinates, slopes, more = _nearest(wanted)
-        if np.linalg.det(slopes).min() > FOLDED * wanted.min() ** 3:
+        coordinates, slopes, more = _fit_coordinates(targets)
+        if np.linalg.det(slopes).min() > FOLDED * targets.min() ** 3:
             break
-        wanted = wanted**EASED
-    middle = (np.array(wanted.shape) - 1) / 2
+        targets = targets**EASED
+    middle = (np.array(targets.shape) - 1) / 2
     return coordinates + (middle - place(coordinates, middle[None])[0]), more
 
 
-def _nearest(wanted: Floats) -> tuple[Floats, Floats, Floats]:
-    """Return coordinates with about as much wall in a volume as wanted at nodes (n, m, k), slopes, and how much."""
-    asked, more = wanted, np.ones_like(wanted)
+def _fit_coordinates(targets: Floats) -> tuple[Floats, Floats, Floats]:
+    """Fit coordinates to the wall wanted in a volume at nodes (n, m, k); return them, their slopes, and the wall."""
+    scales, more = targets, np.ones_like(targets)
     for number in range(ROUNDS):
         if number:
-            asked = np.clip(asked * wanted / more, wanted / MOST, wanted * MOST)
-        coordinates = _around(_integrated(asked))
+            scales = np.clip(scales * targets / more, targets / MOST, targets * MOST)
+        coordinates = _extrapolate(_integrate(scales))
         slopes = slopes_of(coordinates)
         more = walls_in(slopes)
     return coordinates, slopes, more
 
 
 def place(coordinates: Floats, points: Floats) -> Floats:
-    """Return where points (N, 3) lie in coordinates of `stretched`, (N, 3); both in nodes."""
+    """Map points (N, 3) to coordinates of `stretched`, (N, 3); both in nodes."""
     from scipy.ndimage import map_coordinates
 
-    along = [map_coordinates(each, points.T + 1, order=3, prefilter=False) for each in np.moveaxis(coordinates, -1, 0)]
+    along = [map_coordinates(axis, points.T + 1, order=3, prefilter=False) for axis in np.moveaxis(coordinates, -1, 0)]
     return np.stack(along, axis=-1)
 
 
-def _integrated(scales: Floats) -> Floats:
-    """Return the coordinates whose steps between nodes come nearest to the scales there, (n, m, k, 3)."""
+def _integrate(scales: Floats) -> Floats:
+    """Compute the coordinates whose steps between nodes come nearest to the scales there, (n, m, k, 3)."""
     from scipy.fft import dctn, idctn
 
-    # Steps to no neighbour are 0 at the ends, so cosines solve it.
+    # At the ends, steps to missing neighbours are 0, so cosines solve it.
     waves = [2 - 2 * np.cos(np.pi * np.arange(count) / count) for count in scales.shape]
     squared = waves[0][:, None, None] + waves[1][:, None] + waves[2]
     squared[0, 0, 0] = 1.0
-    found = np.empty((*scales.shape, 3))
+    coordinates = np.empty((*scales.shape, 3))
     for axis in range(3):
         along = np.moveaxis(scales, axis, 0)
         steps = (along[1:] + along[:-1]) / 2
@@ -90,37 +89,37 @@ def _integrated(scales: Floats) -> Floats:
         rise[:-1] -= steps
         summed = dctn(np.moveaxis(rise, 0, axis), type=2) / squared
         summed[0, 0, 0] = 0.0
-        found[..., axis] = idctn(summed, type=2)
-    return found
+        coordinates[..., axis] = idctn(summed, type=2)
+    return coordinates
 
 
-def _around(nodes: Floats) -> Floats:
-    """Return the nodes with one more on either side along each axis, straight on."""
+def _extrapolate(nodes: Floats) -> Floats:
+    """Extrapolate one more node linearly on either side along each axis."""
     for axis in range(3):
-        first, second, before, last = (np.take(nodes, [at], axis=axis) for at in (0, 1, -2, -1))
-        nodes = np.concatenate([2 * first - second, nodes, 2 * last - before], axis=axis)
+        start, second, before, end = (np.take(nodes, [at], axis=axis) for at in (0, 1, -2, -1))
+        nodes = np.concatenate([2 * start - second, nodes, 2 * end - before], axis=axis)
     return nodes
 
 
 def slopes_of(coordinates: Floats) -> Floats:
-    """Return the slopes of a spline at its nodes, (n, m, k, 3, 3): of each coordinate, along each axis."""
+    """Compute the slopes of a spline at its nodes, (n, m, k, 3, 3): of each coordinate, along each axis."""
     values, slopes = (1 / 6, 2 / 3, 1 / 6), (-1 / 2, 0.0, 1 / 2)
     shape = tuple(count - 2 for count in coordinates.shape[:3])
-    found = np.zeros((*shape, 3, 3))
+    derivatives = np.zeros((*shape, 3, 3))
     for axis in range(3):
-        part = coordinates
-        for other in range(3):
-            weights = slopes if other == axis else values
-            at = [np.take(part, range(first, first + shape[other]), axis=other) for first in range(3)]
-            part = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2]
-        found[..., axis] = part
-    return found
+        summed = coordinates
+        for along in range(3):
+            weights = slopes if along == axis else values
+            at = [np.take(summed, range(start, start + shape[along]), axis=along) for start in range(3)]
+            summed = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2]
+        derivatives[..., axis] = summed
+    return derivatives
 
 
 def walls_in(slopes: Floats) -> Floats:
-    """Return how many times as much wall is in a volume where a pattern is stretched by slopes (..., 3, 3).
+    """Compute the factor of the wall in a volume where a pattern is stretched by slopes (..., 3, 3).
 
-    Walls that lie in all directions alike are taken: the mean over normals n of |slopesᵀ n|.
+    Walls are assumed to lie in all directions alike: the mean over normals n of |slopesᵀ n|.
     """
     golden = math.pi * (3 - math.sqrt(5))
     total = np.zeros(slopes.shape[:-2])

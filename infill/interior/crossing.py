@@ -1,4 +1,4 @@
-"""How wide walls and bars inside a part have become: measured across, from void to void."""
+"""Widths of the walls and bars inside a part, measured across from void to void."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from infill.surface import Surface
 
 Floats = NDArray[np.float64]
 
-SAMPLES, FEWEST = 2000, 50  # points, and how many there must be for a median
-START, MOST = 0.25, 3.0  # of the width as it was drawn: where the way across is begun, and where it is given up
+SAMPLES, FEWEST = 2000, 50  # points, and the least number of them for a median
+START, MOST = 0.25, 3.0  # of the width as drawn: where the search across begins, and where it is given up
 AWAY = 1.5  # widths from the walls of the part, at least
-STEPS = 12  # along it; the last ones are far shorter than what is seen
-AT_A_TIME = 100_000  # triangles, about, of which there is a tree
+STEPS = 12  # of the search; the final ones are far too short to matter
+AT_A_TIME = 100_000  # triangles in a tree, roughly
 
 
 def median_width(
     part: Surface, voids: Surface, *, wall: float, width: float, threads: int | None = None
 ) -> tuple[float | None, int]:
-    """Return the median width of walls, or diameter of bars, between voids, mm, or None, and at how many points.
+    """Measure the median width of walls, or diameter of bars, between voids, mm; return it and the number of points.
 
-    From points of the voids, evenly spread, the way straight across to the next void is measured. Points near the walls
-    of the part do not count.
+    From points spread evenly over the voids, the distance straight across to the next void is measured. Points near the
+    walls of the part do not count. The width is None if there are too few points.
 
     Parameters
     ----------
@@ -38,40 +38,42 @@ def median_width(
     width : float
         As drawn, mm.
     """
-    upto = np.cumsum(face_areas(voids))
-    if not upto[-1] > 0:
+    areas = np.cumsum(face_areas(voids))
+    if not areas[-1] > 0:
         return None, 0
-    some = np.searchsorted(upto, upto[-1] * np.random.default_rng(0).random(SAMPLES), side="right")
-    del upto
-    a, b, c = (np.asarray(voids.vertices, dtype=np.float64)[voids.faces[some, corner]] for corner in range(3))
+    sampled = np.searchsorted(areas, areas[-1] * np.random.default_rng(0).random(SAMPLES), side="right")
+    del areas
+    a, b, c = (np.asarray(voids.vertices, dtype=np.float64)[voids.faces[sampled, corner]] for corner in range(3))
     points, across = (a + b + c) / 3, np.cross(b - a, c - a)
     normals = across / np.linalg.norm(across, axis=1, keepdims=True)
-    away, _ = Tree.of(part).nearest(points, threads=threads)
-    far = away > wall + AWAY * width
-    points, normals = points[far], normals[far]
+    distance, _ = Tree.of(part).nearest(points, threads=threads)
+    is_inside = distance > wall + AWAY * width
+    points, normals = points[is_inside], normals[is_inside]
     if len(points) < FEWEST:
         return None, len(points)
-    most = MOST * width
+    longest = MOST * width
     along = np.full(len(points), START * width)
-    for these, tree in _trees_near(points, voids, 2 * most):  # places are `most` from points, and see as far
+    for batch, tree in _trees_near(
+        points, voids, 2 * longest
+    ):  # queries lie up to `longest` from points, and reach as far
         for _ in range(STEPS):
-            # Nothing is nearer than this: so far the way across is free.
-            free, _ = tree.nearest(points[these] + along[these, None] * normals[these], threads=threads)
-            along[these] = np.minimum(along[these] + free, most)
+            # No void is nearer than this, so the way across is free up to there.
+            free, _ = tree.nearest(points[batch] + along[batch, None] * normals[batch], threads=threads)
+            along[batch] = np.minimum(along[batch] + free, longest)
     return float(np.median(along)), len(points)
 
 
 def _trees_near(points: Floats, surface: Surface, reach: float) -> Iterator[tuple[NDArray[np.intp], Tree]]:
-    """Yield some points at a time, (n,), and a tree of at least what of a surface lies within a reach of them, mm.
+    """Yield batches of points, (n,), each with a tree of at least the faces within a reach of them, mm.
 
-    They follow one another along the longest side of the surface, so that trees do not grow with that.
+    Batches follow each other along the longest side of the surface, so that trees do not grow with its length.
     """
     axis = int(np.argmax(np.ptp(surface.bounds, axis=0)))
     place, height, faces = points[:, axis], surface.vertices[:, axis], surface.faces
-    for these in np.array_split(np.argsort(place), -(-len(faces) // AT_A_TIME)):
-        if not len(these):
+    for batch in np.array_split(np.argsort(place), -(-len(faces) // AT_A_TIME)):
+        if not len(batch):
             continue
-        below, above = height < place[these[0]] - reach, height > place[these[-1]] + reach
-        near = ~(below[faces].all(axis=1) | above[faces].all(axis=1))
-        if near.any():
-            yield these, Tree.of(replace(surface, faces=faces[near]))
+        below, above = height < place[batch[0]] - reach, height > place[batch[-1]] + reach
+        is_near = ~(below[faces].all(axis=1) | above[faces].all(axis=1))
+        if is_near.any():
+            yield batch, Tree.of(replace(surface, faces=faces[is_near]))

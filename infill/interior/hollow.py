@@ -1,4 +1,4 @@
-"""The voids of a part, and what is told of them."""
+"""The voids of a part, and their measurements."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from infill.surface import Surface
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Unmade:
-    """Voids whose surfaces are yet to be made.
+    """Voids whose surfaces are made later.
 
     Parameters
     ----------
     volume : float
         mm³
     made : callable
-        Returns them, simplified within a tolerance, mm.
+        Makes them, simplified within a tolerance, mm.
     """
 
     volume: float
@@ -45,15 +45,15 @@ class Hollow:
     surfaces : list of Surface, mm
         The voids, facing outwards from them, one surface for each field.
     tolerance : float
-        mm by which simplifying has moved them, at most; not finite if that was not watched.
+        Largest distance by which simplifying has moved them, mm; not finite if unknown.
     islands, specks : int
-        Pieces of solid that would have hung free in a void, and voids that were too small.
+        Numbers of floating pieces of solid, which were dropped, and of voids that were too small.
     walls : Surface or None, mm
         The inner side of the walls, if voids reach through them.
     loose : float
-        mm³ of infill that was left out: what hung free where the part was cut open, or slicers print none for.
+        mm³ of infill that was left out: pieces that float where the part was cut open, or that slicers do not print.
     unmade : Unmade or None
-        What is known in place of surfaces.
+        Set in place of surfaces until they are made.
     """
 
     space: Space
@@ -74,18 +74,18 @@ class Hollow:
 
     @cached_property
     def count(self) -> int:
-        """How many voids there are."""
+        """Number of voids."""
         return sum(shell_names(surface)[1] for surface in self.surfaces)
 
     @property
     def open(self) -> int:
-        """How many voids reach out of an open side of the part."""
+        """Number of voids that reach out of an open side of the part."""
         opening = self.space.opening
         return 0 if opening is None else sum(int(opening.opened(surface).sum()) for surface in self.surfaces)
 
     @cached_property
     def shut(self) -> Surface:
-        """The voids that reach out of no open side of the part, mm."""
+        """Surface of the voids that do not reach out of an open side of the part, mm."""
         opening = self.space.opening
         if opening is None:
             return self.surface
@@ -98,12 +98,12 @@ class Hollow:
 
     @property
     def triangles(self) -> int:
-        """Of all voids."""
+        """Number of triangles of all voids."""
         return sum(len(surface.faces) for surface in self.surfaces)
 
     @cached_property
     def volume(self) -> float:
-        """Of all voids inside the walls, mm³."""
+        """Volume of all voids inside the walls, mm³."""
         opening = self.space.opening
         if self.unmade is not None:
             return self.unmade.volume
@@ -115,21 +115,21 @@ class Hollow:
 
     @cached_property
     def median(self) -> tuple[float | None, int]:
-        """How wide walls are, or bars thick, mm: the median where the part's walls are not near; of how many points."""
+        """Median width of walls, or thickness of bars, away from the part's walls, mm; and the number of points."""
         wall, part = self.space.wall, self.space.part
         return median_width(part, self.surface, wall=wall, width=self.width) if self.surfaces else (None, 0)
 
     @property
     def density(self) -> float:
-        """Solid share of what lies inside the walls."""
-        return 1 - self.volume / self._room
+        """Solid share of the space inside the walls."""
+        return 1 - self.volume / self._room_volume
 
     @property
     def density_before(self) -> float:
-        """That before anything was left out."""
-        return 1 - (self.volume - self.loose) / self._room
+        """Density before anything was left out."""
+        return 1 - (self.volume - self.loose) / self._room_volume
 
     @cached_property
-    def _room(self) -> float:
-        """What lies inside the walls, mm³."""
+    def _room_volume(self) -> float:
+        """Volume inside the walls, mm³."""
         return self.space.volume if self.walls is None else self.walls.volume

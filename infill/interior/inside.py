@@ -1,4 +1,4 @@
-"""The surface of what lies inside the walls of a part."""
+"""The surface of the space inside the walls of a part."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from infill.phasefield.refining import on_profile
 from infill.phasefield.sparse import smooth_bricks
 from infill.surface import Surface
 
-INTERFACE = 2.0  # cells: in thinner ones, curvature moves the surface slower than it should
-SHARE = 0.8  # of the tolerance for simplifying; the rest is what the grid costs
+INTERFACE = 2.0  # cells: in a thinner interface, curvature moves the surface slower than it should
+SHARE = 0.8  # of the tolerance for simplifying; the rest covers the error of the grid
 
 
 def inner_side(space: Space, *, overlap: float, tolerance: float, threads: int | None) -> Surface:
-    """Return the surface of what lies inside the walls, and reaches into them by the overlap, mm."""
+    """Extract the surface of the space inside the walls, extended into them by the overlap, mm."""
     field = smooth_bricks(
         on_profile(space.depth + np.float32(overlap / space.size), INTERFACE, threads=threads),
         Smoothing(steps=0),

@@ -1,4 +1,4 @@
-"""The inside of a part: how deep below its wall each cell of a grid lies."""
+"""The inside of a part: the depth of each cell of a grid below the wall."""
 
 from __future__ import annotations
 
@@ -22,47 +22,47 @@ from infill.voxels.from_mesh import Repairs, Voxelised, grid_around, voxelise_re
 from infill.voxels.partial import distances_in_cells
 
 BAND = 2.5  # cells on either side of the wall in which depths are exact
-LEAST_OVERLAP = 1e-5  # of the volume: components that overlap by less are taken not to
+LEAST_OVERLAP = 1e-5  # of the volume: a smaller overlap of components counts as none
 MARGIN = 3  # cells of void around the part
 OUT = 3.0  # cells by which voids reach out of an open side, at least
-BEYOND = 1.0  # cells: how far voids that no wall is to be left around reach out of the part
+BEYOND = 1.0  # cells by which voids reach out of the part, where no wall remains around them
 UP = np.array([0.0, 0.0, 1.0])
 TINY = 10.0  # mm: parts smaller than this may be meant in another unit
-BYTES_PACKED = 3  # for each cell of a space in slabs: whether it is inside, and how deep, packed
-BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks that are smoothed
+BYTES_PACKED = 3  # for each cell of a space in slabs: a bit for the inside, and the packed depth
+BYTES_PER_CELL = 18  # a measured peak: depth, one void and its phase, and the bricks in smoothing
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Space:
-    """What lies inside the walls of a part.
+    """The space inside the walls of a part.
 
     Parameters
     ----------
     layers : Layers
-        How deep the centre of each cell lies below the inner side of the wall, in cells; cut off deep inside.
+        Depth of the centre of each cell below the inner side of the wall, in cells; cut off deep inside.
     size : float
         Of a cell, mm.
     origin : (3,) float64
         The centre of cell (0, 0, 0), mm.
     part : Surface, mm
-        The part as it was taken: as it was given, if that is closed, faces outwards, and no two components overlap.
+        The part after repairs: the original, if it is closed, faces outwards, and no components overlap.
     repairs : Repairs
-        What had to be assumed.
+        Assumptions about the mesh.
     skin : {"as given", "turned", "closed", "parted", "united"}
-        What was done to the mesh to have a part: faces turned, holes closed, components that touch taken apart, or
-        united where they overlap; the last of these that was.
+        The last repair of the mesh: faces turned, holes closed, components that touch taken apart, or components that
+        overlap united.
     overlap : float
-        Share of the volume that components of `part` still enclose twice.
+        Share of the volume that components of `part` enclose twice, after repairs.
     wall : float
         mm
     walled : Space or None
-        What lies inside the walls, if voids reach through them here.
+        The space inside the walls, if voids reach through them here.
     through : float
-        By how many cells they do.
+        Number of cells by which they do.
     opening : Opening or None
-        Where the part has no wall: there, the depth goes on as if the part did.
+        Sides where the part has no wall: the depth there is that of a part that goes on.
     box_of : (Space, (3,) int) or None
-        The space of which it is a box, and the first cell of that.
+        The space of which this is a box, and the first cell of the box in it.
     """
 
     layers: Layers
@@ -80,7 +80,7 @@ class Space:
 
     @property
     def depth(self) -> NDArray[np.float32]:
-        """That of all cells, (nx, ny, nz) in cells: of a space in slabs, a new array each time."""
+        """Depths of all cells, (nx, ny, nz) in cells: a new array at each access if the space is in slabs."""
         return self.layers.between(0, self.shape[2])
 
     @property
@@ -95,7 +95,7 @@ class Space:
 
     @cached_property
     def shares(self) -> NDArray[np.float64]:
-        """Which share of each layer of the grid lies between the open sides of the part, (nz,)."""
+        """Share of each layer of the grid that lies between the open sides of the part, (nz,)."""
         middle = self.origin[2] + self.size * np.arange(self.shape[2])
         if self.opening is None:
             return np.ones(len(middle))
@@ -106,75 +106,77 @@ class Space:
 
     @property
     def within(self) -> NDArray[np.bool_]:
-        """Which cells lie inside the walls, and between the open sides: those whose centre does."""
+        """True for cells whose centre lies inside the walls, and between the open sides."""
         return (self.depth > 0) & (self.shares >= 0.5)
 
     def reaches(self, end: str) -> bool:
-        """Return whether there is room inside the walls at an end, top or bottom, of the part."""
+        """Tell whether there is room inside the walls at an end, top or bottom, of the part."""
         layers = np.flatnonzero(self.shares > 0)
         return bool((self.depth[:, :, layers[-1 if end == "top" else 0]] > 0).any())
 
     def cells_in(self, field: NDArray[np.float32], *, first: int = 0) -> float:
-        """Return how many cells lie in a void, by how deep they do, parts of cells counted as such.
+        """Count the cells in a void from its field, parts of cells counted as such.
 
         Parameters
         ----------
         field : (nx, ny, n) float32
         first : int
-            The first of its layers.
+            The number of its first layer in the grid.
         """
         shares = self.shares[first : first + field.shape[2]]
         return float(sum(np.clip(layer + 0.5, 0, 1).sum(axis=0, dtype=np.float64) @ shares for layer in field))
 
     @property
     def below_walls(self) -> NDArray[np.float32]:
-        """How deep all cells lie below the walls, (nx, ny, nz) in cells, also where voids reach through these."""
+        """Depths of all cells below the walls, (nx, ny, nz) in cells, also where voids reach through the walls."""
         return self.depth - np.float32(self.through) if self.through else self.depth
 
     @cached_property
     def unwalled(self) -> Space:
-        """The same, where voids reach through the wall and a little out of the part."""
+        """The same space, where voids reach through the wall and a little out of the part."""
         through = self.wall / self.size + BEYOND
         depth = self.depth + np.float32(through)
         return replace(self, layers=Layers.of(depth), wall=0.0, walled=self, through=through)
 
     @cached_property
     def deepest(self) -> NDArray[np.float32]:
-        """How deep the deepest cell of each column lies, (nx, ny) in cells."""
+        """Depth of the deepest cell of each column, (nx, ny) in cells."""
         deepest: NDArray[np.float32] = np.maximum.reduce([slab.max(axis=2) for _, slab in self.layers.each()])
         return deepest
 
     @cached_property
     def cells(self) -> float:
-        """How many cells lie inside the walls, parts of cells counted as such."""
+        """Number of cells inside the walls, parts of cells counted as such."""
         return sum(self.cells_in(slab, first=first) for first, slab in self.layers.each())
 
     @cached_property
     def across(self) -> float:
-        """The second longest side of what lies inside the walls, mm: larger cells of a pattern are of no use."""
+        """The second longest side of the space inside the walls, mm; larger cells of a pattern are of no use."""
         used = [np.zeros(count, dtype=bool) for count in self.shape]
         for first, slab in self.layers.each():
             inside = (slab > 0) & (self.shares[first : first + slab.shape[2]] >= 0.5)
             used[0] |= inside.any(axis=(1, 2))
             used[1] |= inside.any(axis=(0, 2))
             used[2][first : first + slab.shape[2]] = inside.any(axis=(0, 1))
-        sides = [np.flatnonzero(each) for each in used]
-        return float(sorted(each[-1] + 1 - each[0] for each in sides)[1]) * self.size
+        sides = [np.flatnonzero(axis) for axis in used]
+        return float(sorted(side[-1] + 1 - side[0] for side in sides)[1]) * self.size
 
     @cached_property
     def thickness(self) -> float:
-        """How thick what lies inside the walls is, mm: as a plate with this volume and surface would be."""
+        """Thickness of the space inside the walls, mm: that of a plate with this volume and surface."""
         cells = 0.0
         for first, slab in self.layers.each():
-            some = self.shares[first : first + slab.shape[2]] > 0
-            # Weights add up to 1 across a plane wherever it lies between the cells.
-            cells += sum(float(np.clip(1 - np.abs(layer[:, some]), 0, None).sum(dtype=np.float64)) for layer in slab)
+            between_ends = self.shares[first : first + slab.shape[2]] > 0
+            # Across a plane, weights add up to 1 wherever it lies between the cells.
+            cells += sum(
+                float(np.clip(1 - np.abs(layer[:, between_ends]), 0, None).sum(dtype=np.float64)) for layer in slab
+            )
         area = cells * self.size**2
         return 2 * self.volume / max(area, self.size**2)
 
     @property
     def volume(self) -> float:
-        """What lies inside the walls, mm³."""
+        """Volume inside the walls, mm³."""
         return self.cells * self.size**3
 
 
@@ -190,10 +192,10 @@ def space_inside(
     threads: int | None = None,
     max_memory: int | None = None,
 ) -> Space:
-    """Return the inside of a part, without a wall, mm, along all of its skin but for its open sides.
+    """Compute the inside of a part, without a wall, mm, along all of its skin except its open sides.
 
-    Beyond these, the inside goes on for some way, `beyond`, mm. `held` bytes are needed for each cell besides.
-    With `slabs`, a large space is kept in slabs.
+    Beyond these, the inside goes on for `beyond`, mm. `held` is the number of additional bytes for each cell. With
+    `slabs`, a large space is kept in slabs.
 
     Raises
     ------
@@ -209,42 +211,42 @@ def space_inside(
         f"wall is {wall:g} mm, and the part, {sides} mm, is nowhere thicker than two of those; "
         f"give a thinner wall{', or the right unit' if extents.max() < TINY else ''}"
     )
-    # Seen before anything is measured, however long that would take; a flat sheet has a message of its own.
+    # Checked first, as measuring may take long; a flat sheet has a separate message.
     if extents.min() > 0 and (extents + further * UP).min() <= 2 * wall:
         raise GeometryError(nowhere)
     grid = grid_of(part, voxel=voxel, further=further)
     advice = f"the grid has {' x '.join(map(str, grid.shape))} cells; give larger voxels or larger cells"
-    require_memory(_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
-    found = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
-    whole, skin, overlap = _skin(found)
-    longer, cells, opening, repairs = whole, found.volume, None, found.repairs
-    del found  # so that the cells can go when their depths are known
+    require_memory(_memory_bytes(grid.shape, held, slabs=slabs), max_memory, advice)
+    voxelised = voxelise_reported(part, voxel=voxel, margin=MARGIN, max_memory=max_memory)
+    closed_part, skin, overlap = _repair_skin(voxelised)
+    longer, cells, opening, repairs = closed_part, voxelised.volume, None, voxelised.repairs
+    del voxelised  # so that its cells can be freed once their depths are known
     if open_ is not None:
-        opening, lids = flat_sides(whole, open_)
-        longer = lengthened(whole, lids, further / len(lids))
+        opening, lids = flat_sides(closed_part, open_)
+        longer = lengthened(closed_part, lids, further / len(lids))
         cells = voxelise_reported(longer, voxel=voxel, margin=MARGIN, max_memory=max_memory).volume
     # Thin gaps between components count too, but not faces inside the solid.
-    reach, several = wall / voxel + BAND, overlap > LEAST_OVERLAP
+    reach, is_overlapping = wall / voxel + BAND, overlap > LEAST_OVERLAP
 
-    def deep(some: Volume) -> NDArray[np.float32]:
-        found = distances_in_cells(longer, some, reach, several=several, threads=threads)
-        found -= np.float32(wall / voxel)
-        return found
+    def depths_of(volume: Volume) -> NDArray[np.float32]:
+        depths = distances_in_cells(longer, volume, reach, several=is_overlapping, threads=threads)
+        depths -= np.float32(wall / voxel)
+        return depths
 
     origin = np.array(cells.origin) + voxel / 2
-    if slabs and not several and cells.values.size > WHOLE:
-        some = in_slabs(cells)
+    if slabs and not is_overlapping and cells.values.size > WHOLE:
+        slab_volumes = in_slabs(cells)
         del cells
-        layers = Layers.packed(deep(each) for each in some)
+        layers = Layers.packed(depths_of(volume) for volume in slab_volumes)
     else:
-        layers = Layers.of(deep(cells))
+        layers = Layers.of(depths_of(cells))
     if not any((slab > 0).any() for _, slab in layers.each()):
         raise GeometryError(nowhere)
     space = Space(
         layers=layers,
         size=voxel,
         origin=origin,
-        part=whole,
+        part=closed_part,
         repairs=repairs,
         skin=skin,
         overlap=overlap,
@@ -260,8 +262,8 @@ def space_inside(
     return space
 
 
-def _bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
-    """Return what is needed for a grid, or for a slab of it and what is kept of all of it."""
+def _memory_bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
+    """Return the memory for a grid in bytes; in slabs, for one slab and the packed rest."""
     cells = math.prod(shape)
     if slabs and cells > WHOLE:
         return BYTES_PACKED * cells + BYTES_PER_CELL * WHOLE
@@ -269,12 +271,12 @@ def _bytes(shape: tuple[int, ...], held: int, *, slabs: bool) -> int:
 
 
 def further_for(open_: Open | None, wall: float, beyond: float, voxel: float) -> float:
-    """Return how much longer, mm, a part is made for its open sides: by a wall, and so much that it does not matter."""
+    """Return the length, mm, added to a part at its open sides, so that its ends do not matter to the voids."""
     return 0.0 if open_ is None else len(ENDS[open_]) * (wall + beyond + OUT * voxel)
 
 
 def grid_of(part: Surface, *, voxel: float, further: float) -> Grid:
-    """Return about the grid that a part is filled on, which reaches so much further up or down, mm."""
+    """Return roughly the grid that a part is filled on, extended by a length up or down, mm."""
     return grid_around(
         Surface(vertices=np.concatenate([part.bounds, part.bounds[1:] + further * UP]), faces=np.array([[0, 1, 2]])),
         voxel=voxel,
@@ -282,21 +284,21 @@ def grid_of(part: Surface, *, voxel: float, further: float) -> Grid:
     )
 
 
-def _skin(found: Voxelised) -> tuple[Surface, str, float]:
-    """Return the part facing outwards, without overlaps if possible, what was done to it, and what still overlaps."""
-    mesh, held = found.closed, found.enclosed
-    skin = "closed" if found.repairs.holes else "as given"
-    if (turned := held.sign < 0).any():
+def _repair_skin(voxelised: Voxelised) -> tuple[Surface, str, float]:
+    """Repair the skin; return the part facing outwards, the last repair, and the overlap that remains."""
+    mesh, enclosed = voxelised.closed, voxelised.enclosed
+    skin = "closed" if voxelised.repairs.holes else "as given"
+    if (turned := enclosed.sign < 0).any():
         faces = np.where(turned[:, None], mesh.faces[:, ::-1], mesh.faces)
         mesh, skin = Surface(vertices=mesh.vertices, faces=faces), "turned" if skin == "as given" else skin
-    overlap = float(held.excess.sum() / held.total)
+    overlap = float(enclosed.excess.sum() / enclosed.total)
     verdict = status(mesh)
     if mesh.closed and verdict == FINE and overlap <= LEAST_OVERLAP:
         return mesh, skin, 0.0
-    parts = parted(mesh, float(found.volume.cell_size[0])).surfaces
-    if overlap > LEAST_OVERLAP and (whole := united(parts)) is not None:
+    parts = parted(mesh, float(voxelised.volume.cell_size[0])).surfaces
+    if overlap > LEAST_OVERLAP and (union := united(parts)) is not None:
         # The union counts what parts enclose together once, as the exact volume does.
-        mesh, verdict, skin, overlap = whole, FINE, "united", abs(1 - held.total / whole.volume)
+        mesh, verdict, skin, overlap = union, FINE, "united", abs(1 - enclosed.total / union.volume)
     elif parts and (apart := joined(list(parts))).closed:
         mesh, verdict, skin = apart, status(apart), "parted"
     if verdict != FINE:

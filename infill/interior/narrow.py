@@ -1,8 +1,8 @@
-"""How much of the infill of a project is too narrow for a line of a slicer, and the infill without that.
+"""Infill of a project that is too narrow for a line of a slicer: its share, and the infill without it.
 
-A slicer prints infill where perimeters leave room for a line, and a little way into the perimeters; and of what is
-there, what is as wide as a line itself. A place is as wide as a line where a disc of that diameter fits: what the
-opening by such discs leaves of it.
+A slicer prints infill where perimeters leave room for a line, and a little way into the perimeters; there, it prints
+infill that is as wide as a line itself. A region is as wide as a line where a disc of that diameter fits: in its
+morphological opening by such a disc.
 """
 
 from __future__ import annotations
@@ -22,24 +22,24 @@ if TYPE_CHECKING:
     import manifold3d
 
 SECTIONS = 32
-NARROW = 0.045  # of the infill: if more of it is where slicers print none, by an estimate, that is left out, and told
+NARROW = 0.045  # of the infill: if slicers do not print more than this, by an estimate, it is left out, and reported
 OVERLAP = 0.25  # of a line: how far slicers' infill reaches into perimeters
-LAYER, OVER = 0.2, 0.03  # mm: height of what is left out at a time, and how far that reaches into the next
-APART = 0.02  # mm: what is left out stays so far off what is kept, and hairlines between them do not count
-REACH = 0.05  # mm: how far it reaches into voids and walls
-CRUMB = 0.01  # mm²: smaller pieces do not count, even where nothing else is
+LAYER, OVER = 0.2, 0.03  # mm: height of a layer in which infill is left out, and its overlap with the next layer
+APART = 0.02  # mm: gap between infill that is left out and infill that stays; narrower hairlines do not count
+REACH = 0.05  # mm: by which the region that is left out reaches into voids and walls
+CRUMB = 0.01  # mm²: smaller pieces do not count, even where they are alone
 
 
 @dataclass(frozen=True, kw_only=True)
 class Narrow:
-    """Shares of the infill, inside the walls, that slicers print none for.
+    """Shares of the infill inside the walls that slicers do not print.
 
     Parameters
     ----------
     room : float
-        What lies in room narrower than a line.
+        Infill in room narrower than a line.
     all : float
-        That, and what is itself too narrow.
+        That, and infill that is too narrow itself.
     """
 
     room: float
@@ -53,15 +53,15 @@ class _Section:
     Parameters
     ----------
     around : CrossSection
-        Where a slicer's infill would be, if there were room for it.
+        Region for a slicer's infill, if there were room for it.
     filled : CrossSection
-        What of the infill is there.
+        The infill in that region.
     roomy : CrossSection
-        What of that has room as wide as a line.
+        The part of that infill with room as wide as a line.
     kept : CrossSection
-        What of that is wide enough itself.
+        The part of that infill that is wide enough itself.
     gone : list of CrossSection
-        Pieces of the rest.
+        Pieces of the remaining infill.
     """
 
     around: manifold3d.CrossSection
@@ -72,7 +72,7 @@ class _Section:
 
 
 def too_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> Narrow | None:
-    """Return the shares of infill that slicers print none for, or None if manifold3d does not take a surface.
+    """Estimate the shares of infill that slicers do not print; return None if manifold3d rejects a surface.
 
     Parameters
     ----------
@@ -93,21 +93,21 @@ def too_narrow(part: Surface, infill: Surface, wall: float, line: float, least: 
     >>> [round(too_narrow(part, part, 0.9, 0.45, 0.6).all, 2) for part in (plate, block)]
     [1.0, 0.0]
     """
-    whole, body = solid_of(part), solid_of(infill)
-    if status_of(whole) != FINE or status_of(body) != FINE:
+    part_body, infill_body = solid_of(part), solid_of(infill)
+    if status_of(part_body) != FINE or status_of(infill_body) != FINE:
         return None
     low, high = part.bounds[:, 2]
     areas = np.zeros(3)  # all, in too narrow a room, that and what is too narrow
     for z in low + (np.arange(SECTIONS) + 0.5) / SECTIONS * (high - low):
-        found = _section(whole.slice(z), body.slice(z), wall, line, least)
-        gone = sum(piece.area() for piece in found.gone)
-        areas += [found.filled.area(), found.filled.area() - found.roomy.area(), gone]
-    there, cramped, gone = areas.tolist()
-    return Narrow(room=cramped / there if there else 0.0, all=gone / there if there else 0.0)
+        section = _divide_section(part_body.slice(z), infill_body.slice(z), wall, line, least)
+        gone = sum(piece.area() for piece in section.gone)
+        areas += [section.filled.area(), section.filled.area() - section.roomy.area(), gone]
+    total, in_narrow_room, gone = areas.tolist()
+    return Narrow(room=in_narrow_room / total if total else 0.0, all=gone / total if total else 0.0)
 
 
 def without_narrow(part: Surface, infill: Surface, wall: float, line: float, least: float) -> Surface:
-    """Return the infill without what slicers print none for, layer by layer; it may be empty.
+    """Drop the infill that slicers do not print, layer by layer; the rest may be empty.
 
     Parameters
     ----------
@@ -122,68 +122,68 @@ def without_narrow(part: Surface, infill: Surface, wall: float, line: float, lea
     >>> body = trimesh.util.concatenate([wall, sliver.apply_translation((2, 0, 0))])
     >>> block, body = (Surface(vertices=each.vertices, faces=each.faces) for each in (block, body))
     >>> left = without_narrow(block, body, 0.9, 0.45, 0.6)
-    >>> round(body.volume - left.volume, 1)  # 0.3 by 7.42 by 10 mm, and a little of what lies in the walls
+    >>> round(body.volume - left.volume, 1)  # 0.3 by 7.42 by 10 mm, and a little in the walls
     22.6
     """
     import manifold3d
 
-    whole, body = solid_of(part), solid_of(infill)
+    part_body, infill_body = solid_of(part), solid_of(infill)
     low, high = part.bounds[:, 2]
     cut: list[manifold3d.Manifold] = []
-    areas: list[tuple[manifold3d.CrossSection, int, int]] = []  # with the first layer and the last
+    areas: list[tuple[manifold3d.CrossSection, int, int]] = []  # with the first and the last layer
     for layer in range(int(np.ceil((high - low) / LAYER))):
         middle = float(low) + LAYER * (layer + 0.5)
-        found = _section(whole.slice(middle), body.slice(middle), wall, line, least)
-        if not found.gone:
+        section = _divide_section(part_body.slice(middle), infill_body.slice(middle), wall, line, least)
+        if not section.gone:
             continue
-        gone = _united(found.gone)
-        if areas and areas[-1][2] == layer - 1 and _fits(areas[-1][0], gone, found.kept):
+        gone = _unite(section.gone)
+        if areas and areas[-1][2] == layer - 1 and _fits(areas[-1][0], gone, section.kept):
             areas[-1] = (*areas[-1][:2], layer)
             continue
-        # In turn a little larger, or sides that lie all but in one place would be cut to shreds.
-        further = APART * (len(areas) % 2)
-        room = _grown(found.around, REACH + further)
-        area = (_grown(gone, REACH + further) - _grown(found.kept, APART + further)) ^ room
+        # Alternately a little larger, as sides that almost coincide would be cut to shreds.
+        extra = APART * (len(areas) % 2)
+        room = _offset(section.around, REACH + extra)
+        area = (_offset(gone, REACH + extra) - _offset(section.kept, APART + extra)) ^ room
         areas.append((area.simplify(APART / 2), layer, layer))
-    for area, first, last in areas:
-        height = LAYER * (last + 1 - first) + OVER
-        cut.append(area.extrude(height).translate((0.0, 0.0, float(low) + LAYER * first)))
-    return surface_from(body - manifold3d.Manifold.batch_boolean(cut, manifold3d.OpType.Add)) if cut else infill
+    for area, start, stop in areas:
+        height = LAYER * (stop + 1 - start) + OVER
+        cut.append(area.extrude(height).translate((0.0, 0.0, float(low) + LAYER * start)))
+    return surface_from(infill_body - manifold3d.Manifold.batch_boolean(cut, manifold3d.OpType.Add)) if cut else infill
 
 
 def _fits(area: manifold3d.CrossSection, gone: manifold3d.CrossSection, kept: manifold3d.CrossSection) -> bool:
-    """Return whether to cut out an area takes what is to go, and nothing else."""
+    """Tell whether cutting out an area removes what is to go, and nothing else."""
     return bool((gone - area).area() < CRUMB and (area ^ kept).area() < CRUMB / 10)
 
 
-def _section(
+def _divide_section(
     part: manifold3d.CrossSection, infill: manifold3d.CrossSection, wall: float, line: float, least: float
 ) -> _Section:
-    """Return what a slicer prints of a section.
+    """Divide a section into infill that a slicer prints, and infill that it does not print.
 
-    Smaller pieces than a line is wide and long count only where they are alone: there are some in all corners.
+    Pieces smaller than the square of a line's width count only where they are alone, as all corners have some.
     """
-    inside, overlap = _grown(part, -wall), OVERLAP * line
-    around = _grown(part, overlap - wall)
+    room, overlap = _offset(part, -wall), OVERLAP * line
+    around = _offset(part, overlap - wall)
     filled = around ^ infill
-    roomy = filled ^ _grown(_opened(inside, line), overlap)
-    kept = _opened(roomy, least)
-    beside = _grown(kept, 3 * APART)
-    rest = _opened(filled - _grown(kept, APART), 2 * APART)
-    pieces = [piece for piece in rest.decompose() if piece.area() > CRUMB]
-    gone = [piece for piece in pieces if piece.area() > line**2 or (piece ^ beside).is_empty()]
+    roomy = filled ^ _offset(_open(room, line), overlap)
+    kept = _open(roomy, least)
+    near_kept = _offset(kept, 3 * APART)
+    unprinted = _open(filled - _offset(kept, APART), 2 * APART)
+    pieces = [piece for piece in unprinted.decompose() if piece.area() > CRUMB]
+    gone = [piece for piece in pieces if piece.area() > line**2 or (piece ^ near_kept).is_empty()]
     return _Section(around=around, filled=filled, roomy=roomy, kept=kept, gone=gone)
 
 
-def _opened(section: manifold3d.CrossSection, width: float) -> manifold3d.CrossSection:
-    return _grown(_grown(section, -width / 2), width / 2)
+def _open(section: manifold3d.CrossSection, width: float) -> manifold3d.CrossSection:
+    return _offset(_offset(section, -width / 2), width / 2)
 
 
-def _grown(section: manifold3d.CrossSection, far: float) -> manifold3d.CrossSection:
+def _offset(section: manifold3d.CrossSection, distance: float) -> manifold3d.CrossSection:
     import manifold3d
 
-    return section.offset(far, manifold3d.JoinType.Round)
+    return section.offset(distance, manifold3d.JoinType.Round)
 
 
-def _united(sections: Iterable[manifold3d.CrossSection]) -> manifold3d.CrossSection:
-    return reduce(lambda one, other: one + other, sections)
+def _unite(sections: Iterable[manifold3d.CrossSection]) -> manifold3d.CrossSection:
+    return reduce(lambda union, section: union + section, sections)

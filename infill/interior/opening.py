@@ -23,15 +23,15 @@ Floats = NDArray[np.float64]
 
 LEVEL = 1e-5  # of the part's longest side, by which a flat side may be uneven: as much as single precision makes it
 LEAST = 1.0  # cells of the grid: voids that reach less deep into the part are left solid
-# Cells of the grid: vertices of voids that are nearer to the plane are moved this far from it, so that no two that come
-# of the cut are in one place; tried in turn.
+# Cells of the grid: vertices of voids that are nearer to the plane are moved this far from it, so that no two vertices
+# of the cut coincide; tried in order.
 NEAR = (0.03, 0.05, 0.02, 0.08)
 ENDS: dict[str, tuple[str, ...]] = {"top": ("top",), "bottom": ("bottom",), "both": ("bottom", "top")}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Opening:
-    """Where a part has no shell.
+    """Sides of a part without a shell.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Opening:
     low, high : float
         Heights between which the part lies, mm; not finite at an end that has its shell.
     shell : Surface, mm
-        The part without the faces that have none.
+        The faces of the part that have a shell.
     """
 
     name: Open
@@ -48,34 +48,34 @@ class Opening:
     shell: Surface
 
     def inside(self, heights: Floats) -> NDArray[np.bool_]:
-        """Return which heights, mm, are those of the part."""
+        """Test which heights, mm, lie in the part."""
         return (heights >= self.low) & (heights <= self.high)
 
     def opened(self, voids: Surface) -> NDArray[np.bool_]:
-        """Return which voids, component by component, reach out of the part: (N,)."""
+        """Test which voids, component by component, reach out of the part: (N,)."""
         lowest, highest = _heights(voids)
         return (lowest < self.low) | (highest > self.high)
 
     def closed_ends(self, voids: list[Surface]) -> list[str]:
-        """Return the open sides that no void reaches out of."""
-        lowest, highest = (np.concatenate(each) for each in zip(*map(_heights, voids), strict=True))
+        """List the open sides that no void reaches out of."""
+        lowest, highest = (np.concatenate(heights) for heights in zip(*map(_heights, voids), strict=True))
         reached = {"bottom": bool((lowest < self.low).any()), "top": bool((highest > self.high).any())}
         return [end for end in ENDS[self.name] if not reached[end]]
 
     def reaching(self, voids: Surface, size: float) -> Surface | None:
-        """Return the components of a surface that reach so deep into the part that they are of use, or None."""
+        """Keep the components of a surface that reach deep enough into the part to be of use, or return None."""
         lowest, highest = _heights(voids)
-        kept = (highest > self.low + LEAST * size) & (lowest < self.high - LEAST * size)
-        if kept.all():
+        is_deep = (highest > self.low + LEAST * size) & (lowest < self.high - LEAST * size)
+        if is_deep.all():
             return voids
-        return with_faces(voids, kept[shell_names(voids)[0][voids.faces[:, 0]]]) if kept.any() else None
+        return with_faces(voids, is_deep[shell_names(voids)[0][voids.faces[:, 0]]]) if is_deep.any() else None
 
     def volume(self, voids: Surface) -> float:
-        """Return what a closed surface encloses between the two heights, mm³.
+        """Compute the volume that a closed surface encloses between the two heights, mm³.
 
         Notes
         -----
-        By the divergence of (0, 0, z), which stays at the height of an end beyond it.
+        By the divergence of (0, 0, z), where z is clipped to the two heights.
 
         >>> import trimesh
         >>> ball = trimesh.creation.icosphere()
@@ -86,32 +86,34 @@ class Opening:
         """
         corners = np.asarray(voids.vertices, dtype=np.float64)[voids.faces]
         a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-        seen = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+        shadow = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
         heights = corners[:, :, 2]
         height = heights.mean(axis=1) - heights.mean()
         if math.isfinite(self.low):
             height = height + mean_above(self.low - heights)
         if math.isfinite(self.high):
             height = height - mean_above(heights - self.high)
-        return float(seen @ height)
+        return float(shadow @ height)
 
 
 def mean_above(values: Floats) -> Floats:
-    """Return the mean of the positive part of something straight over triangles, from its values at corners (N, 3).
+    """Return the mean over triangles of the positive part of a linear function, from its values at corners (N, 3).
 
     >>> mean_above(np.array([[1.0, 2, 3], [-1, -2, -3], [-1, -1, 1]])).round(4).tolist()
     [2.0, 0.0, 0.0833]
     """
     a, b, c = np.sort(values, axis=1).T
     mean = np.where(a >= 0, (a + b + c) / 3, 0.0)
-    one, two = (a < 0) & (b <= 0) & (c > 0), (a < 0) & (b > 0)
-    mean[one] = c[one] ** 3 / (3 * (c[one] - a[one]) * (c[one] - b[one]))
-    mean[two] = (a[two] + b[two] + c[two]) / 3 - a[two] ** 3 / (3 * (b[two] - a[two]) * (c[two] - a[two]))
+    one_above, two_above = (a < 0) & (b <= 0) & (c > 0), (a < 0) & (b > 0)
+    mean[one_above] = c[one_above] ** 3 / (3 * (c[one_above] - a[one_above]) * (c[one_above] - b[one_above]))
+    mean[two_above] = (a[two_above] + b[two_above] + c[two_above]) / 3 - a[two_above] ** 3 / (
+        3 * (b[two_above] - a[two_above]) * (c[two_above] - a[two_above])
+    )
     return mean
 
 
 def _heights(surface: Surface) -> tuple[Floats, Floats]:
-    """Return the lowest and the highest place of every component, mm."""
+    """Return the lowest and the highest point of every component, mm."""
     names, count = shell_names(surface)
     lowest, highest = np.full(count, np.inf), np.full(count, -np.inf)
     used = np.unique(surface.faces)
@@ -122,34 +124,34 @@ def _heights(surface: Surface) -> tuple[Floats, Floats]:
 
 
 def flat_sides(part: Surface, name: Open) -> tuple[Opening, list[tuple[NDArray[np.bool_], float]]]:
-    """Return where a part is to be open, and the faces of each of its ends with the way out, 1 up and -1 down.
+    """Find the flat ends of a part; return the opening, and for each end its faces and the way out, 1 up or -1 down.
 
     Raises
     ------
     GeometryError
-        If there is no flat face at such an end.
+        If an end has no flat face.
     """
     heights = np.asarray(part.vertices, dtype=np.float64)[part.faces][:, :, 2]
     level = LEVEL * float(np.ptp(part.bounds, axis=0).max())
-    found, low, high = [], -math.inf, math.inf
+    ends, low, high = [], -math.inf, math.inf
     for end in ENDS[name]:
-        top = end == "top"
-        at = float(heights.max() if top else heights.min())
+        is_top = end == "top"
+        at = float(heights.max() if is_top else heights.min())
         flat = (np.abs(heights - at) <= level).all(axis=1)
         if not flat.any():
             raise GeometryError(
                 f"open is {name!r}, and the part has no flat face at its {end}, z = {at:.4g} mm; turn it so that one "
                 "lies there, or cut it off flat"
             )
-        low, high = (low, at) if top else (at, high)
-        found.append((flat, 1.0 if top else -1.0))
-    lids = np.logical_or.reduce([flat for flat, _ in found])
+        low, high = (low, at) if is_top else (at, high)
+        ends.append((flat, 1.0 if is_top else -1.0))
+    lids = np.logical_or.reduce([flat for flat, _ in ends])
     shell = Surface(vertices=part.vertices, faces=part.faces[~lids])
-    return Opening(name=name, low=low, high=high, shell=shell), found
+    return Opening(name=name, low=low, high=high, shell=shell), ends
 
 
 def lengthened(part: Surface, ends: list[tuple[NDArray[np.bool_], float]], far: float) -> Surface:
-    """Return a part whose flat sides are moved straight out, mm, with upright walls behind them.
+    """Move the flat sides of a part straight out, mm, and add upright walls behind them.
 
     >>> import trimesh
     >>> box = trimesh.creation.box((2, 3, 4))
@@ -159,32 +161,32 @@ def lengthened(part: Surface, ends: list[tuple[NDArray[np.bool_], float]], far: 
     (True, 36.0, [-3.0, 3.0])
     """
     for flat, way in ends:
-        part = _moved_out(part, flat, way * far)
+        part = _move_out(part, flat, way * far)
     return part
 
 
-def _moved_out(part: Surface, flat: NDArray[np.bool_], far: float) -> Surface:
-    # The faces keep their numbers: those of the other end are still where they were.
+def _move_out(part: Surface, flat: NDArray[np.bool_], distance: float) -> Surface:
+    # The faces keep their numbers, so that masks of the other end still hold.
     vertices, faces = np.asarray(part.vertices, dtype=np.float64), np.array(part.faces, dtype=np.int64)
     flat = np.pad(flat, (0, len(faces) - len(flat)))
-    own = np.unique(faces[flat])
+    used = np.unique(faces[flat])
     number = np.full(len(vertices), -1, dtype=np.int64)
-    number[own] = len(vertices) + np.arange(len(own))
+    number[used] = len(vertices) + np.arange(len(used))
     edges = np.concatenate([faces[flat][:, [i, (i + 1) % 3]] for i in range(3)])
-    codes, back = edges[:, 0] * len(vertices) + edges[:, 1], edges[:, 1] * len(vertices) + edges[:, 0]
-    a, b = edges[~np.isin(codes, back)].T
+    codes, reversed_codes = edges[:, 0] * len(vertices) + edges[:, 1], edges[:, 1] * len(vertices) + edges[:, 0]
+    a, b = edges[~np.isin(codes, reversed_codes)].T
     sides = np.concatenate([np.stack([a, b, number[b]], axis=1), np.stack([a, number[b], number[a]], axis=1)])
     faces[flat] = number[faces[flat]]
-    moved = vertices[own] + np.array([0.0, 0.0, far])
+    moved = vertices[used] + np.array([0.0, 0.0, distance])
     return Surface(vertices=np.concatenate([vertices, moved]), faces=np.concatenate([faces, sides]))
 
 
 def cut_open(
     solid: Surface, voids: list[Surface], opening: Opening, size: float, *, threads: int | None = None
 ) -> tuple[Surface, int, float]:
-    """Return a solid without its voids, which reach out of its open sides; what is left out, in pieces and in mm³.
+    """Subtract voids that reach out of the open sides of a solid; return it with the count and mm³ of dropped pieces.
 
-    That are pieces of infill that hung on nothing but what was beyond the side.
+    Dropped are pieces of infill that were held only by material beyond the side.
 
     Parameters
     ----------
@@ -197,95 +199,95 @@ def cut_open(
     Raises
     ------
     GeometryError
-        If manifold3d does not take the voids.
+        If manifold3d rejects the voids.
     """
-    whole, best = solid_of(solid), None
-    for found in _cut(whole, voids, opening, size):
-        if best is None or int(in_one_place(found).sum()) < int(in_one_place(best).sum()):
-            best = found
+    manifold, best = solid_of(solid), None
+    for candidate in _cut_variants(manifold, voids, opening, size):
+        if best is None or int(in_one_place(candidate).sum()) < int(in_one_place(best).sum()):
+            best = candidate
         if best.closed and not in_one_place(best).any():
             break
     if best is None:
         raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
-    return _without_loose(best, solid, opening, threads)
+    return _drop_loose(best, solid, opening, threads)
 
 
 def between(surface: Surface, opening: Opening, size: float) -> Surface:
-    """Return what a surface encloses between the open sides of a part; `size` is that of a cell of the grid, mm."""
-    for near in NEAR:
-        found = solid_of(_off_the_plane(surface, opening, near * size))
+    """Cut a surface off at the open sides of a part; `size` is that of a cell of the grid, mm."""
+    for distance in NEAR:
+        trimmed = solid_of(_move_off_planes(surface, opening, distance * size))
         if math.isfinite(opening.low):
-            found = found.trim_by_plane((0.0, 0.0, 1.0), opening.low)
+            trimmed = trimmed.trim_by_plane((0.0, 0.0, 1.0), opening.low)
         if math.isfinite(opening.high):
-            found = found.trim_by_plane((0.0, 0.0, -1.0), -opening.high)
-        if status_of(found) == FINE and not in_one_place(cut := surface_from(found)).any():
+            trimmed = trimmed.trim_by_plane((0.0, 0.0, -1.0), -opening.high)
+        if status_of(trimmed) == FINE and not in_one_place(cut := surface_from(trimmed)).any():
             break
     return cut
 
 
-def _cut(whole: object, voids: list[Surface], opening: Opening, size: float) -> Iterator[Surface]:
+def _cut_variants(body: object, voids: list[Surface], opening: Opening, size: float) -> Iterator[Surface]:
     import manifold3d
 
-    assert isinstance(whole, manifold3d.Manifold)
-    for near in NEAR:
-        solids = [solid_of(_off_the_plane(each, opening, near * size)) for each in voids]
-        if any(status_of(each) != FINE for each in (whole, *solids)):
+    assert isinstance(body, manifold3d.Manifold)
+    for distance in NEAR:
+        solids = [solid_of(_move_off_planes(void, opening, distance * size)) for void in voids]
+        if any(status_of(solid) != FINE for solid in (body, *solids)):
             continue
-        left = reduce(lambda one, other: one - other, solids, whole)
-        if status_of(left) == FINE and not left.is_empty():
-            yield (found := surface_from(left))
-            if in_one_place(found).any() and status(merged := _in_single_places(found)) == FINE:
+        remainder = reduce(lambda rest, solid: rest - solid, solids, body)
+        if status_of(remainder) == FINE and not remainder.is_empty():
+            yield (candidate := surface_from(remainder))
+            if in_one_place(candidate).any() and status(merged := _merge_in_single_precision(candidate)) == FINE:
                 yield merged
 
 
-def _in_single_places(surface: Surface) -> Surface:
-    """Return a surface without its edges that single precision makes points."""
-    _, first, number = np.unique(
+def _merge_in_single_precision(surface: Surface) -> Surface:
+    """Drop the edges of a surface that single precision makes points."""
+    _, representative, number = np.unique(
         np.asarray(surface.vertices, dtype=np.float32), axis=0, return_index=True, return_inverse=True
     )
     twin = in_one_place(surface)
-    name = np.arange(len(surface.vertices))
-    name[twin] = first[number.ravel()[twin]]
-    faces = name[surface.faces]
-    whole = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
-    return with_faces(replace(surface, faces=faces), whole)
+    merged_vertex = np.arange(len(surface.vertices))
+    merged_vertex[twin] = representative[number.ravel()[twin]]
+    faces = merged_vertex[surface.faces]
+    is_triangle = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return with_faces(replace(surface, faces=faces), is_triangle)
 
 
-def _off_the_plane(voids: Surface, opening: Opening, near: float) -> Surface:
+def _move_off_planes(voids: Surface, opening: Opening, distance: float) -> Surface:
     vertices = np.array(voids.vertices, dtype=np.float64)
     for end in (opening.low, opening.high):
-        off = vertices[:, 2] - end
-        close = np.abs(off) < near
-        vertices[close, 2] = end + np.where(off[close] < 0, -near, near)
+        height = vertices[:, 2] - end
+        close = np.abs(height) < distance
+        vertices[close, 2] = end + np.where(height[close] < 0, -distance, distance)
     return replace(voids, vertices=vertices)
 
 
-def _without_loose(found: Surface, solid: Surface, opening: Opening, threads: int | None) -> tuple[Surface, int, float]:
-    """Return a solid without the components that have nothing of its skin but an open side."""
-    names, count = shell_names(found)
-    volume = shell_volumes(found, names, count)
-    held = np.zeros(count, dtype=bool)
-    held[names[_of_skin(found, solid, opening)]] = True
-    loose = np.flatnonzero((volume > 0) & ~held)
-    lost, left = 0.0, found
-    for each in loose:
-        piece = with_faces(found, names[found.faces[:, 0]] == each)
-        own, first = shell_names(left)[0], first_of_shells(left)
-        gone = winding(np.asarray(left.vertices, dtype=np.float64)[first], piece, threads=threads) > 0
-        gone[own[np.flatnonzero((np.asarray(left.vertices) == piece.vertices[0]).all(axis=1))]] = True
-        lost += float(volume[each])
-        left = with_faces(left, ~gone[own[left.faces[:, 0]]])
-    return left, len(loose), lost
+def _drop_loose(cut: Surface, solid: Surface, opening: Opening, threads: int | None) -> tuple[Surface, int, float]:
+    """Drop the components that keep nothing of the skin except an open side; return count and mm³ too."""
+    names, count = shell_names(cut)
+    volume = shell_volumes(cut, names, count)
+    is_held = np.zeros(count, dtype=bool)
+    is_held[names[_find_skin_vertices(cut, solid, opening)]] = True
+    loose_shells = np.flatnonzero((volume > 0) & ~is_held)
+    dropped_volume, rest = 0.0, cut
+    for shell in loose_shells:
+        piece = with_faces(cut, names[cut.faces[:, 0]] == shell)
+        rest_names, starts = shell_names(rest)[0], first_of_shells(rest)
+        is_dropped = winding(np.asarray(rest.vertices, dtype=np.float64)[starts], piece, threads=threads) > 0
+        is_dropped[rest_names[np.flatnonzero((np.asarray(rest.vertices) == piece.vertices[0]).all(axis=1))]] = True
+        dropped_volume += float(volume[shell])
+        rest = with_faces(rest, ~is_dropped[rest_names[rest.faces[:, 0]]])
+    return rest, len(loose_shells), dropped_volume
 
 
-def _of_skin(found: Surface, solid: Surface, opening: Opening) -> NDArray[np.intp]:
-    """Return the vertices that are those of faces of a solid besides its open sides."""
+def _find_skin_vertices(cut: Surface, solid: Surface, opening: Opening) -> NDArray[np.intp]:
+    """Find the vertices that belong to the skin of a solid, not counting its open sides."""
     vertices = np.asarray(solid.vertices, dtype=np.float64)
     level = LEVEL * float(np.ptp(solid.bounds, axis=0).max())
     heights = vertices[solid.faces][:, :, 2]
     lids = np.any([(np.abs(heights - end) <= level).all(axis=1) for end in (opening.low, opening.high)], axis=0)
     corners = np.unique(vertices[np.unique(solid.faces[~lids])], axis=0)
-    both = np.concatenate([corners, np.asarray(found.vertices, dtype=np.float64)])
+    both = np.concatenate([corners, np.asarray(cut.vertices, dtype=np.float64)])
     _, number = np.unique(both, axis=0, return_inverse=True)
     number = number.ravel()
     return np.flatnonzero(np.isin(number[len(corners) :], number[: len(corners)]))

@@ -1,4 +1,4 @@
-"""The factor at which something that grows with it, about in proportion, is what it should be."""
+"""The factor at which a quantity, roughly proportional to it, reaches its target."""
 
 from __future__ import annotations
 
@@ -10,15 +10,14 @@ GENTLE, STEEP = 0.2, 5.0  # slopes that a secant may have
 
 
 def root(off: Callable[[float], float], good: float, tries: int) -> float:
-    """Return the factor at which a logarithm is about 0, or the best of those tried.
+    """Find the factor at which a logarithm is nearly 0; return the best factor that was tried.
 
     Parameters
     ----------
     off : callable
-        Takes a factor, and returns the logarithm of what comes of it over what should. It grows with the factor, but
-        may jump.
+        Takes a factor, and returns the logarithm of the result over its target. It grows with the factor, but may jump.
     good : float
-        What counts as 0.
+        Error that is good enough.
     tries : int
 
     Notes
@@ -29,19 +28,19 @@ def root(off: Callable[[float], float], good: float, tries: int) -> float:
     >>> round(root(lambda times: math.log(times**1.5 / 3), 1e-6, 20), 4)
     2.0801
     """
-    at, tried = 0.0, list[tuple[float, float]]()
+    exponent, attempts = 0.0, list[tuple[float, float]]()
     low, high = -math.inf, math.inf
     for _ in range(tries):
-        now = off(math.exp(at))
-        tried.append((at, now))
-        if abs(now) <= good:
+        error = off(math.exp(exponent))
+        attempts.append((exponent, error))
+        if abs(error) <= good:
             break
-        low, high = (max(low, at), high) if now < 0 else (low, min(high, at))
+        low, high = (max(low, exponent), high) if error < 0 else (low, min(high, exponent))
         slope = 1.0
-        if len(tried) > 1 and at != tried[-2][0]:
-            slope = (now - tried[-2][1]) / (at - tried[-2][0])
-        at -= min(LONGEST, max(-LONGEST, now / (slope if GENTLE < slope < STEEP else 1.0)))
-        little = len(tried) > 1 and abs(now) > abs(tried[-2][1]) / 2
-        if math.isfinite(high - low) and (little or not low < at < high):
-            at = (low + high) / 2
-    return math.exp(min(tried, key=lambda each: abs(each[1]))[0])
+        if len(attempts) > 1 and exponent != attempts[-2][0]:
+            slope = (error - attempts[-2][1]) / (exponent - attempts[-2][0])
+        exponent -= min(LONGEST, max(-LONGEST, error / (slope if GENTLE < slope < STEEP else 1.0)))
+        gained_little = len(attempts) > 1 and abs(error) > abs(attempts[-2][1]) / 2
+        if math.isfinite(high - low) and (gained_little or not low < exponent < high):
+            exponent = (low + high) / 2
+    return math.exp(min(attempts, key=lambda attempt: abs(attempt[1]))[0])

@@ -1,4 +1,4 @@
-"""A pattern that begins anew in every body: each component of a part has it about its own middle."""
+"""A pattern that starts over in every body: each component of a part has it about its own middle."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ class Anchored(Protocol):
     """The voids of a pattern that begins at a point."""
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
-        """Return how many fields the voids need."""
+        """Count the fields that the voids need."""
         ...
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:
-        """Return the angle than which few corners of the voids are sharper, degrees."""
+        """Return the angle of the sharpest corners of the voids, degrees; few are sharper."""
         ...
 
     def into(self, out: Field, space: Space, which: int, *, cell: float, width: float) -> float:
-        """Write a field, and return how many cells it fills."""
+        """Write one field; return how many cells it fills."""
         ...
 
     def about(self, middle: NDArray[np.float64]) -> Self:
-        """Return the same, with everything shifted by a vector, mm, in all of a part."""
+        """Return the same voids, shifted by a vector, mm, in the whole part."""
         ...
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Body:
-    """Where a component of a part is.
+    """A component of a part: where it is, and which cells belong to it.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class Body:
     box : three slices
         Of the grid.
     cells : (nx, ny, nz) bool
-        Which cells of this box are its own.
+        True for the cells of this box that belong to the component.
     """
 
     middle: NDArray[np.float64]
@@ -60,87 +60,89 @@ class Body:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Bodies:
-    """How a pattern is drawn body by body.
+    """Draws a pattern body by body.
 
     Parameters
     ----------
     known : dict
-        What was found for a space.
+        The bodies of the latest space, with their voids.
     """
 
     known: dict[int, tuple[Space, list[tuple[Body, Space, Anchored]]]] = field(default_factory=dict)
 
     def count(self, voids: Anchored, space: Space, *, cell: float, width: float) -> int:
-        """Return how many fields are needed in the body that needs the most."""
-        each = self._each(voids, space)
-        return max((one.count(part, cell=cell, width=width) for _, part, one in each), default=0)
+        """Count the fields of the body that needs the most."""
+        drawn = self._draw_bodies(voids, space)
+        return max((anchored.count(box_space, cell=cell, width=width) for _, box_space, anchored in drawn), default=0)
 
     def sharpest(self, voids: Anchored, space: Space, *, cell: float, width: float) -> float:
-        """Return the angle than which few corners are sharper in the body with the sharpest, degrees; 90 at most."""
-        each = self._each(voids, space)
-        return min((one.sharpest(part, cell=cell, width=width) for _, part, one in each), default=90.0)
+        """Return the angle of the sharpest corners in any body, degrees; few are sharper, and it is 90 at most."""
+        drawn = self._draw_bodies(voids, space)
+        return min(
+            (anchored.sharpest(box_space, cell=cell, width=width) for _, box_space, anchored in drawn), default=90.0
+        )
 
     def into(self, voids: Anchored, out: Field, space: Space, which: int, *, cell: float, width: float) -> float:
-        """Write a field of all bodies, and return how many cells it fills."""
+        """Write a field of all bodies; return how many cells it fills."""
         np.minimum(space.depth, np.float32(-BAND), out=out)
         filled = 0.0
-        for body, part, one in self._each(voids, space):
-            if which < one.count(part, cell=cell, width=width):
-                own = np.empty_like(part.depth)
-                filled += one.into(own, part, which, cell=cell, width=width)
-                np.copyto(out[body.box], own, where=body.cells)
+        for body, box_space, anchored in self._draw_bodies(voids, space):
+            if which < anchored.count(box_space, cell=cell, width=width):
+                in_box = np.empty_like(box_space.depth)
+                filled += anchored.into(in_box, box_space, which, cell=cell, width=width)
+                np.copyto(out[body.box], in_box, where=body.cells)
         return filled
 
-    def _each(self, voids: Anchored, space: Space) -> list[tuple[Body, Space, Anchored]]:
+    def _draw_bodies(self, voids: Anchored, space: Space) -> list[tuple[Body, Space, Anchored]]:
         if id(space) not in self.known:
             self.known.clear()
-            found = []
+            drawn = []
             for body in bodies_in(space):
-                first = np.array([each.start for each in body.box])
-                part = replace(
+                corner = np.array([side.start for side in body.box])
+                box_space = replace(
                     space,
                     layers=Layers.of(np.where(body.cells, space.depth[body.box], DEEP)),
-                    origin=space.origin + space.size * first,
+                    origin=space.origin + space.size * corner,
                     walled=None,
-                    box_of=(space, first),
+                    box_of=(space, corner),
                 )
-                found.append((body, part, voids.about(body.middle)))
-            self.known[id(space)] = space, found  # which keeps it, so that no other gets its number
+                drawn.append((body, box_space, voids.about(body.middle)))
+            self.known[id(space)] = space, drawn  # keeps the space alive, so that its id stays its own
         return self.known[id(space)][1]
 
 
 def bodies_in(space: Space) -> list[Body]:
-    """Return the components of a part inside whose walls there is room, by falling volume.
+    """Find the components of a part that have room inside their walls, by falling volume.
 
-    A cell belongs to the component that encloses it, and cells of the walls to what is nearest.
+    A cell belongs to the component that encloses it, and a cell of the walls to the nearest component.
     """
     from scipy.ndimage import find_objects, grey_dilation, label, maximum_position
 
     walled = space.walled or space
     regions, count = label(walled.depth > 0)
     deepest = np.array(maximum_position(walled.depth, regions, np.arange(1, count + 1))).reshape(-1, 3)
-    owner, middles = _owners(walled, walled.origin + walled.size * deepest)
-    own = np.concatenate([[0], owner + 1]).astype(np.uint16)[regions]
+    owner, middles = _find_owners(walled, walled.origin + walled.size * deepest)
+    body_number = np.concatenate([[0], owner + 1]).astype(np.uint16)[regions]
     del regions
     for _ in range(math.ceil(BAND + float((space.depth - walled.depth).max()))):
-        wider = grey_dilation(own, size=(3, 3, 3))
-        np.copyto(own, wider, where=own == 0)
+        wider = grey_dilation(body_number, size=(3, 3, 3))
+        np.copyto(body_number, wider, where=body_number == 0)
     return [
-        Body(middle=middles[number], box=box, cells=own[box] == number + 1)
-        for number, box in enumerate(find_objects(own))
+        Body(middle=middles[number], box=box, cells=body_number[box] == number + 1)
+        for number, box in enumerate(find_objects(body_number))
         if box is not None
     ]
 
 
-def _owners(space: Space, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Return in which component of a part each of some points (N, 3) lies, (N,), and their middles, (M, 3) mm."""
+def _find_owners(space: Space, points: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Find the component of a part that encloses each point (N, 3): its number (N,), and all middles, (M, 3) mm."""
     part = space.part
     names, count = shell_names(part)
     volume, shell = shell_volumes(part, names, count), names[part.faces[:, 0]]
-    found, middles = np.zeros(len(points), dtype=np.intp), []
+    owner, middles = np.zeros(len(points), dtype=np.intp), []
     # The smaller ones last: they may lie in a cavity of a larger one.
-    for number, each in enumerate(sorted(np.flatnonzero(volume > 0).tolist(), key=lambda one: -volume[one])):
-        body = with_faces(part, shell == each)
-        found[winding(points, body) > 0] = number
+    for number, outer in enumerate(sorted(np.flatnonzero(volume > 0).tolist(), key=lambda name: -volume[name])):
+        body = with_faces(part, shell == outer)
+        owner[winding(points, body) > 0] = number
         middles.append(np.asarray(body.bounds, dtype=np.float64).mean(axis=0))
-    return found, np.array(middles)
+    return owner, np.array(middles)

@@ -1,4 +1,4 @@
-"""Which voids a request asks for: those of its pattern, with the parameters that were given, in their place."""
+"""The voids that a request asks for: those of its pattern, with its parameters, in their place."""
 
 from __future__ import annotations
 
@@ -32,18 +32,20 @@ from patterns.protocol import Pattern
 from patterns.unit_cells import Network, Planes
 
 SEED = "seed"
-HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or no use
+HELD = ("cell", "angle", "phase", "frame")  # parameters of patterns that `fill` has arguments for, or does not use
 
 
 def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None) -> Voids:
-    """Return the voids of the pattern that is asked for, in a part with these bounds (2, 3), mm."""
+    """Make the voids of the requested pattern, in a part with these bounds (2, 3), mm."""
     middle = np.asarray(bounds, dtype=np.float64).mean(axis=0)
     if request.align == "bed":
         middle = np.array([0.0, 0.0, float(bounds[0][2])])
     bodies, grading = Bodies() if request.align == "body" else None, request.grading
     anchor = request.phase + (middle if bodies is None else np.zeros(3))
-    turned = np.radians(request.angle)
-    turn = np.array([[np.cos(turned), np.sin(turned), 0.0], [-np.sin(turned), np.cos(turned), 0.0], [0.0, 0.0, 1.0]])
+    radians = np.radians(request.angle)
+    turn = np.array(
+        [[np.cos(radians), np.sin(radians), 0.0], [-np.sin(radians), np.cos(radians), 0.0], [0.0, 0.0, 1.0]]
+    )
     if isinstance(request.kind, Unlined):
         pattern = cellular_of(request.kind, request)
         if isinstance(pattern, Lightning):
@@ -58,33 +60,33 @@ def voids_of(request: Request, bounds: NDArray[np.floating], threads: int | None
         return Repeating(pattern=pattern, turn=turn, anchor=anchor, threads=threads, grading=grading, bodies=bodies)
     lines = pattern_of(request.kind, request)
     if not lines.prismatic:
-        changing = Changing(pattern=lines, anchor=anchor)
-        return Layered(layers=changing, threads=threads, grading=grading, bodies=bodies)
+        layer_lines = Changing(pattern=lines, anchor=anchor)
+        return Layered(layers=layer_lines, threads=threads, grading=grading, bodies=bodies)
     return Drawn(pattern=lines, anchor=anchor, share=request.share, threads=threads, grading=grading, bodies=bodies)
 
 
 def own_parameters(pattern: object, assigned: Sequence[str], table: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """Return the pattern's own parameters by name, from ``name=value`` and a table, or raise ParameterError."""
+    """Read the pattern's own parameters from ``name=value`` and a table, or raise ParameterError."""
     if not (assigned or table):
         return {}
     kind, name = kind_of(pattern)
     if not parameters(kind):
         if assigned:
             raise ParameterError(f"--set {assigned[0]}: {name} has no parameters; give --cell or --line-width")
-        return dict(table or {})  # which is refused
-    given = merged(
+        return dict(table or {})  # refused later
+    own = merged(
         kind,
         command=assignments(kind, assigned, options=HELD),
         file=values(kind, table or {}, Source.TABLE),
     )
-    for name in given:
+    for name in own:
         if name in HELD:
             raise ParameterError(f"--set {name}: that is --{name.replace('_', '-')} here; give it instead")
-    return given
+    return own
 
 
 def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]:
-    """Return the pattern's own parameters with a seed, or raise ParameterError if chance has no part in it."""
+    """Add a seed to the pattern's own parameters, or raise ParameterError if the pattern has no randomness."""
     kind, name = kind_of(pattern)
     if SEED not in parameters(kind):
         raise ParameterError(f"seed is {seed}, and {name} leaves nothing to chance; choose voronoi or voronoi-foam")
@@ -94,13 +96,13 @@ def seeded(pattern: object, own: Mapping[str, Any], seed: int) -> dict[str, Any]
 
 
 def cellular_of(kind: Unlined, request: Request) -> Unlined:
-    """Return the pattern in space that is asked for, or raise ParameterError."""
-    known = list(parameters(kind))
+    """Make the requested pattern in space, or raise ParameterError."""
+    names = list(parameters(kind))
     for name in request.parameters:
-        if not known:
+        if not names:
             raise ParameterError(f"{request.pattern} has no parameter {name!r}; it has none but cell and line width")
-        if name not in known:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, known)}")
+        if name not in names:
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, names)}")
     if isinstance(kind, Network) and (request.lowest or 1.0) < kind.thinnest:
         raise ParameterError(
             f"density is {request.lowest:.3g}, and the bars of {kind.name} break below {kind.thinnest:g}; give a "
@@ -110,29 +112,29 @@ def cellular_of(kind: Unlined, request: Request) -> Unlined:
 
 
 def pattern_of(kind: Pattern | type[Pattern], request: Request) -> Pattern:
-    """Return the pattern of lines that is asked for, or raise ParameterError."""
-    known = parameters(kind)
-    own = [name for name in known if name not in HELD]
+    """Make the requested pattern of lines, or raise ParameterError."""
+    declared = parameters(kind)
+    settable = [name for name in declared if name not in HELD]
     for name in request.parameters:
-        if name not in own:
-            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, own)}")
-    if request.angle and "angle" not in known:
+        if name not in settable:
+            raise ParameterError(f"{request.pattern} has no parameter {name!r}; {nearest(name, settable)}")
+    if request.angle and "angle" not in declared:
         raise ParameterError(
             f"angle is {request.angle:g} degrees, and {request.pattern} cannot be turned; leave it out"
         )
-    before = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
-    turned = {"angle": math.remainder(before + request.angle, 360.0)} if "angle" in known else {}
-    changed = {**request.parameters, **turned}
-    made: Pattern = kind(**changed) if isinstance(kind, type) else replace(kind, **changed)  # type: ignore[type-var]
-    if follows(made):
-        _check_followed(request)
-    return made
+    own_angle = 0.0 if isinstance(kind, type) else float(getattr(kind, "angle", 0.0))
+    rotation = {"angle": math.remainder(own_angle + request.angle, 360.0)} if "angle" in declared else {}
+    values = {**request.parameters, **rotation}
+    made_pattern: Pattern = kind(**values) if isinstance(kind, type) else replace(kind, **values)  # type: ignore[type-var]
+    if follows(made_pattern):
+        _check_follower(request)
+    return made_pattern
 
 
-def _check_followed(request: Request) -> None:
-    """Raise ParameterError if what follows the part is to be shifted, or to be denser at a depth."""
+def _check_follower(request: Request) -> None:
+    """Raise ParameterError if a pattern that follows the part is to be shifted, or to be denser at a depth."""
     if any(request.phase):
-        shift = ", ".join(f"{each:g}" for each in request.phase)
+        shift = ", ".join(f"{step:g}" for step in request.phase)
         raise ParameterError(f"phase is {shift} mm, and {request.pattern} follows the part; leave it out")
     if request.grading is not None and request.grading.name == SKIN:
         raise ParameterError(

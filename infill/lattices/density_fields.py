@@ -1,4 +1,4 @@
-"""What a density follows: a number at every point of a part, of which only the order and the ratios of steps count."""
+"""Fields that a density follows: a number at every point of a part; only the order and the ratios of steps count."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SKIN = "skin"
 PICTURES = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff")
 TABLES, ARRAYS = (".csv", ".txt"), (".npy",)
 COLUMNS = 4  # x, y, z and a value
-LEAST_SHARE = 0.5  # of a layer of cells that is part of the part
+LEAST_SHARE = 0.5  # of a layer of cells that lies in the part
 MOST_CELLS = 2e6  # in which the distance from the skin is measured
 
 
@@ -30,7 +30,7 @@ class Field(Protocol):
     """A number at every point."""
 
     def at(self, points: Floats, space: Space) -> Floats:
-        """Return the numbers at points (N, 3), mm, of what lies inside the walls of a part: (N,)."""
+        """Evaluate the field at points (N, 3), mm, inside the walls of a part: (N,)."""
         ...
 
 
@@ -53,22 +53,22 @@ class BelowSkin:
         """See `Field`."""
         from scipy.ndimage import distance_transform_edt, map_coordinates
 
-        every = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
-        # Beyond an open side there is neither wall nor part: what lies there is nearest to nothing.
+        stride = max(1, int(np.ceil((space.depth.size / MOST_CELLS) ** (1 / 3))))
+        # Beyond an open side there is neither wall nor part, so no point is nearest to cells there.
         layers = np.flatnonzero(space.shares >= LEAST_SHARE)
-        first, last = int(layers[0]), int(layers[-1]) + 1
-        inside = space.depth[::every, ::every, first:last:every] > 0
+        bottom, top = int(layers[0]), int(layers[-1]) + 1
+        inside = space.depth[::stride, ::stride, bottom:top:stride] > 0
         opening = space.opening
         ends = (1, 1) if opening is None else (int(np.isinf(opening.low)), int(np.isinf(opening.high)))
-        away = distance_transform_edt(np.pad(inside, ((1, 1), (1, 1), ends))).astype(np.float32)
-        where = ((points - space.origin) / space.size - (0, 0, first)).T / every + np.array([[1], [1], [ends[0]]])
-        found: Floats = map_coordinates(away, where, order=1, mode="nearest")
-        return found
+        distance = distance_transform_edt(np.pad(inside, ((1, 1), (1, 1), ends))).astype(np.float32)
+        nodes = ((points - space.origin) / space.size - (0, 0, bottom)).T / stride + np.array([[1], [1], [ends[0]]])
+        depths: Floats = map_coordinates(distance, nodes, order=1, mode="nearest")
+        return depths
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scattered:
-    """Numbers at points, straight in between, and that of the nearest point beyond.
+    """Numbers at points, linear in between, and the number of the nearest point beyond.
 
     Parameters
     ----------
@@ -86,15 +86,15 @@ class Scattered:
 
         nearest: Floats = self.values[cKDTree(self.points).query(points)[1]]
         try:
-            found: Floats = LinearNDInterpolator(self.points, self.values, rescale=True)(points)
+            interpolated: Floats = LinearNDInterpolator(self.points, self.values, rescale=True)(points)
         except QhullError:  # fewer than four, or all in a plane
             return nearest
-        return np.where(np.isfinite(found), found, nearest)
+        return np.where(np.isfinite(interpolated), interpolated, nearest)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Boxed:
-    """Numbers in equal boxes that make up the box around the part, straight in between.
+    """Numbers in equal boxes that make up the box around the part, linear in between.
 
     Parameters
     ----------
@@ -108,14 +108,14 @@ class Boxed:
         from scipy.ndimage import map_coordinates
 
         low, high = np.asarray(space.part.bounds, dtype=np.float64)
-        where = (points - low) / np.maximum(high - low, 1e-12) * self.values.shape - 0.5
-        found: Floats = map_coordinates(self.values, where.T, order=1, mode="nearest")
-        return found
+        nodes = (points - low) / np.maximum(high - low, 1e-12) * self.values.shape - 0.5
+        interpolated: Floats = map_coordinates(self.values, nodes.T, order=1, mode="nearest")
+        return interpolated
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Computed:
-    """What a function of points (N, 3), mm, returns for them."""
+    """A function of points (N, 3), mm, that returns a number for each."""
 
     function: Callable[[Floats], Any]
     name: str
@@ -123,22 +123,22 @@ class Computed:
     def at(self, points: Floats, space: Space) -> Floats:  # noqa: ARG002 - of the protocol
         """See `Field`."""
         try:
-            found = np.asarray(self.function(points), dtype=np.float64)
+            numbers = np.asarray(self.function(points), dtype=np.float64)
         except Exception as error:
             raise ParameterError(f"by is {self.name}, which fails: {one_line(error)}") from error
-        if found.shape != (len(points),):
-            raise UsageError(f"by is {self.name}, which returns {found.shape} for {points.shape} points; return (N,)")
-        return found
+        if numbers.shape != (len(points),):
+            raise UsageError(f"by is {self.name}, which returns {numbers.shape} for {points.shape} points; return (N,)")
+        return numbers
 
 
 def field_of(by: object) -> tuple[Field, str]:
-    """Return what a density follows, and what to call it.
+    """Resolve the field that a density follows; return it and its name.
 
     Parameters
     ----------
     by : str, Path, array or callable
         "x", "y", "z" or "skin"; a file: a .csv of x, y, z and a value, a .npy of three axes, or a picture seen from
-        above, over the box around the part; "module.py:name"; what such files hold; or a function of points (N, 3), mm.
+        above, over the box around the part; "module.py:name"; such an array; or a function of points (N, 3), mm.
 
     Raises
     ------
@@ -151,7 +151,7 @@ def field_of(by: object) -> tuple[Field, str]:
         name = getattr(by, "__name__", type(by).__name__)
         return Computed(function=by, name=name), name
     if isinstance(by, np.ndarray):
-        return _of_array(by, "an array"), f"an array of shape {by.shape}"
+        return _field_of_array(by, "an array"), f"an array of shape {by.shape}"
     if not isinstance(by, (str, Path)):
         raise UsageError(f"by is {by!r}; give x, y, z, skin, a file, an array or a function")
     text = str(by)
@@ -162,19 +162,19 @@ def field_of(by: object) -> tuple[Field, str]:
     path = Path(text)
     suffix = path.suffix.lower()
     if names_code(text):
-        return Computed(function=_function(text), name=text), text
+        return Computed(function=_load_function(text), name=text), text
     if suffix in PICTURES:
         grey = read_grey(readable(path, PICTURES, "a picture"))
         return Boxed(values=grey[::-1].T[:, :, None].astype(np.float64)), text
     if suffix in (*TABLES, *ARRAYS):
         source = readable(path, (*TABLES, *ARRAYS), "a field")
         with told_broken(source, "holds something other than numbers", "write rows of x, y, z and a value"):
-            values = np.load(source, allow_pickle=False) if suffix in ARRAYS else _table(source)
-        return _of_array(values, text), text
+            values = np.load(source, allow_pickle=False) if suffix in ARRAYS else _read_table(source)
+        return _field_of_array(values, text), text
     raise UsageError(f"by is {text!r}; give x, y, z, skin, a .csv, a .npy, a picture, or module.py:name")
 
 
-def _of_array(values: NDArray[Any], name: str) -> Field:
+def _field_of_array(values: NDArray[Any], name: str) -> Field:
     values = np.asarray(values, dtype=np.float64)
     if not values.size or not np.isfinite(values).all():
         raise FormatError(f"by is {name}, which holds nothing, or numbers that are not finite; check it")
@@ -185,8 +185,8 @@ def _of_array(values: NDArray[Any], name: str) -> Field:
     raise FormatError(f"by is {name} of shape {values.shape}; give rows of x, y, z and a value, or three axes")
 
 
-def _table(path: Path) -> Floats:
-    """Return the rows of a table with or without a heading, whatever is between the numbers."""
+def _read_table(path: Path) -> Floats:
+    """Read the rows of a table with or without a heading, whatever separates the numbers."""
     rows = []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines()):
         words = line.replace(";", " ").replace(",", " ").split()
@@ -200,9 +200,9 @@ def _table(path: Path) -> Floats:
     return np.array(rows)
 
 
-def _function(text: str) -> Callable[[Floats], Any]:
-    """Return a function by the file and the name in ``module.py:name``."""
-    found = object_in(text)
-    if not callable(found):
+def _load_function(text: str) -> Callable[[Floats], Any]:
+    """Load a function by the file and the name in ``module.py:name``."""
+    loaded = object_in(text)
+    if not callable(loaded):
         raise FormatError(f"{text} is no function; check the name")
-    return found
+    return loaded

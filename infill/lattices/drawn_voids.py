@@ -1,4 +1,4 @@
-"""The voids between lines that are the same at every height: polygons, those of one field far from one another."""
+"""The voids between lines that are the same at every height: polygons; those of one field are far from each other."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from infill.lattices.line_sample import WIDER, LineSample, faces_between, follow
 from infill.lattices.voids import FIELD, local_widths
 from patterns.protocol import Pattern, lines_of
 
-APART = 3.0  # cells of the grid: voids that are nearer get fields of their own
-THINNER, WIDER_LINES = 0.8, 1.5  # lines for which the same fields will do, over those they were made for
+APART = 3.0  # cells of the grid: voids that are nearer to each other get separate fields
+THINNER, WIDER_LINES = 0.8, 1.5  # range of line widths for which fields suffice, over the width they were made for
 ROUND = 16  # segments in a quarter of a circle
 
 
@@ -37,13 +37,13 @@ class Drawn:
     anchor : (3,) float64
         The point of the part that is (0, 0) of the pattern, mm; its height does not matter.
     share : float
-        Width of the lines, over the cell: about, for the place of those that follow the part.
+        Width of the lines over the cell, roughly: it places lines that follow the part.
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
-        How it begins anew in each component of the part: the anchor is then that from its middle.
+        Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
     known : dict
-        What lies between the lines, for a space and a cell.
+        The faces between the lines, for a space and a cell.
     """
 
     pattern: Pattern
@@ -59,7 +59,7 @@ class Drawn:
         return dataclasses.replace(self, anchor=middle + self.anchor, bodies=None, known={})
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
-        """As many as colours are needed so that neighbours differ."""
+        """Count the colours that are needed so that neighbours differ."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
         return len(self._faces(space, cell, width).colours)
@@ -72,7 +72,7 @@ class Drawn:
         return self.lesser(out, space.depth, plane, width / space.size, local_widths(self, space))
 
     def planes(self, space: Space, *, cell: float, width: float) -> list[NDArray[np.float32]]:
-        """Return how deep the points of a layer lie between the lines, (nx, ny) in cells, for each field."""
+        """Return the depth of the points of a layer between the lines, (nx, ny) in cells, for each field."""
         return self._faces(space, cell, width).colours
 
     def lesser(
@@ -83,18 +83,18 @@ class Drawn:
         width: float,
         ratio: tuple[NDArray[np.float32], float] = NONE,
     ) -> float:
-        """Write the lesser of the depth and the distance into a void; return how many cells that fills.
+        """Write the lesser of the depth and the distance into a void; return the number of cells it fills.
 
         Parameters
         ----------
         out, depth : (nx, ny, n) float32
-            Some layers.
+            Consecutive layers.
         plane : (nx, ny) float32
             One of `planes`.
         width : float
             Of the lines, in cells.
         ratio
-            How many times as wide they are from place to place: see `local_widths`.
+            Factor of the width from place to place: see `local_widths`.
         """
         from infill.kernels.cells import from_plane
 
@@ -103,7 +103,7 @@ class Drawn:
 
     @cached_property
     def sample(self) -> LineSample:
-        """What a pattern of such lines is like far from any skin."""
+        """A sample of such lines far from any skin."""
         return LineSample(pattern=self.pattern)
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:
@@ -120,29 +120,29 @@ class Drawn:
         return lines_of(sized(self.pattern, cell), region)
 
     def _faces(self, space: Space, cell: float, width: float) -> _Faces:
-        """Return what lies between the lines, whatever their width."""
-        widest, thinnest = self._range(space)
+        """Return the faces between the lines, cached for lines of similar width."""
+        widest, thinnest = self._width_range(space)
         reach, key = widest * width / 2 / space.size + 2 * BAND, (weakref.ref(space), cell)
         width = thinnest * width
         if key not in self.known or not self.known[key].fits(reach, width):
             self.known.clear()
-            self.known[key] = self._found(space, cell, width, WIDER_LINES * reach)
+            self.known[key] = self._make_faces(space, cell, width, WIDER_LINES * reach)
         return self.known[key]
 
-    def _range(self, space: Space) -> tuple[float, float]:
-        """Return how many times as wide lines are where they are widest, and where thinnest."""
+    def _width_range(self, space: Space) -> tuple[float, float]:
+        """Return the largest and the smallest factor of the line width."""
         ratio, _ = local_widths(self, space)
         return float(ratio.max()), float(ratio.min())
 
     def _room(self, space: Space, cell: float) -> shapely.Geometry:
-        """Return in which region lines are drawn that follow it: those half a cell inside are a void from the wall."""
+        """Return the region to draw in for lines that follow it; lines half a cell inside leave room at the wall."""
         room = shapely.transform(shadow_of(space), lambda points: points - self.anchor[:2])
         return shapely.buffer(room, (self.share - 1) / 2 * cell, quad_segs=ROUND)
 
-    def _found(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
-        first, last = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.deepest > -BAND))
-        low = space.origin[:2] + np.array([first[0], last[0]]) * space.size - self.anchor[:2]
-        high = space.origin[:2] + np.array([first[1], last[1]]) * space.size - self.anchor[:2]
+    def _make_faces(self, space: Space, cell: float, width: float, reach: float) -> _Faces:
+        lower, upper = (np.array([side.min() - 1, side.max() + 1]) for side in np.nonzero(space.deepest > -BAND))
+        low = space.origin[:2] + np.array([lower[0], upper[0]]) * space.size - self.anchor[:2]
+        high = space.origin[:2] + np.array([lower[1], upper[1]]) * space.size - self.anchor[:2]
         box = shapely.box(*low, *high)
         region = box.buffer(cell, join_style="mitre")
         if follows(self.pattern):
@@ -155,23 +155,25 @@ class Drawn:
         nx, ny, _ = space.shape
         x, y = (space.origin[i] + space.size * np.arange(n) - self.anchor[i] for i, n in enumerate((nx, ny)))
         start = space.origin[:2] - self.anchor[:2]
-        away = _away(shapely.get_parts(lines), start, space.size, reach, (nx, ny))
+        distance = _distance_to_lines(shapely.get_parts(lines), start, space.size, reach, (nx, ny))
         planes = []
-        for colour in _coloured(polygons, max(0.0, APART * space.size - width)):
-            several = shapely.union_all(polygons[colour])
-            shapely.prepare(several)
-            inside = shapely.contains_xy(several, x[:, None], y[None, :])
-            beside = _away(shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny))
-            planes.append(np.where(inside, away, -beside))
-        places, angles = between_lines(polygons)
-        at = np.round((places - start) / space.size).astype(np.int64)
-        deep = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # no room at the rim of the grid
-        return _Faces(colours=planes, sharpest=sharpest(angles[deep]), reach=reach, width=width)
+        for colour in _colour_apart(polygons, max(0.0, APART * space.size - width)):
+            union = shapely.union_all(polygons[colour])
+            shapely.prepare(union)
+            inside = shapely.contains_xy(union, x[:, None], y[None, :])
+            to_border = _distance_to_lines(
+                shapely.get_parts(shapely.boundary(polygons[colour])), start, space.size, reach, (nx, ny)
+            )
+            planes.append(np.where(inside, distance, -to_border))
+        corners, angles = between_lines(polygons)
+        at = np.round((corners - start) / space.size).astype(np.int64)
+        with_room = space.deepest[tuple(np.clip(at, 0, (nx - 1, ny - 1)).T)] > 0  # there is none at the rim of the grid
+        return _Faces(colours=planes, sharpest=sharpest(angles[with_room]), reach=reach, width=width)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Faces:
-    """What lies between lines, in colours: how deep the points of a layer lie in it, in cells of the grid.
+    """The faces between lines, in colours: depth of the points of a layer in them, in cells of the grid.
 
     Parameters
     ----------
@@ -181,7 +183,7 @@ class _Faces:
     reach : float
         Cells; depths are cut off here.
     width : float
-        Of the lines for which it was made, mm: between lines that are thinner, fields might touch.
+        Of the lines for which the faces were made, mm: between thinner lines, fields might touch.
     """
 
     colours: list[NDArray[np.float32]]
@@ -190,14 +192,14 @@ class _Faces:
     width: float
 
     def fits(self, reach: float, width: float) -> bool:
-        """Return whether they are as they would be for lines of this width."""
+        """Tell whether the faces suffice for lines of this width."""
         return reach <= self.reach and width >= THINNER * self.width
 
 
-def _away(
+def _distance_to_lines(
     lines: NDArray[np.object_], start: NDArray[np.float64], size: float, reach: float, shape: tuple[int, int]
 ) -> NDArray[np.float32]:
-    """Return how far the points of a layer lie from lines, in cells, cut off at `reach`."""
+    """Return the distance of the points of a layer from lines, in cells, cut off at `reach`."""
     from infill.kernels.cells import lower_to_segments
 
     squared = np.full(shape, np.float32(reach**2))
@@ -205,16 +207,16 @@ def _away(
     return np.sqrt(squared)
 
 
-def _coloured(polygons: NDArray[np.object_], apart: float) -> list[NDArray[np.intp]]:
-    """Return the numbers of the polygons of each colour: those of one colour are further apart than this, mm."""
+def _colour_apart(polygons: NDArray[np.object_], apart: float) -> list[NDArray[np.intp]]:
+    """Colour polygons; return the numbers of each colour. Polygons of one colour are further apart than this, mm."""
     tree = shapely.STRtree(polygons)
-    one, other = tree.query(polygons, predicate="dwithin", distance=apart)
+    polygon, neighbour = tree.query(polygons, predicate="dwithin", distance=apart)
     beside: list[list[int]] = [[] for _ in polygons]
-    for a, b in zip(one.tolist(), other.tolist(), strict=True):
+    for a, b in zip(polygon.tolist(), neighbour.tolist(), strict=True):
         if a != b:
             beside[a].append(b)
     colours = np.full(len(polygons), -1)
     for number in sorted(range(len(polygons)), key=lambda k: -len(beside[k])):
-        taken = {int(colours[each]) for each in beside[number]}
+        taken = {int(colours[adjacent]) for adjacent in beside[number]}
         colours[number] = next(colour for colour in range(len(polygons)) if colour not in taken)
     return [np.flatnonzero(colours == colour) for colour in range(int(colours.max(initial=-1)) + 1)]

@@ -1,4 +1,4 @@
-"""How sharp the corners between walls are, and how long curvature takes to round them to a radius."""
+"""The angles of the corners between walls, and the time in which curvature rounds them to a radius."""
 
 from __future__ import annotations
 
@@ -12,19 +12,20 @@ from patterns.unit_cells import Bars, Cellular, Planes
 # angle and stays itself, the larger the longer.
 DEGREES = (45.0, 50.0, 55.0, 60.0, 65.0, 70.0, 75.0, 80.0, 85.0, 90.0)
 TIPS = (1.4976, 1.3727, 1.2632, 1.166, 1.0785, 0.9992, 0.9265, 0.8593, 0.7969, 0.7386)
-COARSE, CELLS = 0.16, 4.0  # of the radius, what a grid costs with so many cells to it, wherever corners lie on it
-BLUNT = 1.7  # cells: grids that are coarser beside the radius round corners more than asked for anyway
-GRID = 0.05 / 30  # of the radius, for each degree that a corner is sharper than a right angle: what a coarse grid costs
+# Share of the radius that a grid of that many cells per radius costs, wherever corners lie on it.
+COARSE, CELLS = 0.16, 4.0
+BLUNT = 1.7  # cells: on a grid coarser than this beside the radius, corners are rounder than asked for anyway
+GRID = 0.05 / 30  # share of the radius that a coarse grid costs, per degree that a corner is sharper than a right angle
 THINNER = 0.1  # of a bar, which curvature may take for corners sharper than right angles
 FEW = 0.02  # of the corners may be sharper
-STRAIGHT = 150.0  # degrees: what turns by less is no corner
-EQUAL = 1e-6  # of a cell: ends of bars that are nearer are one
+STRAIGHT = 150.0  # degrees: wider angles are not corners
+EQUAL = 1e-6  # of a cell: ends of bars that are nearer than this coincide
 
 Floats = NDArray[np.float64]
 
 
 def tip(degrees: float) -> float:
-    """Return the curvature of the tip of a corner of a void, times sqrt(2 t): as of 45 degrees below, of 90 above.
+    """Return the curvature of the tip of a corner of a void, times sqrt(2 t), clamped to 45 and 90 degrees.
 
     >>> tip(90), tip(120), round(tip(60) / tip(90), 2)
     (0.7386, 0.7386, 1.58)
@@ -39,7 +40,7 @@ def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: 
     ----------
     radius : float
     degrees : float
-        Of the corners; what is sharper than 45 counts as that.
+        Of the corners; sharper ones count as 45.
     bar : float, optional
         Diameter of bars, which curvature makes thinner: for corners that are sharper than right angles, no more than a
         tenth is taken from it.
@@ -57,9 +58,9 @@ def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: 
     (True, True)
     """
     degrees = min(max(degrees, DEGREES[0]), 90.0)
-    more = 1 + COARSE * min(1.0, (CELLS * cell / radius) ** 2) if radius >= BLUNT * cell > 0 else 1.0
-    right = (tip(90.0) * radius * more) ** 2 / 2
-    sharp = (tip(degrees) * radius * (more + GRID * (90.0 - degrees))) ** 2 / 2
+    enlarged = 1 + COARSE * min(1.0, (CELLS * cell / radius) ** 2) if radius >= BLUNT * cell > 0 else 1.0
+    right = (tip(90.0) * radius * enlarged) ** 2 / 2
+    sharp = (tip(degrees) * radius * (enlarged + GRID * (90.0 - degrees))) ** 2 / 2
     if bar is None:
         return sharp
     # The square of the radius of a cylinder falls by twice the time.
@@ -67,12 +68,12 @@ def times_for(radius: float, degrees: float, bar: float | None = None, *, cell: 
 
 
 def sharpest(angles: Floats) -> float:
-    """Return the angle than which few are sharper, degrees; a right angle at most, as where walls meet the part's."""
+    """Return the sharpest angle but for a few outliers, degrees; at most a right angle, as at the walls of the part."""
     return min(90.0, float(np.quantile(angles, FEW))) if len(angles) else 90.0
 
 
 def between_walls(pattern: Cellular) -> float:
-    """Return how sharp corners of voids are in a pattern in space, degrees.
+    """Return the angle of the sharpest corners of voids in a pattern in space, degrees.
 
     >>> from patterns.cellular import CELLULAR
     >>> [round(between_walls(CELLULAR[name]), 1) for name in ("cubic", "quarter-cubic", "octet", "kelvin", "gyroid")]
@@ -81,31 +82,31 @@ def between_walls(pattern: Cellular) -> float:
     if isinstance(pattern, Planes):
         normals = pattern.families()[0]
         unit = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-        one, other = np.triu_indices(len(unit), 1)
-        return sharpest(np.degrees(np.arccos(np.clip(np.abs((unit[one] * unit[other]).sum(axis=1)), 0, 1))))
+        i, j = np.triu_indices(len(unit), 1)
+        return sharpest(np.degrees(np.arccos(np.clip(np.abs((unit[i] * unit[j]).sum(axis=1)), 0, 1))))
     if not isinstance(pattern, Bars):
         return 90.0  # without corners of their own
-    return sharpest(_between_bars(pattern))
+    return sharpest(_angles_between_bars(pattern))
 
 
-def _between_bars(pattern: Bars) -> Floats:
+def _angles_between_bars(pattern: Bars) -> Floats:
     axes = pattern.axes()
     ends = np.concatenate([axes[:, 0], axes[:, 1]])
-    ways = np.concatenate([axes[:, 1] - axes[:, 0], axes[:, 0] - axes[:, 1]])
-    ways = ways / np.linalg.norm(ways, axis=1, keepdims=True)
+    directions = np.concatenate([axes[:, 1] - axes[:, 0], axes[:, 0] - axes[:, 1]])
+    directions = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     places = np.round(ends % pattern.cells / EQUAL).astype(np.int64) % round(pattern.cells / EQUAL)
     node = np.unique(places, axis=0, return_inverse=True)[1].ravel()
-    found = []
-    for each in range(int(node.max()) + 1):
-        own = ways[node == each]
-        one, other = np.triu_indices(len(own), 1)
-        found.append(np.degrees(np.arccos(np.clip((own[one] * own[other]).sum(axis=1), -1, 1))))
-    angles = np.concatenate(found)
+    angles_at_nodes = []
+    for number in range(int(node.max()) + 1):
+        at_node = directions[node == number]
+        i, j = np.triu_indices(len(at_node), 1)
+        angles_at_nodes.append(np.degrees(np.arccos(np.clip((at_node[i] * at_node[j]).sum(axis=1), -1, 1))))
+    angles = np.concatenate(angles_at_nodes)
     return angles[angles > 1.0]  # the same bar, from two periods
 
 
 def between_lines(polygons: NDArray[np.object_]) -> tuple[Floats, Floats]:
-    """Return where the corners of polygons are, and of their holes, (N, 2), and the angles inside of them, degrees.
+    """Find the corners of polygons and of their holes: places, (N, 2), and inside angles, degrees.
 
     >>> places, angles = between_lines(np.array([shapely.box(0, 0, 2, 1)]))
     >>> places.tolist(), angles.round(6).tolist()
@@ -121,10 +122,10 @@ def between_lines(polygons: NDArray[np.object_]) -> tuple[Floats, Floats]:
     number = np.arange(len(points))
     before = number - 1
     before[begins] = ends - 1
-    back, on = (points[each] - points for each in (before, np.minimum(number + 1, len(points) - 1)))
+    back, on = (points[index] - points for index in (before, np.minimum(number + 1, len(points) - 1)))
     turn = on[:, 0] * back[:, 1] - on[:, 1] * back[:, 0]
     angle = np.degrees(np.arctan2(turn, (back * on).sum(axis=1))) % 360
     angle = np.where((shapely.is_ccw(rings) != hole)[ring], angle, 360 - angle)
-    kept = angle < STRAIGHT
-    kept[ends] = False
-    return points[kept], angle[kept]
+    is_corner = angle < STRAIGHT
+    is_corner[ends] = False
+    return points[is_corner], angle[is_corner]

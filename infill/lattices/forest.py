@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-NONE = -1  # where the way of a foot goes on
-SAME = 0.5  # cells: what is nearer to a node is the node
+NONE = -1  # the next node after a foot
+SAME = 0.5  # cells: a joint nearer to a node than this is the node
 SURE = 0.01  # cells: distances that differ by less are equal
 
 Floats = NDArray[np.float64]
@@ -17,7 +17,7 @@ Flags = NDArray[np.bool_]
 
 @dataclass(kw_only=True)
 class Forest:
-    """Nodes in a plane, each on its way to another one, and at last to a foot, which stands in a wall.
+    """Nodes in a plane, each with a way to another node and in the end to a foot, which stands in a wall.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class Forest:
     to : (N,) int64
         The next node on the way to the foot; `NONE` for a foot.
     inside : (N,) bool
-        Which have been inside the walls.
+        True for nodes that have been inside the walls.
     """
 
     at: Floats = field(default_factory=lambda: np.empty((0, 2)))
@@ -35,9 +35,9 @@ class Forest:
 
     @property
     def branches(self) -> Floats:
-        """The ways from node to node, (B, 2, 2)."""
-        some = self.to != NONE
-        return np.stack([self.at[some], self.at[self.to[some]]], axis=1)
+        """The segments from node to node, (B, 2, 2)."""
+        has_next = self.to != NONE
+        return np.stack([self.at[has_next], self.at[self.to[has_next]]], axis=1)
 
     @property
     def feet(self) -> NDArray[np.intp]:
@@ -45,17 +45,17 @@ class Forest:
         return np.flatnonzero(self.to == NONE)
 
     def draw_back(self, step: float) -> None:
-        """Shorten every branch from its tip, by a step; what is shorter is gone."""
-        tips = np.flatnonzero(self._tips() & (self.to != NONE))
-        way = self.at[self.to[tips]] - self.at[tips]
-        long = np.linalg.norm(way, axis=1)
-        longer = long > step + SURE
-        self.at[tips[longer]] += way[longer] * (step / long[longer])[:, None]
-        self._keep(~self._flags(tips[~longer]))
+        """Shorten every branch from its tip by a step; drop branches that are shorter."""
+        tips = np.flatnonzero(self._is_tip() & (self.to != NONE))
+        direction = self.at[self.to[tips]] - self.at[tips]
+        length = np.linalg.norm(direction, axis=1)
+        longer = length > step + SURE
+        self.at[tips[longer]] += direction[longer] * (step / length[longer])[:, None]
+        self._keep(~self._mask_of(tips[~longer]))
         self._drop_bare_feet()
 
     def stand(self, inside: Flags) -> None:
-        """Take note of which nodes (N,) are inside the walls: what was and is not any more stands in a wall now.
+        """Record which nodes (N,) are inside the walls: a node that was inside and is not any more becomes a foot.
 
         The branch from there to the next node has a tip of its own.
         """
@@ -66,30 +66,30 @@ class Forest:
         self._drop_bare_feet()
 
     def move(self, foot: int, place: Floats, *, near: float) -> None:
-        """Let a foot stand elsewhere: itself, if that is near, or else at the end of a branch from there."""
+        """Move a foot: itself if the place is near, otherwise by a branch from it to there."""
         if np.linalg.norm(place - self.at[foot]) <= near:
             self.at[foot] = place
         else:
             self.to[foot] = self._add(place, NONE, inside=False)
 
     def plant(self, tip: Floats, place: Floats, *, apart: float = 0.0) -> None:
-        """Let a branch grow from a tip to the nearest one there is, or to a place in a wall if that is nearer.
+        """Let a branch grow from a tip to the nearest branch, or to a place in a wall if that is nearer.
 
-        None is needed where the nearest one is less than `apart` away, in cells.
+        Nothing grows if the nearest branch is less than `apart` away, in cells.
         """
-        away = float(np.linalg.norm(place - tip))
-        near = self.nearest(tip)
-        if near is not None and near[0] < apart - SURE:
+        distance = float(np.linalg.norm(place - tip))
+        nearest = self.nearest(tip)
+        if nearest is not None and nearest[0] < apart - SURE:
             return
-        if near is None or away <= near[0] + SURE:
+        if nearest is None or distance <= nearest[0] + SURE:
             self._add(tip, self._add(place, NONE, inside=False), inside=True)
             return
-        _, node, share = near
-        one, other = self.at[node], self.at[self.to[node]]
-        joint = one + share * (other - one)
-        if np.linalg.norm(joint - one) <= SAME:
+        _, node, share = nearest
+        start, end = self.at[node], self.at[self.to[node]]
+        joint = start + share * (end - start)
+        if np.linalg.norm(joint - start) <= SAME:
             joined = node
-        elif np.linalg.norm(joint - other) <= SAME:
+        elif np.linalg.norm(joint - end) <= SAME:
             joined = int(self.to[node])
         else:
             joined = self._add(joint, int(self.to[node]), inside=bool(self.inside[node]))
@@ -97,17 +97,17 @@ class Forest:
         self._add(tip, joined, inside=True)
 
     def nearest(self, place: Floats) -> tuple[float, int, float] | None:
-        """Return how far the nearest branch is, the node it begins at, and where along it; None if there is none."""
-        begin = np.flatnonzero(self.to != NONE)
-        if not len(begin):
+        """Find the nearest branch: its distance, its first node, and the share of it to the nearest point; or None."""
+        starts = np.flatnonzero(self.to != NONE)
+        if not len(starts):
             return None
-        one = self.at[begin]
-        way = self.at[self.to[begin]] - one
-        long = np.maximum((way**2).sum(axis=1), 1e-300)
-        share = np.clip(((place - one) * way).sum(axis=1) / long, 0, 1)
-        away = np.linalg.norm(one + share[:, None] * way - place, axis=1)
-        first = int(np.argmax(away <= away.min() + SURE))
-        return float(away[first]), int(begin[first]), float(share[first])
+        start = self.at[starts]
+        direction = self.at[self.to[starts]] - start
+        squared = np.maximum((direction**2).sum(axis=1), 1e-300)
+        share = np.clip(((place - start) * direction).sum(axis=1) / squared, 0, 1)
+        distance = np.linalg.norm(start + share[:, None] * direction - place, axis=1)
+        nearest = int(np.argmax(distance <= distance.min() + SURE))
+        return float(distance[nearest]), int(starts[nearest]), float(share[nearest])
 
     def _add(self, place: Floats, to: int, *, inside: bool) -> int:
         self.at = np.concatenate([self.at, place[None]])
@@ -115,22 +115,22 @@ class Forest:
         self.inside = np.append(self.inside, inside)
         return len(self.to) - 1
 
-    def _tips(self) -> Flags:
-        found = np.ones(len(self.to), dtype=bool)
-        found[self.to[self.to != NONE]] = False
-        return found
+    def _is_tip(self) -> Flags:
+        is_tip = np.ones(len(self.to), dtype=bool)
+        is_tip[self.to[self.to != NONE]] = False
+        return is_tip
 
-    def _flags(self, numbers: NDArray[np.intp]) -> Flags:
-        found = np.zeros(len(self.to), dtype=bool)
-        found[numbers] = True
-        return found
+    def _mask_of(self, numbers: NDArray[np.intp]) -> Flags:
+        flags = np.zeros(len(self.to), dtype=bool)
+        flags[numbers] = True
+        return flags
 
     def _drop_bare_feet(self) -> None:
-        self._keep(~(self._tips() & (self.to == NONE)))
+        self._keep(~(self._is_tip() & (self.to == NONE)))
 
-    def _keep(self, kept: Flags) -> None:
-        if kept.all():
+    def _keep(self, mask: Flags) -> None:
+        if mask.all():
             return
-        number = np.cumsum(kept) - 1
-        self.at, self.inside, to = self.at[kept], self.inside[kept], self.to[kept]
+        number = np.cumsum(mask) - 1
+        self.at, self.inside, to = self.at[mask], self.inside[mask], self.to[mask]
         self.to = np.where(to == NONE, NONE, number[to])

@@ -15,29 +15,29 @@ from infill.interior.interior import Space
 from infill.lattices.density_fields import Field
 
 Varies = Literal["width", "cell"]
-NODES = 48  # along the longest side of a part: where the field is asked for; it is straight in between
-TABLE = 9  # densities of which widths are computed; they are straight in between
+NODES = 48  # along the longest side of a part, where the field is evaluated; it is linear in between
+TABLE = 9  # densities for which widths are computed; they are linear in between
 AT_ONCE = 100_000
-SAMPLES = 20_000  # cells at which a field is asked for, to know where it is lowest and highest
+SAMPLES = 20_000  # cells at which a field is evaluated, to find its lowest and highest values
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Local:
-    """How many times as wide as the line width walls are, at nodes of a grid of its own.
+    """Widths of walls over the line width, at nodes of a grid of their own.
 
     Parameters
     ----------
     ratio : (n, m, k) float32
-        The nodes are `step` cells of the space apart, and the first lies at its first.
+        The nodes are `step` cells of the space apart; the first node lies at the first cell.
     step : float
     mean : float
-        The density that is asked for, on average inside the walls.
+        The requested density, on average inside the walls.
     shares : (n, m, k) float32
-        The density that is asked for.
+        The requested density.
     within : (n, m, k) bool
-        Which nodes lie inside the walls.
+        True for nodes inside the walls.
     spline : (n + 2, m + 2, k + 2, 3) float64 or None
-        Where the nodes lie in a pattern whose cells follow the field: see `stretched`. None if cells are all alike.
+        Places of the nodes in a pattern whose cells follow the field: see `stretched`. None if all cells are alike.
     """
 
     ratio: NDArray[np.float32]
@@ -49,25 +49,25 @@ class Local:
 
     @property
     def widths(self) -> tuple[float, float]:
-        """How many times as wide as the line width walls are, inside, at least and at most."""
+        """The smallest and the largest width of walls inside, over the line width."""
         inside = self.ratio[self.within]
         return float(inside.min()), float(inside.max())
 
     @property
     def cells(self) -> tuple[float, float]:
-        """How many times as large as called the cells are, inside, at least and at most: as cubes of their volume."""
+        """The smallest and the largest cell inside, over the nominal cell: sides of cubes of their volume."""
         if self.spline is None:
             return 1.0, 1.0
         sides = np.abs(np.linalg.det(slopes_of(self.spline)[self.within])) ** (-1 / 3)
         return float(sides.min()), float(sides.max())
 
-    def in_box(self, first: NDArray[np.int64], shape: tuple[int, ...]) -> Local:
+    def in_box(self, corner: NDArray[np.int64], shape: tuple[int, ...]) -> Local:
         """Return the same at nodes that begin at a cell, for a box of a shape."""
         from scipy.ndimage import map_coordinates
 
         counts = np.ceil((np.array(shape) - 1) / self.step).astype(int) + 1
-        nodes = np.indices(tuple(counts.tolist())) + first.reshape(3, 1, 1, 1) / self.step
-        ratio, shares = (map_coordinates(each, nodes, order=1, mode="nearest") for each in (self.ratio, self.shares))
+        nodes = np.indices(tuple(counts.tolist())) + corner.reshape(3, 1, 1, 1) / self.step
+        ratio, shares = (map_coordinates(field, nodes, order=1, mode="nearest") for field in (self.ratio, self.shares))
         return replace(self, ratio=ratio, shares=shares, within=np.ones(ratio.shape, dtype=bool))
 
 
@@ -78,14 +78,14 @@ class Grading:
     Parameters
     ----------
     first, last : float
-        Where the field is lowest, and where it is highest, inside the walls.
+        Densities where the field is lowest, and where it is highest, inside the walls.
     by : Field
     name : str
-        What the field is called.
+        Of the field.
     varies : {"width", "cell"}
-        Whether walls are wider where it is denser, or cells smaller.
+        Wider walls or smaller cells where it is denser.
     known : dict
-        What was found for a space.
+        The widths in the latest space.
     """
 
     first: float
@@ -102,52 +102,54 @@ class Grading:
 
     @property
     def thinnest(self) -> float:
-        """The lower density, over the middle: about how many times as wide as the line width walls are there."""
+        """The lower density over the middle: roughly the width of walls there over the line width."""
         return 1.0 if self.varies == "cell" else min(self.first, self.last) / self.middle
 
     @property
     def smallest(self) -> float:
-        """About how many times as large as called cells are where it is densest."""
+        """Rough size of the cells over the nominal cell where it is densest."""
         return self.middle / max(self.first, self.last) if self.varies == "cell" else 1.0
 
     def over(self, space: Space, widths: Callable[[float], float]) -> Local:
-        """Return the widths of walls in a space; `widths` says which gives a density, in cells of the pattern."""
+        """Return the widths of walls in a space; `widths` gives the width for a density, in cells of the pattern."""
         if space.box_of is not None:
-            whole, first = space.box_of
-            return self.over(whole, widths).in_box(first, space.depth.shape)
+            parent, corner = space.box_of
+            return self.over(parent, widths).in_box(corner, space.depth.shape)
         space = space.walled or space
         key = (space.depth.shape, space.size, *space.origin.tolist())
         if key not in self.known:
             self.known.clear()
-            self.known[key] = self._found(space, widths)
+            self.known[key] = self._evaluate(space, widths)
         return self.known[key]
 
-    def _found(self, space: Space, widths: Callable[[float], float]) -> Local:
+    def _evaluate(self, space: Space, widths: Callable[[float], float]) -> Local:
         shape = np.array(space.depth.shape)
         step = max(1.0, float((shape.max() - 1) / NODES))
         counts = np.ceil((shape - 1) / step).astype(int) + 1
         nodes = [step * np.arange(count) for count in counts]
         points = np.stack(np.meshgrid(*nodes, indexing="ij"), axis=-1).reshape(-1, 3)
-        where = space.origin + space.size * points
-        found = np.concatenate([self.by.at(where[low : low + AT_ONCE], space) for low in range(0, len(where), AT_ONCE)])
+        places = space.origin + space.size * points
+        field = np.concatenate(
+            [self.by.at(places[low : low + AT_ONCE], space) for low in range(0, len(places), AT_ONCE)]
+        )
         inside = _inside(space, points)
-        if not np.isfinite(found[inside]).all():
+        if not np.isfinite(field[inside]).all():
             raise GeometryError(f"by is {self.name}, which is not finite everywhere in the part; check it")
-        drawn, outermost = _drawn(space)
-        drawn, outermost = (self.by.at(space.origin + space.size * each, space) for each in (drawn, outermost))
-        known = np.concatenate([found[inside], drawn, outermost])
-        low, high = float(np.nanmin(known)), float(np.nanmax(known))
+        drawn, outermost = _sample_cells(space)
+        drawn, outermost = (self.by.at(space.origin + space.size * cells, space) for cells in (drawn, outermost))
+        inside_values = np.concatenate([field[inside], drawn, outermost])
+        low, high = float(np.nanmin(inside_values)), float(np.nanmax(inside_values))
         if high - low <= 1e-9 * max(abs(low), abs(high), 1e-30):
             raise GeometryError(
                 f"by is {self.name}, which is {low:g} everywhere in the part; give one density, or a field"
             )
-        share = np.clip((np.nan_to_num(found, nan=low) - low) / (high - low), 0, 1)
+        share = np.clip((np.nan_to_num(field, nan=low) - low) / (high - low), 0, 1)
         shares = self.first + (self.last - self.first) * share
         table = np.linspace(min(self.first, self.last), max(self.first, self.last), TABLE)
-        wide = np.array([widths(each) for each in table]) / widths(self.middle)
+        wide = np.array([widths(density) for density in table]) / widths(self.middle)
         ratio, spline = np.interp(shares, table, wide).reshape(counts), None
         if self.varies == "cell":
-            # Walls twice as wide are as much as cells half as large; what cells cannot follow, widths do.
+            # Doubling the width adds as much wall as halving the cells; widths make up for what cells cannot follow.
             spline, more = stretched(ratio)
             ratio = ratio / more
         return Local(
@@ -160,20 +162,20 @@ class Grading:
         )
 
     def correct(self, factors: Callable[[NDArray[np.float32]], NDArray[np.floating]]) -> None:
-        """Make walls wider by what a function of the shares asked for returns."""
+        """Make walls wider by the factors that a function returns for the requested shares."""
         ((key, local),) = self.known.items()
         self.known[key] = replace(local, ratio=(local.ratio * factors(local.shares)).astype(np.float32))
 
 
 def _inside(space: Space, points: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which points, in cells, lie inside the walls; all, if the part is too thin for any of them to."""
+    """Test which points, in cells, lie inside the walls; all are, if none are because the part is too thin."""
     at = tuple(np.minimum(points.round().astype(int), np.array(space.depth.shape) - 1).T)
     inside = (space.depth[at] > 0) & (space.shares[at[2]] >= 0.5)
     return inside if inside.any() else np.ones(len(points), dtype=bool)
 
 
-def _drawn(space: Space) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return cells inside the walls that are drawn by chance, (N, 3), and the outermost along each axis and deepest."""
+def _sample_cells(space: Space) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Draw random cells inside the walls, (N, 3); return also the outermost along each axis and the deepest."""
     cells = np.argwhere(space.within)
     if not len(cells):
         cells = np.argwhere(np.ones(space.depth.shape, dtype=bool))

@@ -70,63 +70,62 @@ def fill(
     progress: Progress | None = None,
     **parameters: Any,  # noqa: ANN401 - whatever the pattern takes
 ) -> Result[FillStages, FillReport]:
-    """Return a part that is hollow but for infill: one closed mesh, with the skin of the part as it is.
+    """Fill a part: return its shell and infill as one closed mesh, with the skin of the part unchanged.
 
     Parameters
     ----------
     part : Surface or trimesh.Trimesh, mm
-        Closed; holes in it are closed first, and that is told.
+        Closed; holes in it are closed first, and the report says so.
     pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Octree, Network, Bars or callable
         A pattern in space (gyroid, octet ...: `patterns.cellular.CELLULAR`), or one of `patterns.PATTERNS`, which is
         the same at every height; a drawing, which is repeated; "module.py:name"; a pattern itself; or a function of x,
         y and z, of one shape, in radians (2 pi is a cell): walls are where it is 0.
     density : float, optional
-        Solid share of what lies inside the walls, 0.01 to 0.9. Of density, cell and line width, two say the third; 0.2
-        and a line width of 0.45 mm (0.9 in a project) if nothing is given, or for bars, 0.2 and a cell of 8 mm (in
-        a project, a diameter of 2.7 mm).
-        Two densities are those where `by` is lowest and where it is highest.
+        Solid share of the space inside the walls, 0.01 to 0.9. Two of density, cell and line width determine the third.
+        By default 0.2 and a line width of 0.45 mm (0.9 in a project), or for bars, 0.2 and a cell of 8 mm (in a
+        project, a diameter of 2.7 mm). Two densities hold where `by` is lowest and where it is highest.
     by : str, Path, array or callable, optional
-        What the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of x, y, z
-        and a value; a .npy of three axes, or a picture seen from above, over the box around the part;
+        The field that the density follows: "x", "y", "z" (the default) or "skin", the depth below the walls; a .csv of
+        x, y, z and a value; a .npy of three axes, or a picture seen from above, over the box around the part;
         "module.py:name"; or such an array, or a function of points (N, 3), mm, that returns (N,).
     grade : {"width", "cell"}, optional
-        What makes it denser where it is: wider walls in cells that stay as they are, the default; or smaller cells of
-        walls that stay as they are, for walls along a surface. Cells are whole everywhere, flatter or longer where they
-        must be; what they cannot follow in a flat part, widths do, and it is told.
+        How the density rises: by wider walls in cells of one size, the default; or by smaller cells with walls of one
+        width, for walls along a surface. Cells are whole everywhere, flatter or longer where they must be; where they
+        cannot follow in a flat part, widths do, and the report says so.
     cell : float, optional
         Period of the pattern, mm.
     line_width : float, optional
         Width of walls inside, or diameter of bars, mm.
     wall : float, optional
-        Thickness of the shell, mm: 1.2 by default. In a project, what the slicer's perimeters take: 0.9 by default.
+        Thickness of the shell, mm: 1.2 by default. In a project, that of the slicer's perimeters: 0.9 by default.
     as_ : {"solid", "infill", "project"}
         Shell and infill as one; the infill alone, which reaches `overlap` into the shell; or the part and the infill as
         two surfaces for a slicer, which makes the shell itself: the infill goes on to the skin. See `save_project`.
     align : {"part", "bed", "body"}
-        Where the pattern begins: in the middle of the part, at x = y = 0 on the bottom of the part, or anew in the
-        middle of each of its components.
+        Where the pattern begins: in the middle of the part, at x = y = 0 on the bottom of the part, or in the middle
+        of each of its components.
     angle : float
         Turns the pattern counter-clockwise about z, degrees.
     phase : (x, y) or (x, y, z)
-        Shifts the pattern, mm. In a project that has none, a pattern of which slicers would print little is shifted.
+        Shifts the pattern, mm. In a project without a phase, a pattern of which slicers would print little is shifted.
     drain : float, optional
-        Diameter of a hole straight down from the lowest place of every void, mm; by default there is none. It keeps a
-        wall from all skin besides the face that it leaves through: for that it moves inwards, or the void is joined to
-        one that is drained. Voids that are open need none.
+        Diameter of a hole straight down from the lowest place of every void, mm; by default there are no holes. A hole
+        keeps a wall from all skin except the face that it leaves through: for that it moves inwards, or the void is
+        joined to one that is drained. Voids that are open need no hole.
     vent : bool
         Whether every void also gets such a hole straight up from its highest place, so that air comes in.
     drain_at : sequence of (x, y, z), mm
-        Places on the skin where holes are to be, straight in; the voids that these reach need no other drain.
+        Places on the skin for holes straight in; the voids that these reach need no other drain.
     open_ : {"top", "bottom", "both"}, optional
         Where the shell is left out: the voids go through the flat side at the very top or bottom of the part, or both.
     smooth_radius : float, optional
-        Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for none.
+        Least radius of the fillets where walls meet at right angles, mm: 0.25 by default, 0 for no fillets.
     overlap : float, optional
         mm; 0.15 by default, and at most half the wall.
     tolerance : float
         How far simplifying may move the surfaces of voids, mm; 0 keeps every triangle.
     max_triangles : int, optional
-        The voids are simplified until there are no more of them, the part's own included.
+        The voids are simplified until this many remain, the part's own included.
     resolution : int, optional
         Cells of the grid along the longest side of the part; instead of `voxel`.
     voxel : float, optional
@@ -144,10 +143,10 @@ def fill(
     Raises
     ------
     ParameterError, patterns.PatternError
-        If a number is out of range, or there is no such pattern.
+        If a number is out of range, or the pattern is unknown.
     GeometryError
         If the part encloses nothing, has no room inside its walls, has no flat side to be open at, cannot be filled to
-        this density, or is too narrow for the drains, or there cannot be one at a place that was asked for.
+        this density, is too narrow for the drains, or cannot have one at a requested place.
     MemoryLimitError
         If memory will not suffice; raised before anything is computed.
 
@@ -190,47 +189,47 @@ def fill(
 
 
 def filled(
-    given: Surface,
+    part: Surface,
     request: Request,
     *,
     threads: int | None = None,
     max_memory: int | None = None,
     progress: Progress | None = None,
 ) -> Result[FillStages, FillReport]:
-    """Return a part that is filled as a request says: see `fill`."""
-    check_width(request, given.bounds)
-    clock, request = Clock(progress), on_grid_of(request, given.bounds)
+    """Fill a part as a request says: see `fill`."""
+    check_width(request, part.bounds)
+    clock, request = Clock(progress), on_grid_of(request, part.bounds)
     project = None
     if request.form == "project":
-        project = projected(given, request, clock=clock, threads=threads, max_memory=max_memory)
+        project = projected(part, request, clock=clock, threads=threads, max_memory=max_memory)
         voids, hollow = project.voids, project.hollow
     else:
-        voids = voids_of(request, given.bounds, threads)
-        hollow = hollowed(given, request, voids, clock=clock, threads=threads, max_memory=max_memory)
+        voids = voids_of(request, part.bounds, threads)
+        hollow = hollowed(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
     with clock.stage("check", 0.9):
-        result, report, hollow = _result(given, hollow, voids, request, threads, project)
+        result, report, hollow = _assemble(part, hollow, voids, request, threads, project)
     report["seconds"] = {"shift": 0.0, **clock.seconds, "total": sum(clock.seconds.values())}
     stages = FillStages(part=hollow.space.part, voids=hollow.surface, shown=result, opening=hollow.space.opening)
     surfaces = {"part": hollow.space.part, "infill": result} if request.form == "project" else {request.form: result}
     return Result(surfaces=surfaces, report=report, stages=stages)  # type: ignore[arg-type]
 
 
-def _result(
-    given: Surface,
+def _assemble(
+    part: Surface,
     hollow: Hollow,
     pattern: Voids,
     request: Request,
     threads: int | None,
     project: Projected | None,
 ) -> tuple[Surface, dict[str, Any], Hollow]:
-    """Return the surface that was asked for, the report, and the voids, what was left out of it included."""
+    """Return the requested surface, the report, and the voids, with counts of the pieces that were left out."""
     space = hollow.space
     if project is not None:
         solid = outer = project.infill
     else:
-        outer = space.part if request.form == "solid" else _inside(space, request, threads)
+        outer = space.part if request.form == "solid" else _inner_surface(space, request, threads)
         if space.opening is None:
-            solid = joined([outer, *(replace(each, faces=each.faces[:, ::-1]) for each in hollow.surfaces)])
+            solid = joined([outer, *(replace(surface, faces=surface.faces[:, ::-1]) for surface in hollow.surfaces)])
         else:
             solid, pieces, loose = cut_open(outer, hollow.surfaces, space.opening, space.size, threads=threads)
             hollow = replace(hollow, islands=hollow.islands + pieces, loose=loose)
@@ -279,13 +278,13 @@ def _result(
         },
         "graded": facts.graded,
         "part": {
-            "triangles": len(given.faces),
+            "triangles": len(part.faces),
             "volume": space.repairs.volume,
             "inside": space.volume,
             "components": space.repairs.components,
             "turned": space.repairs.turned,
             "holes": space.repairs.holes,
-            "notes": list(given.notes),
+            "notes": list(part.notes),
         },
         "voids": {
             "count": hollow.count,
@@ -302,8 +301,8 @@ def _result(
     return solid, report, hollow
 
 
-def _inside(space: Space, request: Request, threads: int | None) -> Surface:
-    """Return the surface of what lies inside the walls, and reaches into them."""
-    near = min(SHARE * request.tolerance, request.overlap / 2)
-    found = inner_side(space, overlap=request.overlap, tolerance=near, threads=threads)
-    return found if space.opening is None else between(found, space.opening, space.size)
+def _inner_surface(space: Space, request: Request, threads: int | None) -> Surface:
+    """Return the surface of the space inside the walls, extended into them by the overlap."""
+    tolerance = min(SHARE * request.tolerance, request.overlap / 2)
+    inner = inner_side(space, overlap=request.overlap, tolerance=tolerance, threads=threads)
+    return inner if space.opening is None else between(inner, space.opening, space.size)

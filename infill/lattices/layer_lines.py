@@ -1,4 +1,4 @@
-"""Lines of a pattern that are others at every height, layer by layer of a grid."""
+"""Lines of a pattern that change with height, layer by layer of a grid."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from infill.lattices.line_sample import SAMPLE, LineSample, corners, segments_of
 from patterns.protocol import LEVEL_SET, LevelSet, Pattern, gives, lines_of
 
 LOOKED_AT = 8  # heights at which corners are looked at
-STEEPEST = 1.75  # of a wall, which is 60 degrees: what moves by more from layer to layer is another one
+STEEPEST = 1.75  # slope of a wall, 60 degrees: lines that move by more from layer to layer belong to another wall
 
 Floats = NDArray[np.float64]
 
@@ -38,12 +38,12 @@ class Changing:
 
     @cached_property
     def sample(self) -> LineSample:
-        """What the lines are like at one height, far from any skin."""
+        """A sample of the lines at one height, far from any skin."""
         return LineSample(pattern=self.pattern)
 
     @property
     def two_sided(self) -> bool:
-        """Whether a level set says on which side of the lines a point lies."""
+        """True if a level set gives the side of the lines on which a point lies."""
         return LEVEL_SET in gives(self.pattern)
 
     @property
@@ -52,11 +52,12 @@ class Changing:
         return STEEPEST
 
     def sharpest(self, space: Space, cell: float) -> float:
-        """See `Voids`: of a few cells at some heights inside the walls."""
+        """See `Voids`: corners of a few cells at several heights inside the walls."""
         pattern, heights = sized(self.pattern, cell), self._heights(space)[(space.depth > 0).any(axis=(0, 1))]
         region = square(SAMPLE / 2 * cell)
-        some = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
-        return sharpest(np.concatenate([corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in some]))
+        sampled = np.linspace(heights[0], heights[-1], min(LOOKED_AT, len(heights)))
+        angles = [corners(lines_of(pattern, region, float(z)), region, cell=cell) for z in sampled]
+        return sharpest(np.concatenate(angles))
 
     def widths(self, density: float) -> float:
         """See `Voids`: those of one height."""
@@ -69,16 +70,16 @@ class Changing:
     def lines(self, space: Space, cell: float) -> list[Floats]:
         """See `LineLayers`."""
         pattern, start = sized(self.pattern, cell), space.origin[:2] - self.anchor[:2]
-        depth, found = space.depth, []
+        depth, segments = space.depth, []
         for layer, z in enumerate(self._heights(space)):
             used = np.argwhere(depth[:, :, layer] > -BAND)
             if not len(used):
-                found.append(np.empty((0, 2, 2)))
+                segments.append(np.empty((0, 2, 2)))
                 continue
             low, high = (start + space.size * end for end in (used.min(axis=0), used.max(axis=0)))
             lines = lines_of(pattern, shapely.box(*(low - cell), *(high + cell)), float(z))
-            found.append(segments_of(shapely.get_parts(lines), start, space.size))
-        return found
+            segments.append(segments_of(shapely.get_parts(lines), start, space.size))
+        return segments
 
     def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
         """See `LineLayers`."""
@@ -92,6 +93,6 @@ class Changing:
             yield pattern.level_set(across, along, np.full_like(across, z)) > 0
 
     def _heights(self, space: Space) -> Floats:
-        """Return how high the middles of layers lie in the pattern, mm."""
-        found: Floats = space.origin[2] - self.anchor[2] + space.size * np.arange(space.shape[2])
-        return found
+        """Return the heights of the middles of layers in the pattern, mm."""
+        heights: Floats = space.origin[2] - self.anchor[2] + space.size * np.arange(space.shape[2])
+        return heights

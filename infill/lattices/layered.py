@@ -18,7 +18,7 @@ from infill.lattices.bodies import Bodies
 from infill.lattices.grading import Grading
 from infill.lattices.voids import FIELD, local_widths
 
-WIDER_LINES = 1.5  # than lines may be for which the same distances will do, over those they were made for
+WIDER_LINES = 1.5  # range of line widths for which distances suffice, over the width they were made for
 
 Floats = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ class LineLayers(Protocol):
         ...
 
     def sides(self, space: Space, cell: float) -> Iterator[NDArray[np.bool_]]:
-        """Yield for each layer which cells (nx, ny) are on one of two sides of the lines; nothing if there are none."""
+        """Yield a mask of the cells (nx, ny) on one side of the lines for each layer; nothing without sides."""
         ...
 
     def widths(self, density: float) -> float:
@@ -40,12 +40,12 @@ class LineLayers(Protocol):
 
     @property
     def two_sided(self) -> bool:
-        """Whether lines have two sides, and no ends."""
+        """True if lines have two sides, and no ends."""
         ...
 
     @property
     def steepest(self) -> float:
-        """How far a line lies from that of the layer above, in cells, at most."""
+        """Largest distance of a line from that of the layer above, in cells."""
         ...
 
     def sharpest(self, space: Space, cell: float) -> float:
@@ -58,10 +58,10 @@ class LineLayers(Protocol):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Away:
-    """How far cells lie from lines, along their layer, up to a distance, in cells: below 0 on one of two sides."""
+class _Distances:
+    """Distances of cells from lines along their layer, up to a limit, in cells: negative on one of two sides."""
 
-    space: Space  # which this keeps, so that no other gets its number
+    space: Space  # kept alive, so that its id stays its own
     away: FIELD
     reach: float
 
@@ -76,7 +76,7 @@ class Layered:
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
-        How it begins anew in each component of the part.
+        Set if the pattern starts over in each component of the part.
     known : dict
         Distances, for a space and a cell.
     """
@@ -85,11 +85,11 @@ class Layered:
     threads: int | None = None
     grading: Grading | None = None
     bodies: Bodies | None = None
-    known: dict[tuple[int, float], _Away] = field(default_factory=dict)
+    known: dict[tuple[int, float], _Distances] = field(default_factory=dict)
 
     @property
     def around(self) -> bool:
-        """Whether one void lies around all walls, so that cells of the grid must resolve these."""
+        """True if one void lies around all walls, so that cells of the grid must resolve the walls."""
         return not self.layers.two_sided
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:
@@ -103,7 +103,7 @@ class Layered:
         return replace(self, layers=self.layers.about(middle), bodies=None, known={})
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
-        """One for each side, or one around all walls."""
+        """Count the fields: one for each side, or one around all walls."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
         return 1 if self.around else 2
@@ -116,13 +116,13 @@ class Layered:
             return self.bodies.into(self, out, space, which, cell=cell, width=width)
         ratio, step = local_widths(self, space)
         half = width / 2 / space.size
-        found = self._away(space, cell, float(ratio.max()) * half)
+        distances = self._distances(space, cell, float(ratio.max()) * half)
         filled = in_threads(
             from_layers,
             space.depth,
             -BAND,
-            found.away,
-            found.reach,
+            distances.away,
+            distances.reach,
             self.layers.steepest,
             1.0 if which == 0 else -1.0,
             half,
@@ -137,22 +137,22 @@ class Layered:
         """See `Voids`."""
         return self.layers.widths(density)
 
-    def _away(self, space: Space, cell: float, half: float) -> _Away:
-        """Return distances that suffice for walls whose widest half is so wide, in cells."""
+    def _distances(self, space: Space, cell: float, half: float) -> _Distances:
+        """Return distances that suffice for walls whose widest half is this wide, in cells."""
         from infill.kernels.layered import beside_lines
 
-        # Along a layer, what lies within the band of a leaning wall is as much further away.
+        # Along a layer, cells within the band of a leaning wall are further away by its slope.
         reach = (half + 2 * BAND) * float(np.hypot(1.0, self.layers.steepest))
         key = id(space), cell
         if key not in self.known or self.known[key].reach < reach:
             self.known.clear()
             lines = self.layers.lines(space, cell)
-            first = np.cumsum([0, *map(len, lines)])
+            offsets = np.cumsum([0, *map(len, lines)])
             away = np.empty(space.shape, dtype=np.float32)
             reach *= WIDER_LINES
             segments = np.concatenate([np.empty((0, 2, 2)), *lines])
-            in_threads(beside_lines, segments, first, reach, away, threads=thread_count(self.threads))
-            for layer, one in enumerate(self.layers.sides(space, cell)):
-                away[:, :, layer] *= np.where(one, np.float32(1), np.float32(-1))
-            self.known[key] = _Away(space=space, away=away, reach=reach)
+            in_threads(beside_lines, segments, offsets, reach, away, threads=thread_count(self.threads))
+            for layer, side in enumerate(self.layers.sides(space, cell)):
+                away[:, :, layer] *= np.where(side, np.float32(1), np.float32(-1))
+            self.known[key] = _Distances(space=space, away=away, reach=reach)
         return self.known[key]

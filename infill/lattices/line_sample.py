@@ -1,4 +1,4 @@
-"""Some cells of a pattern of lines: how far apart lines are, how sharp their corners, how wide for a density."""
+"""A few cells of a pattern of lines: the spacing of lines, the sharpness of corners, and widths for densities."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from infill.lattices.fillets import between_lines, sharpest
 from patterns.errors import PatternError
 from patterns.protocol import Pattern, lines_of
 
-SAMPLE = 12.0  # cells of the pattern along a side of what is measured to tell how width and density go together
+SAMPLE = 12.0  # cells of the pattern along a side of the square in which density is measured
 SNAP = 1e-6  # of a cell: lines that are nearer than this meet
-NEAR, TRIES = 0.01, 12  # of the density of that: when it is near enough
-# Half a diagonal of what is filled, in which lines are drawn: hearts that are the largest to fit into that reach
-# beyond the part.
+NEAR, TRIES = 0.01, 12  # of the density: error that is good enough, and tries at most
+# Lines are drawn in a square of this many half diagonals of the filled region, as the largest hearts that fit into a
+# smaller one do not cover the part.
 WIDER = 1.7
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class LineSample:
-    """What a pattern of lines is like far from any skin, at height 0.
+    """The lines of a pattern far from any skin, at height 0.
 
     Parameters
     ----------
@@ -38,19 +38,19 @@ class LineSample:
 
     @cached_property
     def apart(self) -> float:
-        """How far lines are apart on average, as those of a grid would be, in cells; at most one."""
-        region, lines = self._drawn
+        """Average spacing of lines, as if they formed a grid, in cells; at most one."""
+        region, lines = self._lines_in_square
         return min(1.0, float(2 * region.area / lines.length))
 
     @cached_property
     def sharpest(self) -> float:
         """See `Voids`."""
-        region, lines = self._drawn
+        region, lines = self._lines_in_square
         return sharpest(corners(lines, region))
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
-        region, lines = self._drawn
+        region, lines = self._lines_in_square
 
         def off(times: float) -> float:
             walls = shapely.buffer(lines, times * self.apart * density / 4, quad_segs=1)
@@ -60,8 +60,8 @@ class LineSample:
         return self.apart * density / 2 * root(off, NEAR, TRIES)
 
     @cached_property
-    def _drawn(self) -> tuple[shapely.Polygon, shapely.Geometry]:
-        """Return some cells of a pattern whose cell is 1, and the lines in them."""
+    def _lines_in_square(self) -> tuple[shapely.Polygon, shapely.Geometry]:
+        """A few cells of a pattern whose cell is 1, and the lines in them."""
         side = SAMPLE / 2
         region = square(side)
         wider = region if follows(self.pattern) else square(WIDER * side * 2**0.5)
@@ -72,20 +72,20 @@ class LineSample:
 
 
 def sized(pattern: Pattern, cell: float) -> Pattern:
-    """Return a pattern with a cell, mm, and without a frame."""
-    changed: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
+    """Set the cell of a pattern, mm, and drop its frame."""
+    overrides: dict[str, Any] = {"cell": cell} if hasattr(pattern, "cell") else {}
     if hasattr(pattern, "frame"):
-        changed["frame"] = False
-    return dataclasses.replace(pattern, **changed)  # type: ignore[type-var]
+        overrides["frame"] = False
+    return dataclasses.replace(pattern, **overrides)  # type: ignore[type-var]
 
 
 def follows(pattern: Pattern) -> bool:
-    """Return whether the lines of a pattern follow the outline of their region; a plug-in need not say so."""
+    """Tell whether the lines of a pattern follow the outline of their region; a plug-in need not declare it."""
     return getattr(pattern, "follows", False)
 
 
 def square(half: float) -> shapely.Polygon:
-    """Return the square about (0, 0) whose sides are twice as long."""
+    """Return the square about (0, 0) with a half side."""
     return shapely.box(-half, -half, half, half)
 
 
@@ -97,12 +97,12 @@ def segments_of(lines: NDArray[np.object_], start: NDArray[np.float64], size: fl
     """
     points, line = shapely.get_coordinates(lines, return_index=True)
     points = (points - start) / size
-    joined = np.flatnonzero(line[1:] == line[:-1])
-    return np.stack([points[joined], points[joined + 1]], axis=1)
+    within_line = np.flatnonzero(line[1:] == line[:-1])
+    return np.stack([points[within_line], points[within_line + 1]], axis=1)
 
 
 def corners(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.float64]:
-    """Return the angles between lines inside of a region, where they meet or bend, degrees.
+    """Return the angles between lines inside a region, where they meet or bend, degrees.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def corners(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1
 def faces_between(lines: shapely.Geometry, region: shapely.Polygon, *, cell: float = 1.0) -> NDArray[np.object_]:
     """Return the polygons between lines, and between them and the border of their region.
 
-    Lines that meet but for rounding do so here: what is nearer than a millionth of a cell is in one place.
+    Points that are nearer to each other than a millionth of a cell coincide, so that rounding does not part lines.
 
     Parameters
     ----------

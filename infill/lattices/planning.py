@@ -1,4 +1,4 @@
-"""What a fill will take, before anything is computed."""
+"""The grid and memory that a fill will take, before anything is computed."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""The infill of a slicer's project: what slicers can print of it, with the pattern where that is most.
+"""The infill of a slicer's project: the infill that slicers can print, with the pattern placed where it is most.
 
 In a part that is small beside a cell, chance decides whether a wall of the pattern runs through the middle, or along a
-wall of the part, where little of it is left for a line. If too much is lost, the pattern is shifted, and what still is
-too narrow is left out.
+wall of the part, where little of it remains for a line. If too much is lost, the pattern is shifted, and infill that is
+still too narrow is left out.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from infill.result import Clock
 from infill.surface import Surface
 
 SHORT = 1e-3  # mm: edges of the infill of a project are longer than that, or nearly
-INTO_WALL = 0.75  # how far infill reaches into the walls of a part from which it cannot be cut
+INTO_WALL = 0.75  # of the wall: infill reaches this far into it where voids cannot be cut out of the part
 # Of a line, and of walls: PrusaSlicer prints plates of 0.45 mm with lines of 0.45 mm, and none of 0.4 mm; but where a
-# wall of a part cuts through a wall of the pattern, it drops more. Without what is narrower than 0.6 mm, of 0.5 to 0.72
-# that were tried, bodies were nearest to what it extrudes. Of thinner walls, it prints most as they are.
+# wall of a part cuts through a wall of the pattern, it drops more. Of limits from 0.5 to 0.72 mm tried, 0.6 mm
+# left bodies nearest to the extruded ones. Of thinner walls, it prints most as they are.
 LEAST_LINE, LEAST_LINES, LEAST_WIDTH = 0.9, 4 / 3, 0.9
 MUCH = 0.1  # of the infill: if more of it is lost, the pattern is shifted, until hardly any is
 HARDLY = 0.02
 MOST_CELLS = 3_000_000  # of the grid: shifts of the pattern in larger parts would take long, and matter less
 FIRST, SHIFTED = 0.25, 0.75  # of the work: where shifting begins and ends
-SHIFTS = (  # of a cell, as even as few of them are: the beginning of Halton's sequence
+SHIFTS = (  # of a cell, evenly spread from the start: the beginning of Halton's sequence
     (1 / 2, 1 / 3, 1 / 5),
     (1 / 4, 2 / 3, 2 / 5),
     (3 / 4, 1 / 9, 3 / 5),
@@ -56,11 +56,11 @@ class Projected:
     infill : Surface, mm
     hollow : Hollow
     voids : Voids
-        Of the pattern, where it is.
+        Of the pattern, in its place.
     phase : (x, y, z)
         mm by which it is shifted.
     narrow : Narrow or None
-        What slicers print none for, before it was left out.
+        The infill that slicers do not print, before it was left out.
     """
 
     infill: Surface
@@ -71,14 +71,14 @@ class Projected:
 
     @property
     def lost(self) -> float:
-        """Share of the infill that slicers print none for; 1 if that is not known."""
+        """Share of the infill that slicers do not print; 1 if unknown."""
         return 1.0 if self.narrow is None else self.narrow.all
 
 
 def projected(
     part: Surface, request: Request, *, clock: Clock, threads: int | None = None, max_memory: int | None = None
 ) -> Projected:
-    """Return the infill of a project for a part, mm.
+    """Make the infill of a project for a part, mm.
 
     Raises
     ------
@@ -88,76 +88,78 @@ def projected(
         If memory will not suffice.
     """
 
-    def placed(request: Request, clock: Clock) -> Projected:
+    def place(request: Request, clock: Clock) -> Projected:
         voids = voids_of(request, part.bounds, threads)
         hollow = hollowed(part, request, voids, clock=clock, threads=threads, max_memory=max_memory)
-        infill = _through_walls(hollow.space, hollow.surfaces, request, threads)
-        narrow = too_narrow(hollow.space.part, infill, request.wall, LINE_WIDTH, _least(hollow, request))
+        infill = _subtract_voids(hollow.space, hollow.surfaces, request, threads)
+        narrow = too_narrow(hollow.space.part, infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request))
         return Projected(infill=infill, hollow=hollow, voids=voids, phase=request.phase, narrow=narrow)
 
-    found = placed(request, clock)
-    if _may_be_shifted(found, request):
-        found = min(chain([found], _shifted(found, request, placed, clock)), key=lambda each: each.lost)
-    # Shifted, a pattern has little infill in a part, and what is lost of that is soon a twentieth.
-    most = NARROW if found.phase == request.phase else HARDLY
-    return _printable(found, request) if found.narrow is not None and found.narrow.all > most else found
+    project = place(request, clock)
+    if _can_shift(project, request):
+        project = min(
+            chain([project], _try_shifts(project, request, place, clock)), key=lambda candidate: candidate.lost
+        )
+    # A shifted pattern may have little infill in a part, and soon loses a twentieth of it.
+    limit = NARROW if project.phase == request.phase else HARDLY
+    return _drop_unprintable(project, request) if project.narrow is not None and project.narrow.all > limit else project
 
 
-def _may_be_shifted(found: Projected, request: Request) -> bool:
-    """Return whether shifting a pattern may help: nobody said where it is, and it is not the room that lacks."""
-    narrow, size = found.narrow, math.prod(found.hollow.space.shape)
-    asked = any(request.phase) or request.align == "bed" or request.grading is not None
-    return narrow is not None and not asked and size <= MOST_CELLS and narrow.all - narrow.room > MUCH
+def _can_shift(project: Projected, request: Request) -> bool:
+    """Tell whether shifting a pattern may help: its place was not requested, and more is lost than the lack of room."""
+    narrow, size = project.narrow, math.prod(project.hollow.space.shape)
+    is_placed = any(request.phase) or request.align == "bed" or request.grading is not None
+    return narrow is not None and not is_placed and size <= MOST_CELLS and narrow.all - narrow.room > MUCH
 
 
-def _shifted(
-    found: Projected, request: Request, placed: Callable[[Request, Clock], Projected], clock: Clock
+def _try_shifts(
+    project: Projected, request: Request, place: Callable[[Request, Clock], Projected], clock: Clock
 ) -> Iterator[Projected]:
-    """Yield what a part is filled with, if the pattern is elsewhere."""
-    cell = found.hollow.cell
-    for tried, (x, y, z) in enumerate(SHIFTS):
-        with clock.stage("shift", FIRST + (SHIFTED - FIRST) * tried / len(SHIFTS)):
+    """Yield the infill with the pattern in other places."""
+    cell = project.hollow.cell
+    for attempt, (x, y, z) in enumerate(SHIFTS):
+        with clock.stage("shift", FIRST + (SHIFTED - FIRST) * attempt / len(SHIFTS)):
             try:
-                other = placed(replace(request, phase=(x * cell, y * cell, z * cell)), Clock(None))
+                candidate = place(replace(request, phase=(x * cell, y * cell, z * cell)), Clock(None))
             except (GeometryError, ParameterError):  # no void is left, or the pattern follows the part
                 continue
-        yield other
-        if other.lost < HARDLY:
+        yield candidate
+        if candidate.lost < HARDLY:
             break
 
 
-def _printable(found: Projected, request: Request) -> Projected:
-    """Return infill without what slicers print none for, or all of it if nothing else is left."""
-    hollow = found.hollow
+def _drop_unprintable(project: Projected, request: Request) -> Projected:
+    """Drop infill that slicers do not print, unless nothing would remain."""
+    hollow = project.hollow
     part, walls = hollow.space.part, hollow.walls
-    kept = without_narrow(part, found.infill, request.wall, LINE_WIDTH, _least(hollow, request))
-    if walls is None or kept is found.infill:
-        return found
-    left = volume_within(kept, walls)
-    if not left > 0:  # nan too
-        return found
-    out = volume_within(found.infill, walls) - left
-    return replace(found, infill=shortened(kept, SHORT), hollow=replace(hollow, loose=out))
+    printable = without_narrow(part, project.infill, request.wall, LINE_WIDTH, _narrowest_printed(hollow, request))
+    if walls is None or printable is project.infill:
+        return project
+    remaining = volume_within(printable, walls)
+    if not remaining > 0:  # nan too
+        return project
+    dropped = volume_within(project.infill, walls) - remaining
+    return replace(project, infill=shortened(printable, SHORT), hollow=replace(hollow, loose=dropped))
 
 
-def _least(hollow: Hollow, request: Request) -> float:
+def _narrowest_printed(hollow: Hollow, request: Request) -> float:
     """Return the width of the narrowest infill that slicers print, mm."""
     narrowest = LEAST_WIDTH * hollow.width * request.thinnest
     return min(max(narrowest, LEAST_LINE * LINE_WIDTH), LEAST_LINES * LINE_WIDTH)
 
 
-def _through_walls(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:
-    """Return the surface of what the voids leave of the part, or of most of it, if manifold3d does not take that.
+def _subtract_voids(space: Space, voids: list[Surface], request: Request, threads: int | None) -> Surface:
+    """Subtract the voids from the part, or from most of it if manifold3d rejects that; return the surface.
 
-    Where voids meet the skin, they leave edges so short that single precision, as files have it, takes their ends for
-    one place: such edges are taken out.
+    Where voids meet the skin, they leave edges so short that both ends are one point in single precision, as in files:
+    such edges are collapsed.
     """
-    found = without(space.part, voids)
-    if found is None:
+    infill = without(space.part, voids)
+    if infill is None:
         inside = inner_side(
             space, overlap=INTO_WALL * request.wall, tolerance=SHARE * request.tolerance, threads=threads
         )
-        found = without(inside, voids)
-    if found is None or not len(found.faces):
+        infill = without(inside, voids)
+    if infill is None or not len(infill.faces):
         raise GeometryError("manifold3d does not take the voids as solids; give another cell or smaller voxels")
-    return shortened(found, SHORT)
+    return shortened(infill, SHORT)

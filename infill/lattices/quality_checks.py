@@ -1,4 +1,4 @@
-"""What a filled part is not that was asked for: measured on the meshes that are handed over."""
+"""The ways in which a filled part differs from its request, measured on the final meshes."""
 
 from __future__ import annotations
 
@@ -25,39 +25,39 @@ from infill.meshes.solids import FINE, in_one_place, status
 from infill.meshes.winding import winding
 from infill.surface import Surface
 
-OFF = 0.005  # of the density: what is further off is told
-OFF_LOCAL = 0.03  # of the density in a step: chance alone is off by a hundredth, in three of a thousand
-OFF_WIDTH = 0.06  # of the line width: what is further off is told
-LEAST_WIDTH = 0.8  # of the line width, where cells follow the density: narrower walls are told
+OFF = 0.005  # of the density: larger errors are reported
+OFF_LOCAL = 0.03  # of the density in a step: chance alone causes an error of 0.01, in three of a thousand
+OFF_WIDTH = 0.06  # of the line width: larger errors are reported
+LEAST_WIDTH = 0.8  # of the line width, where cells follow the density: narrower walls are reported
 STEPS = 3  # of a density that changes
 LEAST_LEFT = 0.75  # of the pattern as drawn: fillets only add to it
 THINNEST = 0.4  # mm: a nozzle
 THIN = 0.8  # mm: two lines of a nozzle of 0.4
-AT_ONCE = 50_000  # triangles or points that are looked at together
-LEAST_WALL = 0.9  # of the wall asked for
+AT_ONCE = 50_000  # triangles or points in a batch
+LEAST_WALL = 0.9  # of the requested wall
 
 
 def least_wall(
     part: Surface, voids: list[Surface], threads: int | None, opening: Opening | None = None
 ) -> tuple[float, list[float]]:
-    """Return how near the voids come to the skin, mm, and where: at corners and in the middle of triangles.
+    """Measure the least distance of the voids from the skin, mm, at corners and centres of triangles; return its place.
 
-    What lies beyond an open side does not count.
+    Points beyond an open side do not count.
     """
     if opening is not None:
         part = opening.shell
-    tree, least, at = Tree.of(part), np.inf, np.full(3, np.nan)
-    for points in chain.from_iterable(map(_points_of, voids)):
+    tree, least, place = Tree.of(part), np.inf, np.full(3, np.nan)
+    for points in chain.from_iterable(map(_point_batches, voids)):
         if opening is not None:
             points = points[opening.inside(points[:, 2])]
-        away, _ = tree.nearest(points, threads=threads)
-        if away.min(initial=np.inf) < least:
-            least, at = away.min(), points[np.argmin(away)]
-    return float(least), at.tolist()
+        distance, _ = tree.nearest(points, threads=threads)
+        if distance.min(initial=np.inf) < least:
+            least, place = distance.min(), points[np.argmin(distance)]
+    return float(least), place.tolist()
 
 
-def _points_of(surface: Surface) -> Iterator[NDArray[np.float64]]:
-    """Yield the corners of a surface, (N, 3), and the middles of its triangles, some at a time."""
+def _point_batches(surface: Surface) -> Iterator[NDArray[np.float64]]:
+    """Yield the corners of a surface, (N, 3), and the centres of its triangles, in batches."""
     corners, faces = np.asarray(surface.vertices, dtype=np.float64), surface.faces
     for begin in range(0, len(corners), AT_ONCE):
         yield corners[begin : begin + AT_ONCE]
@@ -66,57 +66,57 @@ def _points_of(surface: Surface) -> Iterator[NDArray[np.float64]]:
 
 
 def outside(part: Surface, voids: list[Surface], threads: int | None, middle: float | None = None) -> int:
-    """Return how many voids lie outside of the part: none crosses its skin, from which all are some way off.
+    """Count the voids outside the part, as no void crosses its skin.
 
-    Where a part is open, that is asked of the points that are nearest to a height in its middle, mm.
+    Where a part is open, the points nearest to a height in its middle, mm, decide.
     """
-    first = [_first(surface, middle) for surface in voids]
-    return int((winding(np.concatenate(first).astype(np.float64), part, threads=threads) <= 0).sum())
+    points = [_point_of_shells(surface, middle) for surface in voids]
+    return int((winding(np.concatenate(points).astype(np.float64), part, threads=threads) <= 0).sum())
 
 
-def _first(surface: Surface, middle: float | None) -> NDArray[np.float64]:
-    """Return a point of every component, (N, 3): its first vertex, or of its edges, what is nearest to a height."""
+def _point_of_shells(surface: Surface, middle: float | None) -> NDArray[np.float64]:
+    """Return a point of every component, (N, 3): its first vertex, or the point of its edges nearest to a height."""
     vertices = np.asarray(surface.vertices, dtype=np.float64)
     if middle is None:
         return vertices[first_of_shells(surface)]
     names, count = shell_names(surface)
     edges = np.concatenate([surface.faces[:, [i, (i + 1) % 3]] for i in range(3)])
-    one, other = vertices[edges[:, 0]], vertices[edges[:, 1]]
-    rise = other[:, 2] - one[:, 2]
-    share = np.clip(np.divide(middle - one[:, 2], rise, out=np.zeros_like(rise), where=rise != 0), 0, 1)
-    points = one + share[:, None] * (other - one)
-    own = names[edges[:, 0]]
-    order = np.lexsort((np.abs(points[:, 2] - middle), own))
-    nearest: NDArray[np.float64] = points[order[np.searchsorted(own[order], np.arange(count))]]
+    start, end = vertices[edges[:, 0]], vertices[edges[:, 1]]
+    rise = end[:, 2] - start[:, 2]
+    share = np.clip(np.divide(middle - start[:, 2], rise, out=np.zeros_like(rise), where=rise != 0), 0, 1)
+    points = start + share[:, None] * (end - start)
+    name = names[edges[:, 0]]
+    order = np.lexsort((np.abs(points[:, 2] - middle), name))
+    nearest: NDArray[np.float64] = points[order[np.searchsorted(name[order], np.arange(count))]]
     return nearest
 
 
 @dataclass(frozen=True, kw_only=True)
 class Measured:
-    """What is measured on a solid that is handed over.
+    """Measurements of the final solid.
 
     Parameters
     ----------
     least : float or None
-        Of the wall, mm; None if a slicer makes the walls.
+        Thickness of the wall, mm; None if a slicer makes the walls.
     at : list of float or None
-        Where that is, mm.
+        Its place, mm.
     astray : int
         Voids outside of the part.
     closed : list of (float, list of float)
-        Voids that nothing drains from: see `trapped`.
+        Voids without a drain: see `trapped`.
     crowded : int
-        Vertices that are where another one is in single precision, besides those of the skin.
+        Vertices that coincide with another one in single precision, not counting those of the skin.
     verdict : str
         Of manifold3d.
     width : float
-        Of walls or bars in the mesh, mm; as drawn where hardly any are away from the walls of the part, or not even.
+        Of walls or bars in the mesh, mm; as drawn if it varies, or if hardly any are far from the walls of the part.
     drawn : float
         Density of the pattern before it was smoothed.
     wanted : float or None
-        Density asked for, on average.
+        Requested density, on average.
     graded : list of dict
-        Of a density that changes: what was asked for and what is there, in steps.
+        Of a density that changes: requested and measured density, in steps.
     cells, widths : list of float or None
         Of a density that changes: the smallest and the largest cell, as cubes of their volume, and the narrowest and
         the widest walls, mm.
@@ -146,22 +146,22 @@ def measured(
     *,
     threads: int | None,
 ) -> Measured:
-    """Return what is measured on a solid with an outer surface, voids and drains."""
+    """Measure a solid with an outer surface, voids and drains."""
     least: float | None = None
-    at: list[float] | None = None
+    place: list[float] | None = None
     astray, crowded = 0, int(in_one_place(solid).sum())
     if request.form != "project":
         part, opening = hollow.space.part, hollow.space.opening
         middle = None if opening is None else float(part.bounds[:, 2].mean())
-        least, at = least_wall(part, hollow.surfaces, threads, opening)
+        least, place = least_wall(part, hollow.surfaces, threads, opening)
         for hole in drained.plan.holes:
             if hole.clearance < least:
-                least, at = hole.clearance, hole.near.tolist()
+                least, place = hole.clearance, hole.near.tolist()
         astray = outside(part, hollow.surfaces, threads, middle)
         crowded -= int(in_one_place(outer).sum())
     return Measured(
         least=least,
-        at=at,
+        at=place,
         astray=astray,
         closed=trapped(solid) if request.form == "solid" else [],
         crowded=max(0, crowded),
@@ -175,46 +175,47 @@ def measured(
 
 
 def _ranges(hollow: Hollow, voids: Voids) -> dict[str, list[float]]:
-    """Return how small and large cells are, and how narrow and wide walls, where the density changes."""
+    """Return the range of cell sizes, and of widths of walls, where the density changes."""
     if voids.grading is None:
         return {}
     local = voids.grading.over(hollow.space, voids.widths)
     return {
-        "cells": [hollow.cell * each for each in local.cells],
-        "widths": [hollow.width * each for each in local.widths],
+        "cells": [hollow.cell * factor for factor in local.cells],
+        "widths": [hollow.width * factor for factor in local.widths],
     }
 
 
 def _verdict(solid: Surface) -> str:
-    """Return what manifold3d says of a solid: that it is one, if all of its components are, some of which at a time."""
-    return next((said for said in map(status, in_batches(solid, AT_ONCE)) if said != FINE), FINE)
+    """Return the verdict of manifold3d on a solid: fine if all of its components are, some of which at a time."""
+    return next((verdict for verdict in map(status, in_batches(solid, AT_ONCE)) if verdict != FINE), FINE)
 
 
 def steps(hollow: Hollow, voids: Voids) -> list[dict[str, float]]:
-    """Return the density where about as much was asked for, by rising density."""
+    """Group places by requested density; return the requested and the measured density of each group, rising."""
     if voids.grading is None:
         return []
     local = voids.grading.over(hollow.space, voids.widths)
-    asked, there = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
-    return [{"wanted": one, "density": other} for one, other in zip(asked.tolist(), there.tolist(), strict=True)]
+    requested, actual = densities_by_share(hollow.space, hollow.surface, local, STEPS, mean=hollow.density)
+    pairs = zip(requested.tolist(), actual.tolist(), strict=True)
+    return [{"wanted": target, "density": density} for target, density in pairs]
 
 
-def near(width: float, asked: float) -> bool:
-    """Return whether walls or bars are as wide as asked for, or nearly."""
-    return abs(width / asked - 1) <= OFF_WIDTH
+def near(width: float, requested: float) -> bool:
+    """Tell whether walls or bars are as wide as requested, or nearly."""
+    return abs(width / requested - 1) <= OFF_WIDTH
 
 
 def problems(
     request: Request, hollow: Hollow, facts: Measured, drained: Drained, lost: Narrow | None = None
 ) -> Iterator[str]:
-    """Say what is not as it was asked for, and what was done to the part."""
+    """Yield a message for everything that differs from the request, and for every change to the part."""
     overlap, moved, opening = hollow.space.overlap, hollow.tolerance, hollow.space.opening
     if facts.wanted is not None and not abs(hollow.density - facts.wanted) <= OFF:  # nan too
         yield f"the density is {hollow.density:.1%}, and {facts.wanted:.1%} was asked for"
-    for each in facts.graded:
-        if not abs(each["density"] - each["wanted"]) <= OFF_LOCAL:
+    for step in facts.graded:
+        if not abs(step["density"] - step["wanted"]) <= OFF_LOCAL:
             yield (
-                f"where {each['wanted']:.1%} was asked for, the density is {each['density']:.1%}; cells that are small "
+                f"where {step['wanted']:.1%} was asked for, the density is {step['density']:.1%}; cells that are small "
                 "beside the field's changes follow it better"
             )
     if request.grading is not None and request.grading.varies == "cell" and facts.widths is not None:
@@ -224,10 +225,10 @@ def problems(
                 f"cells cannot follow the density alone, so walls are {narrow:.2g} to {wide:.2g} mm wide: there is too "
                 "little room for cells of such sizes beside one another; give densities that are nearer to one another"
             )
-    left = hollow.density_before if request.form == "project" else hollow.density
-    if left < LEAST_LEFT * facts.drawn:
+    share = hollow.density_before if request.form == "project" else hollow.density
+    if share < LEAST_LEFT * facts.drawn:
         yield (
-            f"of the infill, {facts.drawn:.1%} as drawn, {left:.1%} is left: walls or bars are too thin for the grid, "
+            f"of the infill, {facts.drawn:.1%} as drawn, {share:.1%} is left: walls or bars are too thin for the grid, "
             "or were smoothed away; give smaller voxels, a smaller smooth radius or wider lines"
         )
     if request.line_width is not None and request.grading is None and not near(facts.width, request.line_width):
@@ -248,18 +249,18 @@ def problems(
             f"slicers leave gaps in them, 7 % of the infill in all; give a line width of 0.9 mm, or {GAP[1]:g} or more"
         )
     if lost is not None and lost.all > NARROW:
-        done = ", so that was left out" if hollow.loose else ""
+        effect = ", so that was left out" if hollow.loose else ""
         yield (
             f"{lost.all:.0%} of the infill lies where walls of {request.wall:g} mm leave less room than a line of "
-            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it{done}; shift the pattern "
+            f"{LINE_WIDTH:g} mm, or is itself as narrow there, and slicers print none of it{effect}; shift the pattern "
             "by --phase, print with fewer perimeters and give their --wall, or with so many that they fill such places"
         )
     if moved > request.tolerance:
-        most = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
-        yield f"for so few triangles, the voids were moved by {most}; give larger cells, or more triangles"
+        distance = f"up to {moved:.2g} mm" if np.isfinite(moved) else "an unknown distance"
+        yield f"for so few triangles, the voids were moved by {distance}; give larger cells, or more triangles"
     if facts.least is not None and facts.least < LEAST_WALL * request.wall:
-        where = ", ".join(f"{each:.4g}" for each in facts.at or ())
-        yield f"the wall is {facts.least:.3g} mm thin at ({where}), and {request.wall:g} mm was asked for"
+        place = ", ".join(f"{coordinate:.4g}" for coordinate in facts.at or ())
+        yield f"the wall is {facts.least:.3g} mm thin at ({place}), and {request.wall:g} mm was asked for"
     if opening is not None:
         for end in opening.closed_ends(hollow.surfaces):
             yield f"no void is open at the {end}: walls of the pattern lie along it; shift the pattern by --phase"

@@ -1,4 +1,4 @@
-"""What `fill` is asked for: numbers checked, what is left out chosen."""
+"""Requests for `fill`: numbers checked, and defaults chosen."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Form = Literal["solid", "infill", "project"]
 Align = Literal["part", "bed", "body"]
 Size = Literal["cell", "width"]
 
-DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # mm but for the first
+DENSITY, LINE_WIDTH, WALL, TOLERANCE, RADIUS = 0.2, 0.45, 1.2, 0.03, 0.25  # a share; mm
 SLICED_WIDTH, SLICED_WALL = 0.9, 0.9  # mm, in a project: two lines of a usual nozzle, as slicers fill bodies with
 GAP = 1.0, 1.5  # mm: between these, slicers fill walls with two lines of 0.45 mm that are too far apart, 7 % short
 SLICED_BAR = 2.7  # mm, in a project: slicers fill thinner ones less than to the full
@@ -32,7 +32,7 @@ FURTHEST = 1e4  # mm
 FEWEST_TRIANGLES = 1000  # of voids
 LEAST_ROUND = 6.0  # radii of fillets in the thickness of a part, by default
 OVERLAP = 0.15  # mm by which an infill body reaches into the wall
-ROUNDED = 2.0  # radii from an edge, what rounds it moves nothing that is seen
+ROUNDED = 2.0  # radii from an edge: rounding has no visible effect further away
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,28 +44,28 @@ class Request:
     pattern : str
         Its name.
     kind : Surfaces, Planes, Polyhedra, Octree, Network, Bars, Pattern or class of patterns
-        What the name stands for.
+        The pattern, or class of patterns, of that name.
     parameters : mapping
         The pattern's own, by name.
     density : float or None
-        Solid share inside the walls; None if cell and line width say it, or the roofs of a part. With a grading, its
-        middle.
+        Solid share inside the walls; None if it follows from cell and line width, or from the roofs of a part. With a
+        grading, its middle.
     grading : Grading or None
-        How the density changes from place to place.
+        Variation of the density from place to place.
     cell, line_width : float or None
-        mm; None for what follows from the density.
+        mm; None if it follows from the density.
     wall, overlap, tolerance : float
         mm
     drain : float or None
         Diameter of a hole for each void, mm.
     vent : bool
-        Whether every void also has a hole up from its highest place.
+        True if every void also has a hole up from its highest place.
     drain_at : tuple of (x, y, z)
         Places of holes on the skin, mm.
     open_ : {"top", "bottom", "both"} or None
         Sides of the part without a wall.
     smooth_radius : float or None
-        mm; None for the default, which small parts have smaller.
+        mm; None for the default, which is smaller in small parts.
     angle : float
         Degrees.
     phase : (x, y, z)
@@ -104,33 +104,33 @@ class Request:
 
     @property
     def beyond(self) -> float:
-        """How far an open side is moved out for the voids, besides some cells of the grid, mm."""
+        """Distance by which an open side is moved out for the voids, besides some cells of the grid, mm."""
         return ROUNDED * (RADIUS if self.smooth_radius is None else self.smooth_radius)
 
     @property
     def held(self) -> int:
-        """Bytes for each cell of the grid that are needed besides: where bodies are, and how deep in them it lies."""
+        """Additional bytes for each cell of the grid: where bodies are, and how deep in them the cell lies."""
         return 5 if self.align == "body" else 0
 
     @property
     def lined(self) -> bool:
-        """Whether walls and bars are to be as wide as a slicer's lines make them, which no density may change."""
+        """True if walls and bars are as wide as a slicer's lines, which no density may change."""
         return self.form == "project" and not isinstance(self.kind, Lightning)
 
     def gaps_in(self, width: float) -> bool:
-        """Return whether slicers leave gaps in walls of a width, mm, that is the same everywhere."""
+        """Tell whether slicers leave gaps in walls of a width, mm, that is the same everywhere."""
         even = self.grading is None or self.grading.varies == "cell"
         return self.form == "project" and even and not barred(self.kind) and GAP[0] < width < GAP[1]
 
     @property
     def default_width(self) -> float:
-        """Of walls inside, mm: where the density changes, of those of its middle, so that the thinnest are as wide."""
+        """Width of walls inside, mm; where the density changes, of its middle, so that the thinnest are this wide."""
         sliced = SLICED_BAR if barred(self.kind) else SLICED_WIDTH
         return (sliced if self.form == "project" else LINE_WIDTH) / self.thinnest
 
     @property
     def share(self) -> float:
-        """Width of walls, over the cell, of lines that do not cross."""
+        """Width of lines that do not cross, over the cell."""
         if self.cell is not None and self.line_width is not None:
             return min(1.0, self.line_width / self.cell)
         assert self.density is not None
@@ -138,29 +138,29 @@ class Request:
 
     @property
     def thinnest(self) -> float:
-        """How many times as wide as the line width walls are at least."""
+        """Least width of walls, over the line width."""
         if self.grading is None:
             return 1.0
         # The density of walls grows as their width, that of bars as its square.
         return math.sqrt(self.grading.thinnest) if barred(self.kind) else self.grading.thinnest
 
     def radius(self, thickness: float) -> float:
-        """Return the radius of fillets, mm, in a part whose inside is so many mm thick."""
+        """Return the radius of fillets, mm, in a part whose inside has a thickness, mm."""
         return min(RADIUS, thickness / LEAST_ROUND) if self.smooth_radius is None else self.smooth_radius
 
     @property
     def smallest(self) -> float:
-        """How many times as large as called cells are at least."""
+        """Least size of cells, over the nominal cell."""
         return 1.0 if self.grading is None else self.grading.smallest
 
     @property
     def lowest(self) -> float | None:
-        """The lowest density that is asked for."""
+        """The lowest requested density."""
         return self.density if self.grading is None else min(self.grading.first, self.grading.last)
 
     @property
     def varied(self) -> tuple[Size, ...]:
-        """What may be changed for the density, in this order."""
+        """Sizes that may be changed to reach the density, in this order."""
         if self.density is None:
             return ()
         if self.grading is not None:
@@ -171,12 +171,12 @@ class Request:
         return ("width",) if thickened(self.kind) and not self.lined else ("cell", "width")
 
     def room(self, taken: int) -> int:
-        """Return how many triangles voids may have, if the part has taken so many.
+        """Return the number of triangles that voids may have beside those of the part.
 
         Raises
         ------
         GeometryError
-            If there are none left.
+            If none are left.
         """
         if self.max_triangles is None:
             return max(MOST_TRIANGLES - taken, LEAST_TRIANGLES)
@@ -206,7 +206,7 @@ class Request:
             "overlap": self.overlap,
             "drain": self.drain,
             "vent": self.vent,
-            "drain_at": [list(each) for each in self.drain_at],
+            "drain_at": [list(place) for place in self.drain_at],
             "open": self.open_,
             "smooth_radius": self.smooth_radius,
             "tolerance": self.tolerance,
@@ -217,12 +217,12 @@ class Request:
 
 
 def barred(kind: Kind) -> bool:
-    """Return whether a pattern is made of bars, which are as thick as the density asks for."""
+    """Tell whether a pattern is made of bars; their thickness follows from the density."""
     return isinstance(kind, (Network, Bars))
 
 
 def thickened(kind: Kind) -> bool:
-    """Return whether a pattern gets a density by the width of its walls: bars do, and branches below roofs."""
+    """Tell whether a pattern reaches a density by the width of its walls, as bars and branches below roofs do."""
     return barred(kind) or isinstance(kind, Lightning)
 
 
@@ -251,7 +251,7 @@ def checked(
     vent: bool = False,
     drain_at: Sequence[Sequence[float]] = (),
 ) -> Request:
-    """Return a request whose numbers are in range, with what follows from others left open."""
+    """Check that numbers are in range; return a request in which sizes that follow from others are open."""
     if density is not None and cell is not None and line_width is not None:
         raise UsageError("density, cell and line_width are all given; give two of them, and the third follows")
     if resolution is not None and voxel is not None:
@@ -262,7 +262,7 @@ def checked(
         raise UsageError(f"as is {form!r}; choose from {', '.join(get_args(Form))}")
     if drain is not None and form != "solid":
         raise UsageError(f"drain is for a shell with its infill as one, and as is {form!r}; leave one of them out")
-    places = tuple(_place(each) for each in drain_at)
+    places = tuple(_check_place(place) for place in drain_at)
     for name, value in (("vent", vent), ("drain_at", bool(places))):
         if value and drain is None:
             raise UsageError(f"{name} is given, and drain is missing; give drain too, the diameter of the holes in mm")
@@ -275,7 +275,7 @@ def checked(
         )
     if len(phase) not in (2, 3):
         raise UsageError(f"phase has {len(phase)} numbers; give two or three, mm")
-    shift = [within("phase", each, -FURTHEST, FURTHEST, "mm") for each in phase]
+    shift = [within("phase", step, -FURTHEST, FURTHEST, "mm") for step in phase]
     kind, name = kind_of(pattern)
     grading = None
     if isinstance(density, (tuple, list)):
@@ -284,10 +284,10 @@ def checked(
         grading = graded(density, by, grade or "width")
         density = grading.middle
         if grading.varies == "cell":
-            _cells_that_follow(kind, name, align)
+            _check_cells_follow(kind, name, align)
     elif by is not None or grade is not None:
-        given = "by" if by is not None else "grade"
-        raise UsageError(f"{given} is given with one density; give two, such as 15%:40%, or leave it out")
+        option = "by" if by is not None else "grade"
+        raise UsageError(f"{option} is given with one density; give two, such as 15%:40%, or leave it out")
     elif density is not None:
         density = within("density", density, LOWEST, HIGHEST)
     elif (cell is None or line_width is None) and not isinstance(kind, Lightning):
@@ -326,15 +326,15 @@ def checked(
     )
 
 
-def _place(given: Sequence[float]) -> tuple[float, float, float]:
-    """Return a place where a drain is to be, checked."""
-    if isinstance(given, (str, bytes)) or not isinstance(given, (Sequence, np.ndarray)) or len(given) != 3:
-        raise UsageError(f"drain_at has a place {given!r}; give three numbers x, y, z in mm for each")
-    x, y, z = (within("drain_at", each, -FURTHEST, FURTHEST, "mm") for each in given)
+def _check_place(place: Sequence[float]) -> tuple[float, float, float]:
+    """Check a place of a drain."""
+    if isinstance(place, (str, bytes)) or not isinstance(place, (Sequence, np.ndarray)) or len(place) != 3:
+        raise UsageError(f"drain_at has a place {place!r}; give three numbers x, y, z in mm for each")
+    x, y, z = (within("drain_at", coordinate, -FURTHEST, FURTHEST, "mm") for coordinate in place)
     return x, y, z
 
 
-def _cells_that_follow(kind: Kind, name: str, align: str) -> None:
+def _check_cells_follow(kind: Kind, name: str, align: str) -> None:
     """Raise an error if the cells of a pattern cannot follow a field."""
     if not isinstance(kind, Surfaces):
         raise UsageError(
@@ -346,11 +346,11 @@ def _cells_that_follow(kind: Kind, name: str, align: str) -> None:
 
 
 def graded(densities: Sequence[float], by: object, grade: str = "width") -> Grading:
-    """Return two densities, where a field is lowest and where it is highest, checked."""
+    """Check two densities, where a field is lowest and where it is highest, and the field."""
     if grade not in get_args(Varies):
         raise UsageError(f"grade is {grade!r}; choose from {', '.join(get_args(Varies))}")
     if len(densities) != 2:
         raise UsageError(f"density has {len(densities)} numbers; give one, or two such as 15%:40%")
-    first, last = (within("density", each, LOWEST, HIGHEST) for each in densities)
+    low, high = (within("density", density, LOWEST, HIGHEST) for density in densities)
     field, name = field_of("z" if by is None else by)
-    return Grading(first=first, last=last, by=field, name=name, varies=grade)  # type: ignore[arg-type]
+    return Grading(first=low, last=high, by=field, name=name, varies=grade)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""What the name of a pattern stands for: one of ours, a drawing, or what a module of the user's holds."""
+"""Patterns by name: a built-in one, a drawing, or an object in a module of the user's."""
 
 from __future__ import annotations
 
@@ -18,73 +18,75 @@ if TYPE_CHECKING:
     from infill.lattices.tiled import Tiled
 
 DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
-SAMPLES = 16  # points along a cell, at which a function is tried
+SAMPLES = 16  # points along a cell at which a function is tested
 
 Kind = InSpace | Pattern | type[Pattern]
 
 
 def kind_of(pattern: object) -> tuple[Kind, str]:
-    """Return the pattern, or the class of patterns, that is meant, and what to call it.
+    """Resolve a pattern or class of patterns; return it and its name.
 
     Parameters
     ----------
     pattern : str, Path, Pattern, Surfaces, Planes, Polyhedra, Octree, Network, Bars or callable
-        A name; a drawing; "module.py:name"; what such a name stands for: a pattern, or a class of patterns; or a
-        function of x, y and z, of one shape, in radians (2 pi is a cell), whose zeros are walls.
+        A name; a drawing; "module.py:name"; a pattern, or a class of patterns; or a function of x, y and z, of one
+        shape, in radians (2 pi is a cell), whose zeros are walls.
 
     Raises
     ------
     PatternError
-        If there is no such pattern.
+        If the pattern is unknown.
     ParameterError
-        If it is no pattern, or a function that fails or is 0 nowhere.
+        If it is not a pattern, or a function that fails or is 0 nowhere.
     FormatError
-        If there is no such file, or it is broken.
+        If the file is missing or broken.
     """
     if not isinstance(pattern, (str, Path)):
-        return _made(pattern, getattr(pattern, "name", getattr(pattern, "__name__", type(pattern).__name__)))
+        return _pattern_from_object(
+            pattern, getattr(pattern, "name", getattr(pattern, "__name__", type(pattern).__name__))
+        )
     name = str(pattern)
     if name in CELLULAR:
         return CELLULAR[name], name
     if names_code(name):
-        return _made(object_in(name), name)
+        return _pattern_from_object(object_in(name), name)
     if Path(name).suffix.lower() in DRAWINGS:
-        return _drawing(name), name
+        return _pattern_from_drawing(name), name
     if name not in PATTERNS:
         raise no_such(name, [*CELLULAR, *PATTERNS])
     return PATTERNS[name], name
 
 
-def _drawing(name: str) -> Tiled:
+def _pattern_from_drawing(name: str) -> Tiled:
     from infill.lattices.tiled import tiled
 
     return tiled(name)
 
 
-def _made(found: Any, name: str) -> tuple[Kind, str]:  # noqa: ANN401 - whatever a user gives
-    if isinstance(found, InSpace) or gives(found):
-        return found, name
-    if callable(found) and not isinstance(found, type):
-        return _level_set(found, name), name
+def _pattern_from_object(given: Any, name: str) -> tuple[Kind, str]:  # noqa: ANN401 - whatever a user gives
+    if isinstance(given, InSpace) or gives(given):
+        return given, name
+    if callable(given) and not isinstance(given, type):
+        return _pattern_from_function(given, name), name
     raise ParameterError(
-        f"pattern is {name}, which is {type(found).__name__}; give a Pattern, Surfaces, Bars, or a function of x, y, z"
+        f"pattern is {name}, which is {type(given).__name__}; give a Pattern, Surfaces, Bars, or a function of x, y, z"
     )
 
 
-def _level_set(function: Any, name: str) -> Surfaces:  # noqa: ANN401
-    """Return walls where a function is 0, or raise ParameterError if it is so nowhere."""
+def _pattern_from_function(function: Any, name: str) -> Surfaces:  # noqa: ANN401
+    """Make walls where a function is 0, or raise ParameterError if it is 0 nowhere."""
     line = 2 * np.pi * (np.arange(SAMPLES) + 0.5) / SAMPLES
     x, y, z = np.meshgrid(line, line, line, indexing="ij")
     try:
-        found = np.asarray(function(x, y, z), dtype=np.float64)
+        level = np.asarray(function(x, y, z), dtype=np.float64)
     except Exception as error:
-        said = " ".join(str(error).split())
-        raise ParameterError(f"pattern is {name}, which fails: {type(error).__name__}: {said}") from error
-    if found.shape != x.shape or not np.isfinite(found).all():
+        reason = " ".join(str(error).split())
+        raise ParameterError(f"pattern is {name}, which fails: {type(error).__name__}: {reason}") from error
+    if level.shape != x.shape or not np.isfinite(level).all():
         raise ParameterError(f"pattern is {name}, which does not return a finite number for each point; mend it")
-    if not found.min() < 0 < found.max():
+    if not level.min() < 0 < level.max():
         raise ParameterError(
             f"pattern is {name}, which is 0 nowhere: in a cell, x, y and z from 0 to 2 pi, it runs from "
-            f"{found.min():.3g} to {found.max():.3g}"
+            f"{level.min():.3g} to {level.max():.3g}"
         )
     return Surfaces(name=name, summary="walls where a function is 0", value=function)

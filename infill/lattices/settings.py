@@ -7,7 +7,7 @@ table `[set]`::
     density = "20%"
     wall = 1.6
 
-A project that the command wrote has them attached, and can be given in place of the file.
+A project that the command wrote has its settings attached, and can be given in place of the file.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from infill.options.keyword_options import (
 from infill.options.toml import options_text, read_toml
 from infill.options.trust import check_trusted
 
-THIRDS = ("density", "line_width", "cell")  # of which two say the third; the first to go
+THIRDS = ("density", "line_width", "cell")  # two of them determine the third; the first is dropped first
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,7 +48,7 @@ class FillSettings:
     units : str or None
         Of the mesh.
     slicer : str or None
-        For whom a project is.
+        The slicer that a project is for.
     """
 
     request: Request
@@ -56,7 +56,7 @@ class FillSettings:
     slicer: str | None
 
     def to_toml(self) -> str:
-        """Return all settings, as a TOML document that `resolve` reads back."""
+        """Write all settings as a TOML document that `resolve` reads back."""
         options = {**self.request.facts(), "units": self.units, "for": self.slicer}
         return options_text(options, "infill fill PART --config THIS_FILE -o OUT")
 
@@ -64,18 +64,18 @@ class FillSettings:
 def resolve(
     flags: Mapping[str, Any], assigned: Sequence[str] = (), config: Path | None = None, *, trust: bool = False
 ) -> FillSettings:
-    """Return the settings: the command line takes precedence over the file, and the file over the defaults.
+    """Resolve the settings: the command line takes precedence over the file, and the file over the defaults.
 
     Parameters
     ----------
     flags : mapping
-        What was typed, by its name on the command line; None counts as not given.
+        Typed values by their names on the command line; None counts as absent.
     assigned : sequence of str
         The pattern's own parameters as ``name=value``.
     config : Path, optional
         A TOML file, or a project.
     trust : bool
-        Whether the file may name code to run and files from elsewhere: see `infill.options.trust`.
+        True if the file may name code to run and files from elsewhere: see `infill.options.trust`.
 
     Raises
     ------
@@ -95,19 +95,19 @@ def resolve(
     if "densities" in filed:
         filed.setdefault("density", filed.pop("densities"))  # as reports call two of them
     for name in THIRDS:
-        if all(each in typed or each in filed for each in THIRDS) and name not in typed:
+        if all(third in typed or third in filed for third in THIRDS) and name not in typed:
             filed.pop(name, None)
-    for name, other in (("voxel", "resolution"), ("resolution", "voxel")):
-        if name in typed and other not in typed:
-            filed.pop(other, None)
+    for name, rival in (("voxel", "resolution"), ("resolution", "voxel")):
+        if name in typed and rival not in typed:
+            filed.pop(rival, None)
     if "wall" in typed:
-        filed.pop("overlap", None)  # that of another wall
+        filed.pop("overlap", None)  # it belongs to another wall
     if isinstance(typed.get("density"), float):
-        filed.pop("by", None)  # that of two
+        filed.pop("by", None)  # it belongs to two densities
         filed.pop("grade", None)
-    both = {**filed, **typed}
-    slicer, units = both.pop("for", None), both.pop("units", None)
-    form = both.pop("as", "solid" if slicer is None else "project")
+    options = {**filed, **typed}
+    slicer, units = options.pop("for", None), options.pop("units", None)
+    form = options.pop("as", "solid" if slicer is None else "project")
     if slicer is not None and form != "project":
         if "as" not in typed:
             form = "project"
@@ -117,38 +117,38 @@ def resolve(
             slicer = None
     if form == "project" and slicer is None:
         raise UsageError("as is 'project', and for is missing; say which slicer it is for, such as --for prusaslicer")
-    pattern = both.pop("pattern", "gyroid")
-    seed = both.pop("seed", None)
-    own = own_parameters(pattern, assigned, table)
+    pattern = options.pop("pattern", "gyroid")
+    seed = options.pop("seed", None)
+    own_values = own_parameters(pattern, assigned, table)
     if seed is not None:
-        own = seeded(pattern, own, seed)
-    open_ = both.pop("open", None)
-    values = {**DEFAULTS, **both}
+        own_values = seeded(pattern, own_values, seed)
+    open_ = options.pop("open", None)
+    values = {**DEFAULTS, **options}
     return FillSettings(
-        request=checked(pattern=pattern, own=own, form=form, open_=open_, **values), units=units, slicer=slicer
+        request=checked(pattern=pattern, own=own_values, form=form, open_=open_, **values), units=units, slicer=slicer
     )
 
 
 def parse_densities(name: str, value: object) -> float | tuple[float, ...]:
-    """Return one density, or two with a colon between, or raise UsageError.
+    """Read one density, or two with a colon between, or raise UsageError.
 
     >>> parse_densities("density", "15%:40%"), parse_densities("density", 0.2)
     ((0.15, 0.4), 0.2)
     """
     parts = value.split(":") if isinstance(value, str) else value if isinstance(value, (list, tuple)) else [value]
-    found = tuple(parse_share(name, each, "give a share such as 20%, or two such as 15%:40%") for each in parts)
-    return found if len(found) > 1 else found[0]
+    shares = tuple(parse_share(name, part, "give a share such as 20%, or two such as 15%:40%") for part in parts)
+    return shares if len(shares) > 1 else shares[0]
 
 
 def parse_places(name: str, value: object) -> tuple[tuple[float, ...], ...]:
-    """Return places x, y, z, of which there may be one alone, or raise UsageError.
+    """Read one or more places x, y, z, or raise UsageError.
 
     >>> parse_places("drain_at", ["1,2,3", "4, 5, 6"]), parse_places("drain_at", [7, 8, 9])
     (((1.0, 2.0, 3.0), (4.0, 5.0, 6.0)), ((7.0, 8.0, 9.0),))
     """
-    several = isinstance(value, (list, tuple)) and all(isinstance(each, (list, tuple, str)) for each in value)
-    places = value if several and isinstance(value, (list, tuple)) else [value]
-    return tuple(parse_numbers(name, each, (3,)) for each in places)
+    is_list = isinstance(value, (list, tuple)) and all(isinstance(part, (list, tuple, str)) for part in value)
+    places = value if is_list and isinstance(value, (list, tuple)) else [value]
+    return tuple(parse_numbers(name, place, (3,)) for place in places)
 
 
 DEFAULTS: dict[str, Any] = {

@@ -1,4 +1,4 @@
-"""How large cells of a pattern, its lines and the cells of the grid are, where that was left open."""
+"""Sizes that a request leaves open: cells of the pattern, its lines, and cells of the grid."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from infill.lattices.layered import Layered
 from infill.lattices.request import GAP, Request, barred
 from infill.lattices.voids import Voids
 
-BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars are as thick as the density asks for; twigs are so far apart
-# Cells of the grid: in a wall so wide that such walls make a fifth of the volume solid, and along a cell of lines and
-# of bars; across a wall of the part and a bar; in all.
+BAR_CELL, BRANCHES_CELL = 8.0, 5.0  # mm: bars get their thickness from the density; twigs are this far apart
+# Cells of the grid: in a wall of a pattern with a density of a fifth, and along a cell of lines and of bars; across a
+# wall of the part and a bar; in all.
 FINE, FINE_LINES, FINE_BARS = 0.9, 6.0, 14.0
 ACROSS, ACROSS_BAR = 2.5, 4.0
 LEAST_FINE, LEAST_FINE_LINES, LEAST_FINE_BARS = 0.58, 2.5, 9.0
@@ -28,22 +28,22 @@ COARSEST_LINES = 0.3  # mm: corners between lines are rounded on cells no larger
 
 
 def sizes_for(request: Request, voids: Voids, extents: NDArray[np.floating]) -> tuple[float, float]:
-    """Return cell and width, mm: as asked, or as the density would have them far from any skin.
+    """Return cell and width, mm: as requested, or as the density requires far from any skin.
 
-    In a part too large for a grid as fine as that needs, both are larger, unless one was asked for.
+    In a part too large for a grid as fine as they need, both are enlarged, unless one of them was requested.
     """
-    cell, width = _sizes(request, voids)
+    cell, width = _nominal_sizes(request, voids)
     if request.cell is None and request.line_width is None:
-        finest = _finest(extents, slabs=goes_by_slabs(request, voids))
+        finest = _finest_voxel(extents, slabs=goes_by_slabs(request, voids))
         times = SLACK * finest / coarsest_for(replace(request, wall=math.inf), voids, cell, width)
         return larger(request, (cell, width), times)
     return cell, width
 
 
 def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[float, float]:
-    """Return cell and width, mm, so many times as large, if that is more than 1.
+    """Enlarge cell and width, mm, by a factor if it is more than 1.
 
-    In a project, walls are never of a width that slicers fill with two lines and leave a gap between.
+    In a project, walls never get a width that slicers fill with two lines and a gap between them.
     """
     times, width = max(1.0, times), sizes[1]
     if request.gaps_in(times * width):
@@ -51,7 +51,7 @@ def larger(request: Request, sizes: tuple[float, float], times: float) -> tuple[
     return sizes[0] * times, width * times
 
 
-def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
+def _nominal_sizes(request: Request, voids: Voids) -> tuple[float, float]:
     if request.density is None:
         return request.cell or BRANCHES_CELL, request.line_width or request.default_width
     share = voids.widths(request.density)
@@ -65,7 +65,7 @@ def _sizes(request: Request, voids: Voids) -> tuple[float, float]:
 
 
 def on_grid_of(request: Request, bounds: NDArray[np.floating]) -> Request:
-    """Return the request with the side of the cells that its resolution means for a part within bounds (2, 3), mm."""
+    """Replace the resolution of a request by the side of its cells, mm, for a part within bounds (2, 3), mm."""
     if request.resolution is None:
         return request
     return replace(request, voxel=float(np.ptp(bounds, axis=0).max()) / request.resolution)
@@ -85,7 +85,9 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
         size = min(size, width / ACROSS_BAR)
     else:
         size = min(size, voids.widths(FIFTH) * cell * request.smallest / FINE)
-    size = min(max(size, _finest(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box(extents) / FEWEST))
+    size = min(
+        max(size, _finest_voxel(extents, slabs=goes_by_slabs(request, voids))), math.cbrt(_box_volume(extents) / FEWEST)
+    )
     if size > request.wall / LEAST_ACROSS:
         raise GeometryError(
             f"wall is {request.wall:g} mm, and the part {extents.max():.4g} mm long: a grid as fine as such a wall "
@@ -99,22 +101,22 @@ def voxel_for(request: Request, voids: Voids, extents: NDArray[np.floating], cel
     return size
 
 
-def _box(extents: NDArray[np.floating]) -> float:
+def _box_volume(extents: NDArray[np.floating]) -> float:
     """Return the volume of the box around a part, mm³; a flat one is as thick as a thousandth of its length."""
     return float(math.prod(np.maximum(extents, extents.max() / 1000).tolist()))
 
 
-def _finest(extents: NDArray[np.floating], *, slabs: bool) -> float:
-    """Return the side of the cells of the finest grid around a part, mm: in slabs, what is tall costs only time."""
-    size = math.cbrt(_box(extents) / MOST)
+def _finest_voxel(extents: NDArray[np.floating], *, slabs: bool) -> float:
+    """Return the side of the cells of the finest grid around a part, mm: in slabs, height costs only time."""
+    size = math.cbrt(_box_volume(extents) / MOST)
     if not slabs:
         return size
     low = np.array([*extents[:2], min(extents[2], max(extents[:2]))])
-    return max(math.cbrt(_box(low) / MOST), math.cbrt(_box(extents) / MOST_IN_SLABS))
+    return max(math.cbrt(_box_volume(low) / MOST), math.cbrt(_box_volume(extents) / MOST_IN_SLABS))
 
 
 def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> float:
-    """Return the largest side of the cells of a grid that still has the pattern in it, mm."""
+    """Return the largest side of the cells of a grid that still resolves the pattern, mm."""
     if request.voxel is not None:
         return request.voxel
     width *= request.thinnest
@@ -129,6 +131,6 @@ def coarsest_for(request: Request, voids: Voids, cell: float, width: float) -> f
 
 
 def goes_by_slabs(request: Request, voids: Voids) -> bool:
-    """Return whether voids may be made slab by slab: upright ones of one width, closed, in a part taken as one."""
+    """Tell whether voids may be made slab by slab: upright, of one width, closed, in a part taken as one."""
     upright = isinstance(voids, Drawn) and voids.grading is None and voids.bodies is None
     return upright and request.form == "solid" and request.open_ is None

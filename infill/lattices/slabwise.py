@@ -1,7 +1,7 @@
-"""The voids of a tall part slab by slab, if they are upright: what is held at a time does not grow with its height.
+"""The voids of a tall part slab by slab, if they are upright: memory does not grow with the height of the part.
 
-A step of the equation moves nothing further than by a cell. So a slab is smoothed together with as many layers beside
-it as there are steps, and is what it would be in the whole, to the last bit. Slabs that are alike are looked at once.
+A step of the equation moves nothing further than a cell. So a slab is smoothed together with one layer beside it for
+each step, and is the same as in the whole part, to the last bit. Slabs that are alike are computed once.
 """
 
 from __future__ import annotations
@@ -25,31 +25,31 @@ from infill.lattices.surfacing import SPECK, outside_of, smoothed_void, smoothin
 from infill.meshes.shells import with_faces
 from infill.surface import Surface
 
-Found = TypeVar("Found")
+Outcome = TypeVar("Outcome")
 
 
 def cells_filled(space: Space, voids: Drawn, *, cell: float, width: float) -> float:
-    """Return how many cells voids fill before they are smoothed, parts of cells counted as such."""
+    """Count the cells that voids fill before they are smoothed, parts of cells counted as such."""
     planes = voids.planes(space, cell=cell, width=width)
-    known: dict[tuple[object, ...], float] = {}
+    filled_by_slab: dict[tuple[object, ...], float] = {}
     filled = 0.0
     for low, high in space.layers.bounds():
-        if (key := space.layers.alike(low, high)) not in known:
+        if (key := space.layers.alike(low, high)) not in filled_by_slab:
             depth = space.layers.between(low, high)
             out = np.empty_like(depth)
-            known[key] = sum(voids.lesser(out, depth, plane, width / space.size) for plane in planes)
-        filled += known[key]
+            filled_by_slab[key] = sum(voids.lesser(out, depth, plane, width / space.size) for plane in planes)
+        filled += filled_by_slab[key]
     return filled
 
 
 def unmade(space: Space, voids: Drawn, request: Request, sizes: tuple[float, float], *, threads: int | None) -> Hollow:
-    """Return voids of which only the volume is known, and how their surfaces are made."""
+    """Defer the making of voids: compute only their volume, and keep the function that makes their surfaces."""
     least, volume = SPECK**3, 0.0
-    for slabs in _by_field(space, voids, request, sizes, shells_of, threads):
-        each = volumes_of([shells for _, shells in slabs])
-        volume += float(each[each >= least].sum()) * space.size**3
+    for slabs in _map_pieces(space, voids, request, sizes, shells_of, threads):
+        volumes = volumes_of([shells for _, shells in slabs])
+        volume += float(volumes[volumes >= least].sum()) * space.size**3
 
-    def made(tolerance: float) -> Hollow:
+    def make(tolerance: float) -> Hollow:
         return surfaces_by_slabs(space, voids, request, sizes, tolerance=tolerance, threads=threads)
 
     cell, width = sizes
@@ -61,7 +61,7 @@ def unmade(space: Space, voids: Drawn, request: Request, sizes: tuple[float, flo
         tolerance=0.0,
         islands=0,
         specks=0,
-        unmade=Unmade(volume=volume, made=made),
+        unmade=Unmade(volume=volume, made=make),
     )
 
 
@@ -74,56 +74,58 @@ def surfaces_by_slabs(
     tolerance: float,
     threads: int | None,
 ) -> Hollow:
-    """Return the surfaces of the voids, of which those of a slab are simplified before the next one is made.
+    """Make the surfaces of the voids; those of a slab are simplified before the next slab is made.
 
     Parameters
     ----------
     tolerance : float
-        mm; where slabs meet, no triangle is taken, and 0 leaves all.
+        mm; where slabs meet, all triangles stay, and with 0 everywhere.
     """
     cell, width = sizes
     counts = np.zeros(2, dtype=np.int64)  # of pieces of solid that hang free, and of voids that are too small
     lost: list[Surface] = []
 
-    def few(piece: Piece) -> _Few:
-        found = _useful_piece(piece)
-        if found.piece is None or tolerance == 0:
-            return found
-        return replace(found, piece=few_of(found.piece, SHARE * tolerance / space.size))
+    def simplify(piece: Piece) -> _CleanPiece:
+        cleaned = _clean_piece(piece)
+        if cleaned.piece is None or tolerance == 0:
+            return cleaned
+        return replace(cleaned, piece=few_of(cleaned.piece, SHARE * tolerance / space.size))
 
     surfaces = []
-    fields = _by_field(space, voids, request, sizes, few, threads)
-    while fields:  # what is stitched together is not kept in pieces too
+    fields = _map_pieces(space, voids, request, sizes, simplify, threads)
+    while fields:  # popped, so that pieces are freed once they are stitched
         slabs = fields.pop(0)
-        counts += np.sum([each.counts for _, each in slabs if each is not None] or [(0, 0)], axis=0)
-        if all(each is None or each.piece is None for _, each in slabs):
+        counts += np.sum([cleaned.counts for _, cleaned in slabs if cleaned is not None] or [(0, 0)], axis=0)
+        if all(cleaned is None or cleaned.piece is None for _, cleaned in slabs):
             continue
-        kept, islands, specks, loose = useful(_in_place(stitched(_taken(slabs)), space), (SPECK * space.size) ** 3)
+        void_surface, islands, specks, loose = useful(
+            _scale_in_place(stitched(_pop_pieces(slabs)), space), (SPECK * space.size) ** 3
+        )
         counts += (islands, specks)
         lost.extend(loose)
-        if kept is not None:
-            surfaces.append(kept)
+        if void_surface is not None:
+            surfaces.append(void_surface)
     islands, specks = counts.tolist()
     return Hollow(
         space=space,
         cell=cell,
         width=width,
-        surfaces=[each for each in (outside_of(surface, lost, threads) for surface in surfaces) if each is not None],
+        surfaces=[void for void in (outside_of(surface, lost, threads) for surface in surfaces) if void is not None],
         tolerance=0.0,
         islands=islands,
         specks=specks,
     )
 
 
-def _taken(slabs: list[tuple[int, _Few | None]]) -> Iterator[tuple[int, Piece | None]]:
+def _pop_pieces(slabs: list[tuple[int, _CleanPiece | None]]) -> Iterator[tuple[int, Piece | None]]:
     """Yield the pieces in slabs, from the bottom, and empty the list."""
     while slabs:
-        low, each = slabs.pop(0)
-        yield low, None if each is None else each.piece
+        low, cleaned = slabs.pop(0)
+        yield low, None if cleaned is None else cleaned.piece
 
 
-def _in_place(surface: Surface, space: Space) -> Surface:
-    """Return a surface in mm, of which the vertices were in cells and are overwritten."""
+def _scale_in_place(surface: Surface, space: Space) -> Surface:
+    """Convert a surface from cells to mm; its vertices are overwritten."""
     vertices = surface.vertices
     vertices *= space.size
     vertices += space.origin
@@ -131,43 +133,43 @@ def _in_place(surface: Surface, space: Space) -> Surface:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class _Few:
-    """What is of use in a piece, if anything is; how much solid hangs free in it, and how many voids are too small."""
+class _CleanPiece:
+    """The useful part of a piece, if any; the number of floating bits of solid, and of voids that are too small."""
 
     piece: Piece | None
     counts: tuple[int, int]
 
 
-def _useful_piece(piece: Piece) -> _Few:
-    """Return a piece without what is too small, as far as it lies in there entirely."""
+def _clean_piece(piece: Piece) -> _CleanPiece:
+    """Drop shells of a piece that are too small and lie entirely inside the piece."""
     names, _ = shell_names(piece.surface)
     shells = shells_of(piece)
     small = np.abs(shells.volumes) < SPECK**3
     small[shells.low] = small[shells.high] = False
     if not small.any():
-        return _Few(piece=piece, counts=(0, 0))
-    kept, solid = ~small[names[piece.surface.faces[:, 0]]], shells.volumes < 0
-    return _Few(
-        piece=replace(piece, surface=with_faces(piece.surface, kept)) if kept.any() else None,
+        return _CleanPiece(piece=piece, counts=(0, 0))
+    is_kept, solid = ~small[names[piece.surface.faces[:, 0]]], shells.volumes < 0
+    return _CleanPiece(
+        piece=replace(piece, surface=with_faces(piece.surface, is_kept)) if is_kept.any() else None,
         counts=(int((small & solid).sum()), int((small & ~solid).sum())),
     )
 
 
-def _by_field(
+def _map_pieces(
     space: Space,
     voids: Drawn,
     request: Request,
     sizes: tuple[float, float],
-    then: Callable[[Piece], Found | None],
+    function: Callable[[Piece], Outcome | None],
     threads: int | None,
-) -> list[list[tuple[int, Found | None]]]:
-    """Return what a function finds in each piece, with the first layer of its slab: a list for each field."""
+) -> list[list[tuple[int, Outcome | None]]]:
+    """Apply a function to each piece; return the results with the first layer of each slab, a list for each field."""
     (cell, width), layers = sizes, space.layers
     smoothing = smoothing_for(space, voids, request, sizes)
     planes = voids.planes(space, cell=cell, width=width)
     beside = smoothing.steps + 1
 
-    def found_in(depth: NDArray[np.float32], plane: NDArray[np.float32], low: int, high: int) -> Found | None:
+    def process(depth: NDArray[np.float32], plane: NDArray[np.float32], low: int, high: int) -> Outcome | None:
         distance = np.empty_like(depth)
         voids.lesser(distance, depth, plane, width / space.size)
         field = smoothed_void(distance, depth, smoothing, threads=threads)
@@ -175,17 +177,17 @@ def _by_field(
             return None
         surface = extract_bricks(field, spacing=(1.0,) * 3, origin=(-0.5,) * 3, threads=threads)
         piece = piece_between(surface, low, high)
-        return None if piece is None else then(piece)
+        return None if piece is None else function(piece)
 
-    known: dict[tuple[object, ...], list[Found | None]] = {}
-    found: list[list[tuple[int, Found | None]]] = [[] for _ in planes]
+    results_by_slab: dict[tuple[object, ...], list[Outcome | None]] = {}
+    fields: list[list[tuple[int, Outcome | None]]] = [[] for _ in planes]
     for low, high in layers.bounds():
-        first, last = max(0, low - beside), min(space.shape[2], high + 1 + beside)
-        key = (low - first, high - first, *layers.alike(first, last))
-        if key not in known:
-            depth = layers.between(first, last)
-            known[key] = [found_in(depth, plane, low - first, high - first) for plane in planes]
+        low_layer, high_layer = max(0, low - beside), min(space.shape[2], high + 1 + beside)
+        key = (low - low_layer, high - low_layer, *layers.alike(low_layer, high_layer))
+        if key not in results_by_slab:
+            depth = layers.between(low_layer, high_layer)
+            results_by_slab[key] = [process(depth, plane, low - low_layer, high - low_layer) for plane in planes]
             del depth
-        for each, one in zip(found, known[key], strict=True):
-            each.append((low, one))
-    return found
+        for field, result in zip(fields, results_by_slab[key], strict=True):
+            field.append((low, result))
+    return fields

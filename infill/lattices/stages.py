@@ -1,4 +1,4 @@
-"""What a filled part was made from."""
+"""The intermediate surfaces of a fill, for pictures."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ class FillStages:
     Parameters
     ----------
     part : Surface, mm
-        The part whose skin the result has.
+        The part; the result keeps its skin.
     voids : Surface, mm
-        What was taken out of it, facing outwards.
+        The voids taken out of it, facing outwards.
     shown : Surface, mm
-        What was made.
+        The resulting surface.
     opening : Opening or None
         Where the part has no shell.
     cuts : tuple of Cut
-        Where a picture is cut open; where its inside is seen best by default.
+        Where a picture is cut open; by default where its inside is seen best.
     """
 
     part: Surface
@@ -39,7 +39,7 @@ class FillStages:
     cuts: tuple[Cut, ...] = ()
 
     def picture(self, surface: Surface, report: Mapping[str, Any]) -> Image.Image:  # noqa: ARG002 - of all stages
-        """Return cuts that show the inside: in a project, of the infill, as the part is whole."""
+        """Draw cuts that show the inside: in a project, of the infill, as the part is whole."""
         from infill.pictures.cuts import cuts
 
         return cuts(self.shown, report, part=self.part, given=self.cuts)

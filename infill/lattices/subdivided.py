@@ -19,12 +19,12 @@ from patterns.octree import Octree, doubled
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
-SHELL = 1.5  # cells of the grid: so far outside of the inner side of a wall it is looked for
+SHELL = 1.5  # cells of the grid: width of the band outside the inner side of a wall that counts as skin
 FLAT = 0.5**0.5  # cosine of 45 degrees: a roof that is steeper needs nothing below it
-SHARES = (0.6, 0.3, 0.1)  # of a part, that the smallest cubes and larger ones take: a guess
+SHARES = (0.6, 0.3, 0.1)  # of a part, taken by the smallest cubes and by larger ones: a guess
 DIAGONAL = 3**0.5  # of a cube, over its side
-NEAR, TRIES = 1e-4, 40  # of the density of that: when it is near enough
-ONCE = 1 << 20  # cells of the grid that are looked at at a time
+NEAR, TRIES = 1e-4, 40  # of the density: error that is good enough, and tries at most
+ONCE = 1 << 20  # cells of the grid in a batch
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -34,13 +34,13 @@ class Tree:
     Parameters
     ----------
     space : Space
-        For which it was made.
+        The space for which it was made.
     doubled : (n, m, k) uint8
-        How often the cube is doubled in which each of the smallest ones lies.
+        For each of the smallest cubes, how often the cube around it is doubled.
     first : (3,) int64
         The number of the first of these, along each axis of the pattern.
     colours : tuple of int
-        Those of cubes that lie in the part: see `infill.kernels.cells.from_cubes`.
+        Of cubes that lie in the part: see `infill.kernels.cells.from_cubes`.
     """
 
     space: Space
@@ -50,7 +50,7 @@ class Tree:
 
     @property
     def reach(self) -> float:
-        """How far from cubes distances to them are known, in the smallest ones."""
+        """Distance from cubes up to which distances are exact, in sides of the smallest cubes."""
         return 0.5 * float(1 << int(self.doubled.min()))
 
 
@@ -68,11 +68,11 @@ class Subdivided:
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
-        How it begins anew in each component of the part: the anchor is then that from its middle.
+        Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
     known : dict
         The cubes, for a space and a cell.
     skins : dict
-        What the pattern follows, for a space.
+        The skin that the pattern follows, for a space.
     """
 
     pattern: Octree
@@ -93,7 +93,7 @@ class Subdivided:
         return replace(self, anchor=middle + self.anchor, bodies=None, known={}, skins={})
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
-        """As many as there are colours."""
+        """Count the colours."""
         if self.bodies is not None:
             return self.bodies.count(self, space, cell=cell, width=width)
         return len(self.tree(space, cell).colours)
@@ -123,7 +123,7 @@ class Subdivided:
         return float(sum(filled))
 
     def widths(self, density: float) -> float:
-        """See `Voids`: a guess, as nothing is known of the part."""
+        """See `Voids`: a guess that does not depend on the part."""
         shares = np.array(SHARES[: self.pattern.levels + 1])
         shares, sides = shares / shares.sum(), 2.0 ** np.arange(len(shares))
 
@@ -134,67 +134,70 @@ class Subdivided:
         return density / 3 * root(off, NEAR, TRIES)
 
     def tree(self, space: Space, cell: float) -> Tree:
-        """Return the cubes in a space, the smallest of which have sides of a cell, mm."""
+        """Return the cubes in a space; the smallest have sides of a cell, mm."""
         key = id(space), cell
         if key not in self.known:
             self.known.clear()
-            self.known[key] = self._found(space, cell)
+            self.known[key] = self._build_tree(space, cell)
         return self.known[key]
 
     def _start(self, space: Space, cell: float) -> NDArray[np.float64]:
-        """Return where the first cell of the grid lies in the pattern, in the smallest cubes."""
+        """Return the place of the first cell of the grid in the pattern, in sides of the smallest cubes."""
         start: NDArray[np.float64] = self.turn @ (space.origin - self.anchor) / cell + self.pattern.middle
         return start
 
-    def _found(self, space: Space, cell: float) -> Tree:
+    def _build_tree(self, space: Space, cell: float) -> Tree:
         from infill.kernels.cells import colours_of_cubes
 
-        start, step, most = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
+        start, step, period = self._start(space, cell), self.turn * space.size / cell, self.pattern.cells
         ends = np.array(np.meshgrid(*[(0, n - 1) for n in space.depth.shape])).reshape(3, -1).T @ step.T + start
-        first = (np.floor((ends.min(axis=0) - 1) / most) * most).astype(np.int64)
-        counts = (np.floor((ends.max(axis=0) + 1) / most) * most).astype(np.int64) + most - first
-        depth, tree, whole = space.below_walls, self._skin(space), []
+        lowest = (np.floor((ends.min(axis=0) - 1) / period) * period).astype(np.int64)
+        counts = (np.floor((ends.max(axis=0) + 1) / period) * period).astype(np.int64) + period - lowest
+        depth, tree, is_whole = space.below_walls, self._skin(space), []
         for level in range(1, self.pattern.levels + 1):
             side = 1 << level
-            middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + first
+            middles = np.indices(tuple((counts // side).tolist())).reshape(3, -1).T * side + side / 2 + lowest
             cells = (middles - start) @ np.linalg.inv(step).T
             reach = side / 2 * cell / space.size
-            reaches = np.where(_inside(depth, cells), reach, DIAGONAL * reach)
-            away, _ = tree.query(cells, distance_upper_bound=DIAGONAL * reach, workers=thread_count(self.threads))
-            whole.append((away >= reaches).reshape(counts // side))
-        cubes = doubled(whole)
-        seen = in_threads(colours_of_cubes, space.depth, cubes, step, start - first, threads=thread_count(self.threads))
+            reaches = np.where(_are_inside(depth, cells), reach, DIAGONAL * reach)
+            distances, _ = tree.query(cells, distance_upper_bound=DIAGONAL * reach, workers=thread_count(self.threads))
+            is_whole.append((distances >= reaches).reshape(counts // side))
+        cubes = doubled(is_whole)
+        seen = in_threads(
+            colours_of_cubes, space.depth, cubes, step, start - lowest, threads=thread_count(self.threads)
+        )
         colours = tuple(np.flatnonzero(np.any(seen, axis=0)).tolist())
-        return Tree(space=space, doubled=cubes, first=first, colours=colours)
+        return Tree(space=space, doubled=cubes, first=lowest, colours=colours)
 
     def _skin(self, space: Space) -> cKDTree:
-        """Return the cells of a grid where the pattern follows the inner side of a wall, as places to look up.
+        """Find the cells of a grid where the pattern follows the inner side of a wall, as a search tree of places.
 
-        They are those just outside of it, or of a roof just inside: where depths rise downwards by `FLAT` or more.
+        They are the cells just outside it, or just inside it below a roof, where depths rise downwards by `FLAT` or
+        more.
         """
         from scipy.spatial import cKDTree
 
         if id(space) not in self.skins:
             self.skins.clear()
             depth = space.below_walls
-            every = max(1, ONCE // depth[0].size)
-            found = []
-            for low in range(0, len(depth), every):
-                some = depth[low : low + every]
+            rows = max(1, ONCE // depth[0].size)
+            places = []
+            for low in range(0, len(depth), rows):
+                slab = depth[low : low + rows]
                 if self.pattern.roofs:
-                    near = np.zeros(some.shape, dtype=bool)
-                    below, above = some[:, :, :-1], some[:, :, 1:]
-                    near[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
+                    is_skin = np.zeros(slab.shape, dtype=bool)
+                    below, above = slab[:, :, :-1], slab[:, :, 1:]
+                    is_skin[:, :, :-1] = (below > 0) & (above <= 0) & (below - above >= FLAT)
                 else:
-                    near = (some <= 0) & (some > -SHELL)
-                found.append(np.argwhere(near) + np.array([low, 0, 0]))
-            self.skins[id(space)] = space, cKDTree(np.concatenate(found))
+                    is_skin = (slab <= 0) & (slab > -SHELL)
+                places.append(np.argwhere(is_skin) + np.array([low, 0, 0]))
+            self.skins[id(space)] = space, cKDTree(np.concatenate(places))
         return self.skins[id(space)][1]
 
 
-def _inside(depth: NDArray[np.float32], cells: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which of some points (N, 3), in cells of the grid, lie inside the walls."""
-    at, most = np.round(cells).astype(np.int64), np.array(depth.shape) - 1
-    inside: NDArray[np.bool_] = depth[tuple(np.clip(at, 0, most).T)] > 0
-    inside &= np.all((at >= 0) & (at <= most), axis=1)
+def _are_inside(depth: NDArray[np.float32], cells: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Test which points (N, 3), in cells of the grid, lie inside the walls."""
+    at, upper = np.round(cells).astype(np.int64), np.array(depth.shape) - 1
+    inside: NDArray[np.bool_] = depth[tuple(np.clip(at, 0, upper).T)] > 0
+    inside &= np.all((at >= 0) & (at <= upper), axis=1)
     return inside

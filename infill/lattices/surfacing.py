@@ -1,4 +1,4 @@
-"""From the fields of voids to their surfaces: smoothed, and none that is of no use."""
+"""From the fields of voids to their surfaces: smoothed, and without pieces that are of no use."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from infill.phasefield.refining import on_profile
 from infill.phasefield.sparse import SparseField, smooth_bricks
 from infill.surface import Surface
 
-SHORTEST = 1e-3  # cells²: what moves by curvature in this time is not seen
+SHORTEST = 1e-3  # cells²: motion by curvature in a shorter time is invisible
 SPECK = 2.0  # cells of the grid: voids smaller than a cube of this side are left solid
 
 
 def smoothing_for(space: Space, voids: Voids, request: Request, sizes: tuple[float, float]) -> Smoothing:
-    """Return the steps that round corners to the radius asked for, for a cell and a width of walls or bars, mm."""
+    """Choose the steps that round corners to the requested radius, for a cell and a width of walls or bars, mm."""
     (cell, width), smoothing = sizes, Smoothing(interface=INTERFACE, fidelity=0.0)
-    sharpest = voids.sharpest(_reached(space, request), cell=cell, width=width)
+    sharpest = voids.sharpest(_reachable_space(space, request), cell=cell, width=width)
     bar = width * request.thinnest if barred(request.kind) else None
     radius = request.radius(space.thickness)
     times = times_for(radius, sharpest, bar, cell=space.size) / space.size**2  # cells²
@@ -43,11 +43,11 @@ def smoothing_for(space: Space, voids: Voids, request: Request, sizes: tuple[flo
 def surfaces_of(
     space: Space, voids: Voids, request: Request, sizes: tuple[float, float], threads: int | None
 ) -> Hollow:
-    """Return the surfaces of the voids, smoothed, without what is no void of any use."""
+    """Make the surfaces of the voids: smoothed, without pieces of no use."""
     cell, width = sizes
     out = np.empty_like(space.depth)
     smoothing = smoothing_for(space, voids, request, sizes)
-    inside, walls = _reached(space, request), None
+    inside, walls = _reachable_space(space, request), None
     if request.form == "project":
         walls = inner_side(space, overlap=0.0, tolerance=request.tolerance / 4, threads=threads)
     surfaces, islands, specks = [], 0, 0
@@ -65,12 +65,12 @@ def surfaces_of(
             if reaching is None:
                 continue
             surface = reaching
-        kept, few, small, loose = useful(surface, (SPECK * space.size) ** 3)
-        islands, specks = islands + few, specks + small
+        useful_surface, floating, tiny, loose = useful(surface, (SPECK * space.size) ** 3)
+        islands, specks = islands + floating, specks + tiny
         lost.extend(loose)
-        if kept is not None:
-            surfaces.append(kept)
-    surfaces = [each for each in (outside_of(surface, lost, threads) for surface in surfaces) if each is not None]
+        if useful_surface is not None:
+            surfaces.append(useful_surface)
+    surfaces = [void for void in (outside_of(surface, lost, threads) for surface in surfaces) if void is not None]
     return Hollow(
         space=space,
         cell=cell,
@@ -83,7 +83,7 @@ def surfaces_of(
     )
 
 
-def _reached(space: Space, request: Request) -> Space:
+def _reachable_space(space: Space, request: Request) -> Space:
     """Return the space that voids may take: in a project, through the walls and a little out of the part."""
     return space.unwalled if request.form == "project" else space
 
@@ -91,12 +91,12 @@ def _reached(space: Space, request: Request) -> Space:
 def smoothed_void(
     distance: NDArray[np.float32], depth: NDArray[np.float32], smoothing: Smoothing, *, threads: int | None
 ) -> SparseField | None:
-    """Return the smoothed field of a void, or None if nothing of it is left.
+    """Smooth the field of a void; return None if nothing of it is left.
 
     Parameters
     ----------
     distance, depth : (nx, ny, nz) float32
-        Into the void, which is overwritten, and below the inner side of the wall, in cells.
+        Distance into the void, which is overwritten, and depth below the inner side of the wall, in cells.
     smoothing : Smoothing
     """
     if not (distance > 0).any():
@@ -112,27 +112,27 @@ def smoothed_void(
 
 
 def useful(surface: Surface, least: float) -> tuple[Surface | None, int, int, list[Surface]]:
-    """Return the voids larger than a volume, mm³, filled where solid hangs free, and how many were neither."""
+    """Drop voids below a volume, mm³, and floating solid; return the rest, both counts, and the floating pieces."""
     names, count = shell_names(surface)
     volume = shell_volumes(surface, names, count)
     islands, specks = volume < 0, (volume >= 0) & (volume < least)
     if not (islands.any() or specks.any()):
         return surface, 0, 0, []
-    shell, kept = names[surface.faces[:, 0]], volume >= least
-    pieces = [with_faces(surface, shell == each) for each in np.flatnonzero(islands)]
+    shell, is_kept = names[surface.faces[:, 0]], volume >= least
+    pieces = [with_faces(surface, shell == island) for island in np.flatnonzero(islands)]
     loose = [replace(piece, faces=piece.faces[:, ::-1]) for piece in pieces]
-    useful = with_faces(surface, kept[shell]) if kept.any() else None
-    return useful, int(islands.sum()), int(specks.sum()), loose
+    rest = with_faces(surface, is_kept[shell]) if is_kept.any() else None
+    return rest, int(islands.sum()), int(specks.sum()), loose
 
 
-def outside_of(surface: Surface, lost: list[Surface], threads: int | None) -> Surface | None:
-    """Return the shells that do not lie in pieces that were lost."""
-    for piece in lost:
-        names, first = shell_names(surface)[0], first_of_shells(surface)
-        within = winding(np.asarray(surface.vertices, dtype=np.float64)[first], piece, threads=threads) > 0
+def outside_of(surface: Surface, dropped: list[Surface], threads: int | None) -> Surface | None:
+    """Drop the shells that lie in pieces of solid that were dropped; return None if no shell remains."""
+    for piece in dropped:
+        names, starts = shell_names(surface)[0], first_of_shells(surface)
+        within = winding(np.asarray(surface.vertices, dtype=np.float64)[starts], piece, threads=threads) > 0
         if within.any():
-            kept = ~within[names[surface.faces[:, 0]]]
-            if not kept.any():
+            is_kept = ~within[names[surface.faces[:, 0]]]
+            if not is_kept.any():
                 return None
-            surface = with_faces(surface, kept)
+            surface = with_faces(surface, is_kept)
     return surface

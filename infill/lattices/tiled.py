@@ -21,7 +21,7 @@ from patterns.shared import angle_parameter, cell_parameter
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Tiled(Pattern):
-    """The lines of a tile, repeated in both directions; one tile has its middle at (0, 0).
+    """The lines of a repeated tile; one tile has its middle at (0, 0).
 
     Parameters
     ----------
@@ -45,13 +45,13 @@ class Tiled(Pattern):
     angle: float = angle_parameter()
 
     def lines(self, region: shapely.Polygon | shapely.MultiPolygon, z: float = 0.0) -> shapely.MultiLineString:  # noqa: ARG002 - prismatic
-        """Return the lines of all tiles that reach into a region."""
+        """Draw the lines of all tiles that reach into a region."""
         corners = turn(shapely.get_coordinates(shapely.envelope(region)), -self.angle) / self.cell
         points = np.concatenate(self.drawn)
         size = np.array([1.0, self.height])
-        first = np.floor((corners.min(axis=0) - points.max(axis=0)) / size)
-        last = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
-        column, row = np.meshgrid(np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1), indexing="ij")
+        lower = np.floor((corners.min(axis=0) - points.max(axis=0)) / size)
+        upper = np.ceil((corners.max(axis=0) - points.min(axis=0)) / size)
+        column, row = np.meshgrid(np.arange(lower[0], upper[0] + 1), np.arange(lower[1], upper[1] + 1), indexing="ij")
         shifts = np.stack([column.ravel(), row.ravel()], axis=-1) * size
         placed = [
             shapely.linestrings(turn((line[None] + shifts[:, None]) * self.cell, self.angle)) for line in self.drawn
@@ -64,20 +64,24 @@ class Tiled(Pattern):
 
 
 def tiled(path: str | os.PathLike[str]) -> Tiled:
-    """Return a drawing as a pattern.
+    """Read a drawing as a pattern.
 
     Parameters
     ----------
     path : str or Path
-        As `read_drawing` takes it. What is repeated is what `refill` repeats: the page, or the box around the lines.
+        As `read_drawing` takes it. The tile is that of `refill`: the page, or the box around the lines.
 
     Raises
     ------
     FormatError
         See `read_drawing`.
     """
-    found = read_drawing(path)
-    drawing = traced(found, Path(path)) if isinstance(found, Picture) else replace(found, page=tile_of(found))
+    picture_or_drawing = read_drawing(path)
+    drawing = (
+        traced(picture_or_drawing, Path(path))
+        if isinstance(picture_or_drawing, Picture)
+        else replace(picture_or_drawing, page=tile_of(picture_or_drawing))
+    )
     assert drawing.page is not None
     x0, y0, x1, y1 = drawing.page
     middle, width = np.array([(x0 + x1) / 2, (y0 + y1) / 2]), x1 - x0

@@ -1,6 +1,6 @@
 """The voids that a pattern leaves in a part, each as a field of distances, in cells of the grid.
 
-Voids that lie next to one another are in fields of their own: a wall between them needs no cell of the grid in it.
+Voids that lie next to each other are in separate fields, so a wall between them needs no cell of the grid in it.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from infill.lattices.grading import NONE, Grading
 from patterns.polyhedra import Polyhedra
 from patterns.unit_cells import Bars, Binned, Cellular, Network, Planes, Surfaces
 
-WIDE = 1000.0  # cells, in which planes that are aslant to one another lie every way
+WIDE = 1000.0  # cells, in which planes at odd angles to each other lie in all relative positions
 NODES = 48  # of the table of a period, along each axis
 FIELD = NDArray[np.float32]
 
@@ -29,11 +29,11 @@ class Voids(Protocol):
     """The voids of a pattern."""
 
     def count(self, space: Space, *, cell: float, width: float) -> int:
-        """Return how many fields the voids need."""
+        """Count the fields that the voids need."""
         ...
 
     def into(self, out: FIELD, space: Space, which: int, *, cell: float, width: float) -> float:
-        """Write how deep each cell lies in the void or below the wall, the lesser; return how many cells that fills."""
+        """Write the lesser of the depth in the void and below the wall; return the number of cells it fills."""
         ...
 
     def widths(self, density: float) -> float:
@@ -41,12 +41,12 @@ class Voids(Protocol):
         ...
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:
-        """How sharp the corners of voids are, degrees, where walls of the pattern meet: few are sharper."""
+        """Return the angle of the sharpest corners of voids, degrees, where walls of the pattern meet."""
         ...
 
     @property
     def grading(self) -> Grading | None:
-        """How the width changes from place to place; what is called the width is that of the middle."""
+        """Variation of the width from place to place; the nominal width is that of the middle density."""
         ...
 
 
@@ -64,7 +64,7 @@ class Repeating:
     threads : int, optional
     grading : Grading, optional
     bodies : Bodies, optional
-        How it begins anew in each component of the part: the anchor is then that from its middle.
+        Set if the pattern starts over in each component of the part; the anchor is then relative to its middle.
     """
 
     pattern: Cellular
@@ -76,14 +76,14 @@ class Repeating:
 
     def sharpest(self, space: Space, *, cell: float, width: float) -> float:  # noqa: ARG002 - of the protocol
         """See `Voids`: the same for all cells."""
-        return _sharpest(self.pattern)
+        return _sharpest_angle(self.pattern)
 
     def about(self, middle: NDArray[np.float64]) -> Repeating:
         """See `Anchored`."""
         return replace(self, anchor=middle + self.anchor, bodies=None)
 
     def count(self, space: Space, *, cell: float, width: float) -> int:  # noqa: ARG002 - of the protocol
-        """Two beside a surface, one for each class of closed cells, one around bars."""
+        """Count the fields: two beside a surface, one for each class of closed cells, one around bars."""
         if isinstance(self.pattern, (Planes, Polyhedra)):
             return self.pattern.classes
         return 1 if self.pattern.bars else 2
@@ -102,7 +102,7 @@ class Repeating:
                 from_bars,
                 space.depth,
                 -BAND,
-                *_binned(self.pattern),
+                *_bin_bars(self.pattern),
                 self.turn,
                 start,
                 period,
@@ -180,46 +180,46 @@ class Repeating:
 
     def widths(self, density: float) -> float:
         """See `Voids`."""
-        return float(2 * np.quantile(_samples(self.pattern), density))
+        return float(2 * np.quantile(_sample_distances(self.pattern), density))
 
 
 def local_widths(voids: Voids, space: Space) -> tuple[NDArray[np.float32], float]:
-    """Return how many times as wide walls are from place to place, as kernels take it."""
+    """Return the factors of the width of walls, and the step of their nodes, as kernels take them."""
     if voids.grading is None:
         return NONE
-    found = voids.grading.over(space, voids.widths)
-    return found.ratio, found.step
+    local = voids.grading.over(space, voids.widths)
+    return local.ratio, local.step
 
 
 def _spline(voids: Voids, space: Space) -> NDArray[np.float64] | None:
-    """Return where cells of the grid lie in a pattern whose cells follow a field."""
+    """Return the places of cells of the grid in a pattern whose cells follow a field; None without such a field."""
     return None if voids.grading is None else voids.grading.over(space, voids.widths).spline
 
 
 @cache
 def period_table(pattern: Surfaces | Network) -> NDArray[np.float32]:
-    """Return the distances from a surface at the nodes of one period, in periods, as kernels read them."""
+    """Compute the distances from a surface at the nodes of one period, in periods, as kernels read them."""
     line = np.arange(NODES) / NODES
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
     return pattern.distance(points).reshape(NODES, NODES, NODES).astype(np.float32)
 
 
 @cache
-def _sharpest(pattern: Cellular) -> float:
+def _sharpest_angle(pattern: Cellular) -> float:
     return between_walls(pattern)
 
 
 @cache
-def _binned(pattern: Bars) -> Binned:
+def _bin_bars(pattern: Bars) -> Binned:
     return pattern.around_cell()
 
 
 @cache
-def _samples(pattern: Cellular) -> NDArray[np.floating]:
-    """Return how far points spread evenly over a period lie from the walls or bars, in cells."""
+def _sample_distances(pattern: Cellular) -> NDArray[np.floating]:
+    """Return the distances of points spread evenly over a period from the walls or bars, in cells."""
     if isinstance(pattern, Planes):
-        if not all(float(each).is_integer() for normal in pattern.normals for each in normal):
-            # They repeat in no cube.
+        if not all(float(component).is_integer() for normal in pattern.normals for component in normal):
+            # They do not repeat in any cube.
             return pattern.distance(np.random.default_rng(0).uniform(0, WIDE, (NODES**3, 3)))
         line = (np.arange(NODES) + 0.5) / NODES
         return pattern.distance(np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3))
@@ -227,15 +227,17 @@ def _samples(pattern: Cellular) -> NDArray[np.floating]:
         from infill.kernels.cells import from_polyhedra
 
         box, middles = pattern.lattice()
-        deep, found = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
-        every, step = middles.reshape(-1, 3), box / NODES
-        from_polyhedra(deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, every, 0.0, *NONE, found, 0, 1)
-        return found.ravel()
+        deep, distances = np.full((NODES,) * 3, np.float32(np.inf)), np.empty((NODES,) * 3, dtype=np.float32)
+        all_middles, step = middles.reshape(-1, 3), box / NODES
+        from_polyhedra(
+            deep, 0.0, np.diag(step), step / 2, *pattern.faces(), box, all_middles, 0.0, *NONE, distances, 0, 1
+        )
+        return distances.ravel()
     if not isinstance(pattern, Bars):
         return np.abs(period_table(pattern)).ravel()
     from infill.kernels.cells import from_bars
 
     nodes = NODES * pattern.cells
-    deep, found = np.full((nodes,) * 3, np.float32(np.inf)), np.empty((nodes,) * 3, dtype=np.float32)
-    from_bars(deep, 0.0, *_binned(pattern), np.eye(3), np.full(3, 0.5), float(nodes), 0.0, *NONE, found, 0, 1)
-    return found.ravel() / NODES
+    deep, distances = np.full((nodes,) * 3, np.float32(np.inf)), np.empty((nodes,) * 3, dtype=np.float32)
+    from_bars(deep, 0.0, *_bin_bars(pattern), np.eye(3), np.full(3, 0.5), float(nodes), 0.0, *NONE, distances, 0, 1)
+    return distances.ravel() / NODES

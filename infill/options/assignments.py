@@ -1,4 +1,4 @@
-"""The parameters of a pattern as they are given: by flags, by ``--set name=value``, or in a config file.
+"""Parameters of a pattern from flags, from ``--set name=value``, or from a config file.
 
 In the file, options of the command are at the top level; the pattern's parameters go next to them, or in a table
 `[set]`, where they may have any name.
@@ -21,7 +21,7 @@ SET = "set"
 
 
 class Source(Enum):
-    """Where a parameter can be given by name."""
+    """Ways to give a parameter by name."""
 
     FLAG = "a flag"
     TOP = "the config file"
@@ -30,7 +30,7 @@ class Source(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Given:
-    """A parameter that was given.
+    """The value of a parameter, and its source.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ class Given:
     value : bool, number, tuple or None
         Checked; angles in degrees.
     said : str
-        What was typed, for messages.
+        The typed text, for messages.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Given:
 
 
 def table_of(filed: dict[str, Any]) -> Mapping[str, Any]:
-    """Take the table of parameters out of what a config file holds, and return it."""
+    """Remove the table of parameters from the contents of a config file, and return it."""
     table = filed.pop(SET, {})
     if not isinstance(table, dict):
         raise ParameterError(
@@ -65,15 +65,15 @@ def gathered(
     filed: Mapping[str, Any],
     table: Mapping[str, Any],
 ) -> dict[str, Any]:
-    """Return the parameters of a pattern by name, wherever they are given; the command line wins over the file.
+    """Collect the parameters of a pattern by name from all sources; the command line wins over the file.
 
     Parameters
     ----------
-    kind : Pattern, or what else has a name and parameters
+    kind : Pattern, or another object with a name and parameters
     options : collection of str
         Names that are options of the command.
     flags, filed : mapping
-        What is given by flags and at the top of the file: options, and parameters that no option has the name of.
+        Values from flags and from the top of the file: options, and parameters whose names are not those of options.
     assigned : sequence of str
         Parameters as ``name=value``.
     table : mapping
@@ -82,14 +82,16 @@ def gathered(
     Raises
     ------
     ParameterError
-        If a name is unknown, a parameter is given twice, or cannot have its value.
+        If a name is unknown, or a parameter is given twice or cannot have its value.
     """
-    own = parameters(kind)
+    declared = parameters(kind)
     for name in {**filed, **flags}:
-        if name not in options and name not in own:
+        if name not in options and name not in declared:
             word = name.replace("_", "-")
-            raise ParameterError(f"{kind.name} has no option {quote_value(word)}; {nearest(name, [*own, *options])}")
-    flagged, top = ({name: value for name, value in each.items() if name not in options} for each in (flags, filed))
+            raise ParameterError(
+                f"{kind.name} has no option {quote_value(word)}; {nearest(name, [*declared, *options])}"
+            )
+    flagged, top = ({name: value for name, value in source.items() if name not in options} for source in (flags, filed))
     return merged(
         kind,
         command=[*values(kind, flagged, Source.FLAG), *assignments(kind, assigned, options=options)],
@@ -99,79 +101,81 @@ def gathered(
 
 def values(kind: Named, named: Mapping[str, Any], source: Source) -> Iterator[Given]:
     """Yield parameters given as plain values; dashes and underscores in names are equivalent."""
-    known = parameters(kind)
+    declared = parameters(kind)
     for word, value in named.items():
         name = word.replace("-", "_")
-        if name not in known:
-            raise ParameterError(f"{kind.name} has no parameter {quote_value(word)}; {nearest(name, known)}")
-        yield Given(name=name, value=value_of(kind, name, value), said=_said(name, value, source))
+        if name not in declared:
+            raise ParameterError(f"{kind.name} has no parameter {quote_value(word)}; {nearest(name, declared)}")
+        yield Given(name=name, value=value_of(kind, name, value), said=_format_typed(name, value, source))
 
 
 def assignments(kind: Named, texts: Sequence[str], *, options: Iterable[str] = ()) -> Iterator[Given]:
-    """Yield parameters given as ``name=value``, or raise ParameterError whose message begins with what was typed.
+    """Yield parameters from ``name=value``, or raise ParameterError with a message that begins with the typed text.
 
     Parameters
     ----------
-    kind : Pattern, or what else has a name and parameters
+    kind : Pattern, or another object with a name and parameters
     texts : sequence of str
     options : iterable of str
         Names that are options of the command instead, so that the message can say so.
     """
     flags = {name: f"--{name.replace('_', '-')}" for name in options}
     for text in texts:
-        said = f"--set {' '.join(text.splitlines())}"
+        typed_text = f"--set {' '.join(text.splitlines())}"
         try:
             name, value = assigned(kind, text)
         except PatternError as error:
             word = text.partition("=")[0].strip().replace("-", "_")
             if word in flags and word not in parameters(kind):
-                raise ParameterError(f"{said}: {word} is not a parameter of {kind.name}; give {flags[word]}") from None
-            leaf = UsageError if isinstance(error, PatternUsageError) else ParameterError
-            raise leaf(f"{said}: {error}") from error
-        yield Given(name=name, value=value, said=said)
+                raise ParameterError(
+                    f"{typed_text}: {word} is not a parameter of {kind.name}; give {flags[word]}"
+                ) from None
+            error_class = UsageError if isinstance(error, PatternUsageError) else ParameterError
+            raise error_class(f"{typed_text}: {error}") from error
+        yield Given(name=name, value=value, said=typed_text)
 
 
 def merged(kind: Named, *, command: Iterable[Given], file: Iterable[Given]) -> dict[str, Any]:
-    """Return the parameters by name; the command line wins over the file.
+    """Merge parameters by name; the command line wins over the file.
 
-    A parameter that replaces another (`replaces`) drops the other one if only the file gives it; giving both in one
-    place is an error, as is giving one parameter two values.
+    A parameter that replaces another (`replaces`) drops that one if only the file gives it; giving both in one source
+    is an error, and so are two values of one parameter.
     """
-    typed, filed = _once(command), _once(file)
+    typed, filed = _index_by_name(command), _index_by_name(file)
     for name, (_, described) in parameters(kind).items():
         rival = described.replaces
-        if _counts(typed, rival) and name not in typed:
+        if _has_value(typed, rival) and name not in typed:
             filed.pop(name, None)
-        elif _counts(typed, name) and rival not in typed:
+        elif _has_value(typed, name) and rival not in typed:
             filed.pop(rival, None)
         both = filed | typed
-        if _counts(both, name) and _counts(both, rival):
-            said = f"{both[name].said} and {both[rival].said}"
-            raise UsageError(f"{said} are both given; {name} of {kind.name} replaces {rival}: leave one out")
+        if _has_value(both, name) and _has_value(both, rival):
+            pair = f"{both[name].said} and {both[rival].said}"
+            raise UsageError(f"{pair} are both given; {name} of {kind.name} replaces {rival}: leave one out")
     both = filed | typed
     return {name: both[name].value for name in parameters(kind) if name in both}
 
 
-def _once(given: Iterable[Given]) -> dict[str, Given]:
-    """Return the given parameters by name, or raise ParameterError if one of them has two values."""
-    found: dict[str, Given] = {}
-    for each in given:
-        first = found.setdefault(each.name, each)
-        if first.value != each.value:
-            raise UsageError(f"{first.said} and {each.said} differ; give {each.name} once")
-    return found
+def _index_by_name(entries: Iterable[Given]) -> dict[str, Given]:
+    """Index parameters by name, or raise ParameterError if one of them has two values."""
+    by_name: dict[str, Given] = {}
+    for parameter in entries:
+        earlier = by_name.setdefault(parameter.name, parameter)
+        if earlier.value != parameter.value:
+            raise UsageError(f"{earlier.said} and {parameter.said} differ; give {parameter.name} once")
+    return by_name
 
 
-def _counts(given: Mapping[str, Given], name: str) -> bool:
-    return name in given and given[name].value is not None
+def _has_value(by_name: Mapping[str, Given], name: str) -> bool:
+    return name in by_name and by_name[name].value is not None
 
 
-def _said(name: str, value: object, source: Source) -> str:
-    """Return a parameter as it was typed."""
+def _format_typed(name: str, value: object, source: Source) -> str:
+    """Format a parameter as it was typed."""
     if source is not Source.FLAG:
         return f"{name} = {excerpt(str(value))} in {source.value}"
     word = name.replace("_", "-")
     if isinstance(value, bool):
         return f"--{word}" if value else f"--no-{word}"
     shown = value if isinstance(value, (tuple, list)) else (value,)
-    return " ".join([f"--{word}", *(f"{each:g}" for each in shown)])
+    return " ".join([f"--{word}", *(f"{number:g}" for number in shown)])

@@ -1,4 +1,4 @@
-"""The values of options, as they stand in a TOML file or were typed: each reader checks one kind of them."""
+"""Readers of option values from a TOML file or the command line: each checks values of one kind."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Reader = Callable[[str, object], Any]
 
 
 def parse_word(name: str, value: object) -> str:
-    """Return a word, or raise UsageError."""
+    """Check a word, or raise UsageError."""
     if not isinstance(value, str) or not value.strip():
         raise UsageError(f"{name} is {quote_value(value)}; it must be a word")
     if len(value) > LONGEST_WORD:
@@ -26,16 +26,16 @@ def parse_word(name: str, value: object) -> str:
 
 
 def parse_share(name: str, value: object, advice: str = "give a share such as 20%") -> float:
-    """Return the share in ``20%`` or 0.2, up to 1; raise UsageError, or ParameterError if it is out of range.
+    """Parse the share in ``20%`` or 0.2, up to 1; raise UsageError, or ParameterError if it is out of range.
 
     >>> parse_share("density", "20%"), parse_share("density", 0.2)
     (0.2, 0.2)
     """
     if isinstance(value, str):
-        found = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
-        if not found:
+        match = re.fullmatch(r"\s*([+-]?\d+(?:\.\d+)?|nan|[+-]?inf)\s*(%?)\s*", value)
+        if not match:
             raise UsageError(f"{name} is {quote_value(value)}; {advice}")
-        share = float(found[1]) / (100 if found[2] else 1)
+        share = float(match[1]) / (100 if match[2] else 1)
     else:
         share = parse_number(name, value)
     if not 0 < share <= 1:
@@ -44,21 +44,21 @@ def parse_share(name: str, value: object, advice: str = "give a share such as 20
 
 
 def parse_flag(name: str, value: object) -> bool:
-    """Return true or false, or raise UsageError."""
+    """Check true or false, or raise UsageError."""
     if not isinstance(value, bool):
         raise UsageError(f"{name} is {quote_value(value)}; it must be true or false")
     return value
 
 
 def parse_number(name: str, value: object) -> float:
-    """Return a number, or raise UsageError."""
+    """Check a number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise UsageError(f"{name} is {quote_value(value)}; it must be a number")
     return within_floats(name, value)
 
 
 def within_floats(name: str, value: float) -> float:
-    """Return a number, or raise ParameterError for a whole one that no floating-point number can hold."""
+    """Check that a floating-point number can hold a number, or raise ParameterError."""
     try:
         float(value)
     except OverflowError:
@@ -67,7 +67,7 @@ def within_floats(name: str, value: float) -> float:
 
 
 def parse_whole(name: str, value: object) -> int:
-    """Return a whole number, or raise UsageError."""
+    """Check a whole number, or raise UsageError."""
     if isinstance(value, bool) or not isinstance(value, int):
         raise UsageError(f"{name} is {quote_value(value)}; it must be a whole number")
     if abs(value) > LARGEST_WHOLE:
@@ -76,7 +76,7 @@ def parse_whole(name: str, value: object) -> int:
 
 
 def parse_wholes(name: str, value: object) -> tuple[int, ...]:
-    """Return whole numbers, of which there may be one alone, or raise UsageError.
+    """Check one or more whole numbers, or raise UsageError.
 
     >>> parse_wholes("label", [3, 4]), parse_wholes("label", 3)
     ((3, 4), (3,))
@@ -84,11 +84,11 @@ def parse_wholes(name: str, value: object) -> tuple[int, ...]:
     values = value if isinstance(value, (list, tuple)) else (value,)
     if not values:
         raise UsageError(f"{name} is empty; give a whole number, or several")
-    return tuple(parse_whole(name, each) for each in values)
+    return tuple(parse_whole(name, number) for number in values)
 
 
 def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[float, ...]:
-    """Return numbers with commas between, or in a list; raise UsageError if their count is not in `counts`.
+    """Parse numbers with commas between, or in a list; raise UsageError if their count is not in `counts`.
 
     >>> parse_numbers("range", "200, 900", (2,)), parse_numbers("spacing", 0.5, (1, 3))
     ((200.0, 900.0), (0.5,))
@@ -101,15 +101,15 @@ def parse_numbers(name: str, value: object, counts: tuple[int, ...]) -> tuple[fl
     except (TypeError, ValueError, OverflowError):
         numbers = ()
     if len(numbers) not in counts:
-        wanted = " or ".join(map(str, counts))
-        raise UsageError(f"{name} is {quote_value(value)}; give {wanted} number(s), with commas between")
+        expected = " or ".join(map(str, counts))
+        raise UsageError(f"{name} is {quote_value(value)}; give {expected} number(s), with commas between")
     if not all(map(math.isfinite, numbers)):
         raise ParameterError(f"{name} is {quote_value(value)}; give finite numbers")
     return numbers
 
 
 def parse_level(name: str, value: object) -> Literal["volume"] | float:
-    """Return the level of a surface, by name or number, or raise UsageError.
+    """Parse the level of a surface, by name or number, or raise UsageError.
 
     >>> parse_level("level", "0")
     0.0
@@ -122,16 +122,16 @@ def parse_level(name: str, value: object) -> Literal["volume"] | float:
         raise UsageError(f"{name} is {quote_value(value)}; give volume, or a number between -1 and 1") from None
 
 
-def parsed(command: str, readers: Mapping[str, Reader], given: Mapping[str, object]) -> dict[str, Any]:
-    """Return the options of a command by name, each as its reader returns it.
+def parsed(command: str, readers: Mapping[str, Reader], options: Mapping[str, object]) -> dict[str, Any]:
+    """Parse the options of a command by name, each with its reader.
 
     Raises
     ------
     ParameterError
-        If a name is unknown, or as the readers.
+        If a name is unknown, or if a reader raises it.
     """
-    for name in given:
+    for name in options:
         if name not in readers:
             word = name.replace("_", "-")
             raise ParameterError(f"{command} has no option {quote_value(word)}; {nearest(name, readers)}")
-    return {name: readers[name](name, value) for name, value in given.items()}
+    return {name: readers[name](name, value) for name, value in options.items()}

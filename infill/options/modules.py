@@ -1,4 +1,4 @@
-"""What a Python file of the user's holds: ``module.py:name``."""
+"""Objects in a Python file of the user's: ``module.py:name``."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ MARK = ".py:"
 
 
 def names_code(text: str) -> bool:
-    """Return whether a text is ``module.py:name``, for which a file is run.
+    """Tell whether a text is ``module.py:name``, so that a file is run.
 
     >>> names_code("mine.py:waves"), names_code("gyroid")
     (True, False)
@@ -20,12 +20,12 @@ def names_code(text: str) -> bool:
 
 
 def object_in(text: str) -> object:
-    """Return what ``module.py:name`` stands for; the file is run for it.
+    """Run a file and return its object for ``module.py:name``.
 
     Raises
     ------
     FormatError
-        If there is no such file, it fails, or nothing in it has this name.
+        If the file is missing, it fails, or it has no object of this name.
     """
     file, _, name = text.rpartition(":")
     path = readable(file, [".py"], "a module")

@@ -1,4 +1,4 @@
-"""TOML files of options: read, and written in rows."""
+"""TOML files of options: read, and written row by row."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from typing import Any
 from infill.errors import FormatError, ParameterError
 from infill.files.broken import one_line
 
-OPTIONS = {"form": "as"}  # what reports call otherwise
+OPTIONS = {"form": "as"}  # names of options that reports call otherwise
 
 
 def read_toml(path: Path, *, example: str) -> dict[str, Any]:
-    """Return what a TOML file holds, with dashes in the names of options turned into underscores.
+    """Read a TOML file, with dashes in the names of options turned into underscores.
 
     Parameters
     ----------
     path : Path
-        A text, or a 3MF that has one of them attached.
+        A text file, or a 3MF with one attached.
     example : str
-        A line as the file should have, for the message.
+        A line that the file should have, for the message.
 
     Raises
     ------
@@ -30,7 +30,7 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
         If the file is missing or not TOML.
     """
     try:
-        content = tomllib.loads(_text(path))
+        content = tomllib.loads(_read_text(path))
     except FileNotFoundError:
         raise FormatError(f"there is no config file {path}; check the name") from None
     except OSError as error:
@@ -46,7 +46,7 @@ def read_toml(path: Path, *, example: str) -> dict[str, Any]:
     return {name.replace("-", "_"): value for name, value in content.items()}
 
 
-def _text(path: Path) -> str:
+def _read_text(path: Path) -> str:
     if path.suffix.lower() != ".3mf":
         return path.read_text(encoding="utf-8")
     from infill.formats.threemf import attached_settings
@@ -55,7 +55,7 @@ def _text(path: Path) -> str:
 
 
 def options_text(request: Mapping[str, Any], head: str) -> str:
-    """Return the request in a report as the options of its command, from which a config file makes it again.
+    """Write the request in a report as a config file that makes it again.
 
     >>> print(options_text({"cell": 5.0, "form": "solid", "parameters": {"waves": 3}}, "again"))
     # again
@@ -67,26 +67,26 @@ def options_text(request: Mapping[str, Any], head: str) -> str:
     <BLANKLINE>
     """
     plain = {OPTIONS.get(name, name): value for name, value in request.items() if name != "parameters"}
-    own = toml_rows(request.get("parameters") or {})
-    return "\n".join([f"# {head}", *toml_rows(plain), *(["", "[set]", *own] if own else []), ""])
+    parameter_rows = toml_rows(request.get("parameters") or {})
+    return "\n".join([f"# {head}", *toml_rows(plain), *(["", "[set]", *parameter_rows] if parameter_rows else []), ""])
 
 
 def toml_rows(values: Mapping[str, Any]) -> list[str]:
-    """Return one line of TOML for each value that is not None.
+    """Write one line of TOML for each value that is not None.
 
     >>> toml_rows({"cell": 5.0, "size": (60, 40), "frame": True, "waves": None})
     ['cell = 5.0', 'size = [60, 40]', 'frame = true']
     """
-    return [f"{name} = {_toml(value)}" for name, value in values.items() if value is not None]
+    return [f"{name} = {_format_value(value)}" for name, value in values.items() if value is not None]
 
 
-def _toml(value: object) -> str:
+def _format_value(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, (tuple, list)):
-        return f"[{', '.join(map(_toml, value))}]"
+        return f"[{', '.join(map(_format_value, value))}]"
     if isinstance(value, str):
-        if any("\ud800" <= each <= "\udfff" for each in value):  # a name whose bytes are no text
+        if any("\ud800" <= sign <= "\udfff" for sign in value):  # a name whose bytes are no text
             raise ParameterError(f"{value!a} is not text, and a TOML file holds only text; give another name")
         return json.dumps(value, ensure_ascii=False).replace(
             "\x7f", "\\u007f"

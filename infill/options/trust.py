@@ -1,7 +1,7 @@
-"""What options in a file may ask for without being asked back: no code, and no files from elsewhere.
+"""Trust in options from a file: without it, they may not run code, or read files from elsewhere.
 
-Options that are typed are the user's own. A config file or a project may be somebody else's, and names in it decide
-what is run and what is read; so whoever reads options from a file calls `check_trusted` before anything else.
+Typed options are the user's own. A config file or a project may come from somebody else, and names in it decide which
+code is run and which files are read; so readers of options from a file call `check_trusted` first.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ ELSEWHERE = re.compile(r"[\\/]{2}|[A-Za-z]:|~")  # another machine, another driv
 
 
 def check_trusted(options: Mapping[str, Any], source: Path, *, trust: bool = False, code: bool = True) -> None:
-    """Raise FormatError if options from a file ask to run code, or to read what is not beside it.
+    """Raise FormatError if options from a file ask to run code, or to read a file that is not beside it.
 
     Parameters
     ----------
     options : mapping
-        By name, as the file has them, less those that are typed and so take their place.
+        By name, as the file has them, without those that typed options replace.
     source : Path
-        The file. What lies below its folder, or below the one in which the command runs, may be named.
+        The file. Options may name files below its folder, or below the current one.
     trust : bool
-        Whether the user trusts the file: everything is allowed.
+        True if the user trusts the file: everything is allowed.
     code : bool
-        Whether the command runs code at all; where it does not, ``module.py:name`` is no more than a wrong name.
+        True if the command runs code at all; otherwise ``module.py:name`` is just a wrong name.
 
     Examples
     --------
@@ -59,22 +59,22 @@ def _texts(value: object, name: str = "") -> Iterator[tuple[str, str]]:
     if isinstance(value, str):
         yield name, value
     elif isinstance(value, Mapping):
-        for key, each in value.items():
-            yield from _texts(each, name or excerpt(str(key)))
+        for key, item in value.items():
+            yield from _texts(item, name or excerpt(str(key)))
     elif isinstance(value, (list, tuple)):
-        for each in value:
-            yield from _texts(each, name)
+        for item in value:
+            yield from _texts(item, name)
 
 
 def _leads_elsewhere(text: str, source: Path) -> bool:
-    """Return whether a text is the name of a file that lies neither in the folder of a file nor in the current one."""
+    """Tell whether a text names a file outside the folder of a source and the current folder."""
     if ELSEWHERE.match(text):
         return True
     if "/" not in text and "\\" not in text and not Path(text).suffix:
         return False  # the name of a pattern
     if "\0" in text:
         return True
-    # By the letters first: to follow links may ask another machine.
+    # Compare the letters first, as following links may contact another machine.
     folders = [Path.cwd(), Path(os.path.abspath(source)).parent]  # noqa: PTH100
     if not any(Path(os.path.abspath(text)).is_relative_to(folder) for folder in folders):  # noqa: PTH100
         return True

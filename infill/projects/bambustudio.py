@@ -34,23 +34,23 @@ MATRIX = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
 
 
 def write(project: Project, file: BinaryIO, *, application: str = BAMBU) -> None:
-    """Write a project for Bambu Studio, or for what keeps the settings of files from an application."""
+    """Write a project for Bambu Studio, or for another program that keeps the settings of files from an application."""
 
-    def model(into: IO[bytes]) -> None:
+    def model(stream: IO[bytes]) -> None:
         metadata = {**project.metadata, "Application": application, "BambuStudio:3mfVersion": "1"}
-        into.write(model_head(metadata, {"BambuStudio": NAMESPACE}).encode())
+        stream.write(model_head(metadata, {"BambuStudio": NAMESPACE}).encode())
         for number, surface in ((PART_ID, project.part), (INFILL_ID, project.infill)):
-            into.write(f'<object id="{number}" type="model">'.encode())
-            write_mesh(into, surface.vertices, surface.faces)
-            into.write(b"</object>\n")
+            stream.write(f'<object id="{number}" type="model">'.encode())
+            write_mesh(stream, surface.vertices, surface.faces)
+            stream.write(b"</object>\n")
         components = "".join(f'<component objectid="{number}"/>' for number in (PART_ID, INFILL_ID))
         name = quoted(plain(project.title))
-        into.write(
+        stream.write(
             f'<object id="{WHOLE_ID}" type="model" name={name}><components>{components}</components></object>'.encode()
         )
-        into.write(model_end([WHOLE_ID]).encode())
+        stream.write(model_end([WHOLE_ID]).encode())
 
-    settings = Attached(name=CONFIG, content=_config(project).encode(), media="application/xml")
+    settings = Attached(name=CONFIG, content=_settings_config(project).encode(), media="application/xml")
     version = application.rpartition("-")[2]
     info = Attached(name=INFO, content=_info(version).encode(), media="application/xml")
     write_package(file, model, [*project.attached, settings, info])
@@ -59,7 +59,7 @@ def write(project: Project, file: BinaryIO, *, application: str = BAMBU) -> None
 write_orcaslicer = partial(write, application=ORCA)
 
 
-def _config(project: Project) -> str:
+def _settings_config(project: Project) -> str:
     title = plain(project.title)
     return "".join(
         [

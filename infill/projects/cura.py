@@ -27,17 +27,17 @@ INFILL_SETTINGS = {
 def write(project: Project, file: BinaryIO) -> None:
     """Write a project for Cura."""
 
-    def model(into: IO[bytes]) -> None:
-        into.write(model_head(project.metadata, {"cura": NAMESPACE}).encode())
+    def model(stream: IO[bytes]) -> None:
+        stream.write(model_head(project.metadata, {"cura": NAMESPACE}).encode())
         volumes = ((1, PART, project.part, PART_SETTINGS), (2, INFILL, project.infill, INFILL_SETTINGS))
         for number, name, surface, settings in volumes:
-            into.write(f'<object id="{number}" type="model" name="{name}">{_group(settings)}'.encode())
-            write_mesh(into, surface.vertices, surface.faces)
-            into.write(b"</object>\n")
+            stream.write(f'<object id="{number}" type="model" name="{name}">{_group(settings)}'.encode())
+            write_mesh(stream, surface.vertices, surface.faces)
+            stream.write(b"</object>\n")
         name = quoted(plain(project.title))
         components = '<component objectid="1"/><component objectid="2"/>'
-        into.write(f'<object id="3" type="model" name={name}><components>{components}</components></object>'.encode())
-        into.write(model_end([3]).encode())
+        stream.write(f'<object id="3" type="model" name={name}><components>{components}</components></object>'.encode())
+        stream.write(model_end([3]).encode())
 
     write_package(file, model, project.attached)
 

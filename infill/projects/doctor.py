@@ -1,4 +1,4 @@
-"""What a slicer will do with a 3MF: what it prints, with which settings, and what it would lose without a word."""
+"""Predictions of how a slicer reads a 3MF: the printed volumes, their settings, and silent losses."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MOST_ON_COMMAND_LINE = 1_000_000  # triangles that OrcaSlicer takes from a comma
 
 @dataclass(frozen=True, kw_only=True)
 class Diagnosis:
-    """What `check_project` found.
+    """The findings of `check_project`.
 
     Parameters
     ----------
@@ -30,11 +30,11 @@ class Diagnosis:
     fine : bool
         True if there are no problems.
     problems, warnings : tuple of str
-        What the slicer would lose or refuse, and what it does that may surprise.
+        Things that the slicer would lose or refuse, and surprising things that it does.
     application, unit : str
         As the file says.
     volumes : tuple of PrintedVolume
-        What the slicer prints, in its order.
+        The volumes that the slicer prints, in its order.
     """
 
     slicer: str
@@ -46,12 +46,12 @@ class Diagnosis:
     volumes: tuple[PrintedVolume, ...] = field(default_factory=tuple)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return it as plain values, as ``--json`` prints it."""
+        """Convert the diagnosis to plain values, as ``--json`` prints it."""
         return asdict(self)
 
 
 def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
-    """Say what a slicer will do with a 3MF, and what is wrong with it.
+    """Diagnose a 3MF for a slicer: the volumes that it prints, problems, and warnings.
 
     Parameters
     ----------
@@ -65,9 +65,9 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     Raises
     ------
     FormatError
-        If there is no such file, or it is no 3MF.
+        If the file is missing or not a 3MF.
     UsageError
-        For a slicer that is not known.
+        For an unknown slicer.
 
     Notes
     -----
@@ -78,30 +78,30 @@ def check_project(path: str | os.PathLike[str], slicer: Slicer) -> Diagnosis:
     package = read_package(Path(path))
     findings: list[Finding] = []
     volumes: list[PrintedVolume] = []
-    for each in _examined(package, slicer):
-        (volumes if isinstance(each, PrintedVolume) else findings).append(each)  # type: ignore[arg-type]
-    told = {kind: tuple(dict.fromkeys(each.text for each in findings if each.kind is kind)) for kind in Kind}
+    for result in _examine(package, slicer):
+        (volumes if isinstance(result, PrintedVolume) else findings).append(result)  # type: ignore[arg-type]
+    texts = {kind: tuple(dict.fromkeys(finding.text for finding in findings if finding.kind is kind)) for kind in Kind}
     return Diagnosis(
         slicer=slicer,
-        fine=not told[Kind.PROBLEM],
-        problems=told[Kind.PROBLEM],
-        warnings=told[Kind.WARNING],
+        fine=not texts[Kind.PROBLEM],
+        problems=texts[Kind.PROBLEM],
+        warnings=texts[Kind.WARNING],
         application=package.metadata.get("Application", ""),
         unit=package.unit,
         volumes=tuple(volumes),
     )
 
 
-def _examined(package: Package, slicer: Slicer) -> Iterator[PrintedVolume | Finding]:
-    """Yield what a slicer prints, and what is to be said of it."""
-    yield from _anywhere(package, slicer)
+def _examine(package: Package, slicer: Slicer) -> Iterator[PrintedVolume | Finding]:
+    """Yield the volumes that a slicer prints, and the findings."""
+    yield from _check_package(package, slicer)
     volumes = []
-    for each in READERS[slicer](package):
-        if isinstance(each, PrintedVolume):
-            volumes.append(each)
-        yield each
+    for result in READERS[slicer](package):
+        if isinstance(result, PrintedVolume):
+            volumes.append(result)
+        yield result
     for volume in volumes:
-        yield from _shape(volume)
+        yield from _check_mesh(volume)
     total = sum(volume.triangles for volume in volumes)
     if slicer in ("orcaslicer", "bambustudio") and total > MOST_ON_COMMAND_LINE:
         yield as_warning(
@@ -111,8 +111,8 @@ def _examined(package: Package, slicer: Slicer) -> Iterator[PrintedVolume | Find
         yield as_problem("there is nothing in it to print")
 
 
-def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
-    """Say what holds in every slicer."""
+def _check_package(package: Package, slicer: Slicer) -> Iterator[Finding]:
+    """Yield findings that hold in every slicer."""
     if not package.has(RELATIONS):
         yield as_problem(f"it has no {RELATIONS}, without which newer slicers do not open it")
     if package.unit not in STATED_UNITS:
@@ -129,7 +129,7 @@ def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
             yield as_warning(f"object {item.key} is not to be printed")
     for key in dict.fromkeys(item.key for item in package.items):
         if key in package.bodies:
-            yield from _of_tree(package, key, slicer)
+            yield from _check_tree(package, key, slicer)
         else:
             yield as_problem(f"it builds an object {key} that it does not hold")
     made_for = [name for name, config in CONFIGS.items() if package.has(config)]
@@ -137,22 +137,22 @@ def _anywhere(package: Package, slicer: Slicer) -> Iterator[Finding]:
         made_for.append("cura")
     if slicer != "plain" and made_for and FAMILY[slicer] not in made_for:
         yield as_problem(
-            f"its settings are for {' and '.join(NAMES[each] for each in made_for)}, and {NAMES[slicer]} does not read "
+            f"its settings are for {' and '.join(NAMES[name] for name in made_for)}, and {NAMES[slicer]} does not read "
             f"them; make it again with --for {slicer}"
         )
 
 
-def _of_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]:
-    """Say what is wrong with an object that is built, and with what it consists of."""
+def _check_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]:
+    """Yield findings about an object that is built, and about its components."""
     tree = package.tree(key)
-    for each in tree.missing:
-        yield as_problem(f"object {key} consists of {each}, which is not there, holds itself, or lies too deep")
+    for component in tree.missing:
+        yield as_problem(f"object {key} consists of {component}, which is not there, holds itself, or lies too deep")
     if not tree.whole:
         yield as_problem(f"object {key} consists of more objects or triangles than a slicer can take")
     for leaf in tree.leaves:
-        if (other := leaf.other) is not None and slicer != "prusaslicer":  # which has a rule of its own
+        if (alien := leaf.other) is not None and slicer != "prusaslicer":  # PrusaSlicer has a separate rule
             yield as_problem(
-                f"object {other.number} is of type {other.kind!r}, which is no part: slicers leave it out, print it "
+                f"object {alien.number} is of type {alien.kind!r}, which is no part: slicers leave it out, print it "
                 "or refuse the file"
             )
         for body in (*leaf.above, leaf.body):
@@ -163,8 +163,8 @@ def _of_tree(package: Package, key: str, slicer: Slicer) -> Iterator[Finding]:
         yield as_problem(f"object {key} has {' and '.join(body.foreign)}, which slicers leave out")
 
 
-def _shape(volume: PrintedVolume) -> Iterator[Finding]:
-    """Say what is wrong with a mesh."""
+def _check_mesh(volume: PrintedVolume) -> Iterator[Finding]:
+    """Yield findings about the mesh of a volume."""
     if not volume.triangles:
         yield as_problem(f"{volume.name} has no triangles")
     elif not volume.closed:
@@ -176,18 +176,18 @@ def _shape(volume: PrintedVolume) -> Iterator[Finding]:
 
 
 def _volumes_of_any(package: Package) -> Iterator[PrintedVolume | Finding]:
-    """Yield every object that is built, each for itself."""
-    found = [
+    """Yield every object that is built, separately."""
+    meshes = [
         PrintedVolume.of(leaf.body.name or f"object {leaf.key}", leaf.body.mesh, "part", {})
         for item in package.items
         if item.prints
         for leaf in package.tree(item.key).leaves
         if leaf.other is None and leaf.body.mesh is not None
     ]
-    yield from found
-    if len(found) > 1:
+    yield from meshes
+    if len(meshes) > 1:
         yield as_warning(
-            f"its {len(found)} objects have no settings: a slicer fills each as its profile says, and prints what two "
+            f"its {len(meshes)} objects have no settings: a slicer fills each as its profile says, and prints what two "
             "of them have in common twice, unless they are put together there"
         )
 

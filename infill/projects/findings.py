@@ -1,4 +1,4 @@
-"""What the doctor of projects says: volumes that a slicer prints, problems, and warnings."""
+"""Findings of the doctor of projects: volumes that a slicer prints, problems, and warnings."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from infill.surface import Surface
 
 LONGEST = 1000  # signs of a sentence or a value
 
-# Settings by which walls of volumes differ: a modifier with one of them gets walls of its own around all it has.
+# Settings by which walls of volumes differ: a modifier with one of them gets its own walls all around.
 WALL_KEYS = {
     "PrusaSlicer": {
         "perimeters",
@@ -48,7 +48,7 @@ WALL_KEYS = {
 
 
 class Kind(Enum):
-    """How bad it is."""
+    """The severity of a finding."""
 
     PROBLEM = "problem"
     WARNING = "warning"
@@ -56,7 +56,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """A sentence, and how bad it is."""
+    """A sentence, and its severity."""
 
     kind: Kind
     text: str
@@ -64,20 +64,20 @@ class Finding:
 
 @dataclass(frozen=True, kw_only=True)
 class PrintedVolume:
-    """A mesh that a slicer knows by a name.
+    """A mesh that a slicer lists by name.
 
     Parameters
     ----------
     name : str
     role : str
-        "part", "modifier", or what else the slicer makes of it.
+        "part", "modifier", or another role that the slicer gives it.
     triangles : int
     closed, outward : bool
         Closed: as many faces run along every edge one way as the other.
     shared : int
         Edges with more than two faces.
     settings : mapping of str to str
-        That the slicer reads.
+        Settings that the slicer reads.
     """
 
     name: str
@@ -90,7 +90,7 @@ class PrintedVolume:
 
     @classmethod
     def of(cls, name: str, mesh: Surface, role: str, settings: Mapping[str, str]) -> PrintedVolume:
-        """Return the volume of a mesh."""
+        """Measure a mesh and describe it as a volume."""
         edges = mesh.edges
         return cls(
             name=excerpt(name),
@@ -104,22 +104,22 @@ class PrintedVolume:
 
     @property
     def prints(self) -> bool:
-        """Whether it is solid of its own."""
+        """True if the volume is solid by itself."""
         return self.role == "part"
 
 
 def as_problem(text: str) -> Finding:
-    """Return what a slicer loses or refuses."""
+    """Wrap a text as a problem: the slicer loses or refuses something."""
     return Finding(kind=Kind.PROBLEM, text=excerpt(text, LONGEST))
 
 
 def as_warning(text: str) -> Finding:
-    """Return what may surprise."""
+    """Wrap a text as a warning: the slicer does something surprising."""
     return Finding(kind=Kind.WARNING, text=excerpt(text, LONGEST))
 
 
 def of_filling(name: str, settings: Mapping[str, str], density: str, known: set[str], slicer: str) -> Iterator[Finding]:
-    """Say what is wrong with the settings of a volume: its density, and names that the slicer does not know."""
+    """Yield findings about the density of a volume, and about names of settings that the slicer does not know."""
     value = settings.get(density)
     if value is not None:
         try:
@@ -179,23 +179,23 @@ def check_shells(
 
 
 def in_order(volumes: list[PrintedVolume]) -> Iterator[Finding]:
-    """Say which modifiers come before the part that they are to change."""
-    last = max((number for number, volume in enumerate(volumes) if volume.prints), default=-1)
-    for volume in volumes[: max(last, 0)]:
+    """Yield the modifiers that come before the part that they are to change."""
+    last_part = max((number for number, volume in enumerate(volumes) if volume.prints), default=-1)
+    for volume in volumes[: max(last_part, 0)]:
         if volume.role == "modifier":
             yield as_problem(
-                f"{volume.name} comes before {volumes[last].name}, which takes its place: it is lost; put it last"
+                f"{volume.name} comes before {volumes[last_part].name}, which takes its place: it is lost; put it last"
             )
         elif volume.role == "negative":
             yield as_problem(
-                f"{volume.name} comes before {volumes[last].name}, of which it takes nothing off; put it after it"
+                f"{volume.name} comes before {volumes[last_part].name}, of which it takes nothing off; put it after it"
             )
 
 
 def with_walls(volumes: list[PrintedVolume], keys: set[str]) -> Iterator[Finding]:
-    """Say which modifiers get walls of their own."""
+    """Yield the modifiers that get their own walls."""
     for volume in volumes:
-        if volume.role == "modifier" and (own := sorted(keys & set(volume.settings))):
+        if volume.role == "modifier" and (wall_keys := sorted(keys & set(volume.settings))):
             yield as_warning(
-                f"{volume.name} changes {', '.join(own)}: walls are made around all of it, as if it were a part"
+                f"{volume.name} changes {', '.join(wall_keys)}: walls are made around all of it, as if it were a part"
             )

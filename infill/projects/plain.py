@@ -11,12 +11,12 @@ from infill.projects.project import INFILL, PART, Project
 def write(project: Project, file: BinaryIO) -> None:
     """Write part and infill as two objects."""
 
-    def model(into: IO[bytes]) -> None:
-        into.write(model_head(project.metadata).encode())
+    def model(stream: IO[bytes]) -> None:
+        stream.write(model_head(project.metadata).encode())
         for number, name, surface in ((1, PART, project.part), (2, INFILL, project.infill)):
-            into.write(f'<object id="{number}" type="model" name="{name}">'.encode())
-            write_mesh(into, surface.vertices, surface.faces)
-            into.write(b"</object>\n")
-        into.write(model_end([1, 2]).encode())
+            stream.write(f'<object id="{number}" type="model" name="{name}">'.encode())
+            write_mesh(stream, surface.vertices, surface.faces)
+            stream.write(b"</object>\n")
+        stream.write(model_end([1, 2]).encode())
 
     write_package(file, model, project.attached)

@@ -1,4 +1,4 @@
-"""What a project for a slicer holds."""
+"""The contents of a project for a slicer."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NAMES = {
 THUMBNAIL = "Metadata/thumbnail.png"
 THUMBNAIL_RELATION = "http://schemas.openxmlformats.org/package/2006/relationships/metadata/thumbnail"
 SETTINGS_RELATION = "http://schemas.phasefill.org/package/2026/settings"
-PART, INFILL = "part", "infill"  # names of what is in the part, as slicers list them
+PART, INFILL = "part", "infill"  # names of part and infill, as slicers list them
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -36,7 +36,7 @@ class Project:
     thumbnail : bytes, optional
         A PNG.
     settings : str
-        TOML from which ``infill fill --config`` makes it again; empty for none.
+        TOML from which ``infill fill --config`` makes the project again; empty for none.
     """
 
     part: Surface
@@ -47,19 +47,19 @@ class Project:
 
     @property
     def metadata(self) -> dict[str, str]:
-        """What every model says of itself."""
+        """Metadata that every model has."""
         return {"Title": self.title, "Application": APPLICATION, "Description": f"filled by {APPLICATION}"}
 
     @property
     def attached(self) -> list[Attached]:
-        """What goes into the package of every slicer."""
-        found = []
+        """Files that go into the package of every slicer."""
+        files = []
         if self.thumbnail is not None:
-            found.append(
+            files.append(
                 Attached(name=THUMBNAIL, content=self.thumbnail, media="image/png", relation=THUMBNAIL_RELATION)
             )
         if self.settings:
-            found.append(
+            files.append(
                 Attached(
                     name=SETTINGS,
                     content=self.settings.encode(),
@@ -67,4 +67,4 @@ class Project:
                     relation=SETTINGS_RELATION,
                 )
             )
-        return found
+        return files

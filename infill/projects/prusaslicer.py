@@ -18,8 +18,8 @@ from infill.projects.project import INFILL, PART, Project
 
 NAMESPACE = "http://schemas.slic3r.org/3mf/2017/06"
 CONFIG = "Metadata/Slic3r_PE_model.config"
-# At 0 % PrusaSlicer takes the part for a vase: it makes no solid layers behind slopes and
-# under domes. At 0.1 % it does.
+# At 0 % PrusaSlicer takes the part for a vase and makes no solid layers behind slopes and under domes; at 0.1 % it
+# does.
 # Lines would then be 450 mm apart, and a Hilbert curve of that size begins outside of the part, so that none is
 # printed; other patterns print one or more a layer. Without an area of 0, room between walls counts as a small island,
 # and is filled to the full.
@@ -44,21 +44,21 @@ def write(project: Project, file: BinaryIO) -> None:
         into.write(b"</object>")
         into.write(model_end([1]).encode())
 
-    config = Attached(name=CONFIG, content=_config(project).encode(), media="application/xml")
+    config = Attached(name=CONFIG, content=_volumes_config(project).encode(), media="application/xml")
     write_package(file, model, [*project.attached, config])
 
 
-def _config(project: Project) -> str:
-    """Return which triangles are what. The infill comes last: volumes that follow take the place of those before."""
-    first = len(project.part.faces)
-    last = first + len(project.infill.faces)
+def _volumes_config(project: Project) -> str:
+    """Write the ranges of triangles of both volumes; the infill comes last, as it takes the place of volumes before."""
+    part_end = len(project.part.faces)
+    infill_end = part_end + len(project.infill.faces)
     return "".join(
         [
             DECLARED,
             '<config>\n <object id="1" instances_count="1">\n',
             _row("object", "name", plain(project.title)),
-            _volume(0, first - 1, PART, "ModelPart", PART_SETTINGS),
-            _volume(first, last - 1, INFILL, "ParameterModifier", {"modifier": "1", **INFILL_SETTINGS}),
+            _volume(0, part_end - 1, PART, "ModelPart", PART_SETTINGS),
+            _volume(part_end, infill_end - 1, INFILL, "ParameterModifier", {"modifier": "1", **INFILL_SETTINGS}),
             " </object>\n</config>\n",
         ]
     )

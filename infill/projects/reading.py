@@ -1,4 +1,4 @@
-"""What a 3MF holds, as the rules of slicers need it: objects, what is built, and the files beside the model."""
+"""The contents of a 3MF, as the rules of slicers need them: objects, items to build, and settings files."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ from infill.surface import Surface
 __all__ = ["RELATIONS", "Body", "Item", "Leaf", "Package", "key_of", "read_package", "rows_of"]
 
 AGAIN = "write the file again"
-MOST_NESTED = 20  # components in one another
-MOST_PLACED, MOST_TRIANGLES = 20_000, 20_000_000  # of what is built
+MOST_NESTED = 20  # depth of components
+MOST_PLACED, MOST_TRIANGLES = 20_000, 20_000_000  # objects and triangles that are built
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,11 +43,11 @@ class Body:
         Its type: "model" for parts.
     mesh : Surface or None
     components : tuple of str
-        The objects that it consists of, as `Package.bodies` has them.
+        The objects that it consists of, by their keys in `Package.bodies`.
     settings : mapping of str to str
         Metadata of its own, by full name: ``{address}key``, or ``prefix:key`` where the prefix is not declared.
     foreign : tuple of str
-        What extensions add to its shape.
+        Shapes that extensions add.
     """
 
     number: str
@@ -60,22 +60,22 @@ class Body:
 
     @property
     def is_part(self) -> bool:
-        """Whether it is of the type of parts."""
+        """True if its type is that of parts."""
         return is_part_type(self.kind)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Item:
-    """What is built.
+    """An item to build.
 
     Parameters
     ----------
     key : str
-        The object, as `Package.bodies` has it.
+        The key of the object in `Package.bodies`.
     stays : bool
-        Whether it is built where it is.
+        True if it is built without a move.
     printable : str
-        As the file has it; empty if it does not say.
+        The value in the file; empty if there is none.
     """
 
     key: str
@@ -84,20 +84,20 @@ class Item:
 
     @property
     def prints(self) -> bool:
-        """Whether it is to be printed."""
+        """True if it is to be printed."""
         return not is_unprinted(self.printable)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Leaf:
-    """An object with a mesh, and the objects that it is in.
+    """An object with a mesh, and the objects around it.
 
     Parameters
     ----------
     key : str
     body : Body
     above : tuple of Body
-        From what is built down.
+        The objects around it, from the one that is built down.
     """
 
     key: str
@@ -106,30 +106,30 @@ class Leaf:
 
     @property
     def other(self) -> Body | None:
-        """The first object down to it that is of another type than a part; None if there is none."""
-        return next((each for each in (*self.above, self.body) if not each.is_part), None)
+        """The first object down to it that is not a part; None if all are."""
+        return next((body for body in (*self.above, self.body) if not body.is_part), None)
 
     @property
     def covered(self) -> bool:
-        """Whether it is in an object that has a mesh itself, in place of which some read no components."""
-        return any(each.mesh is not None for each in self.above)
+        """True if it is in an object with a mesh itself; some readers take that mesh in place of components."""
+        return any(body.mesh is not None for body in self.above)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Tree:
-    """What an object that is built consists of.
+    """The components of an object that is built.
 
     Parameters
     ----------
     leaves : tuple of Leaf
     missing : tuple of str
-        Objects that are referred to and not there, or that hold themselves.
+        Objects that are referred to and missing, or that hold themselves.
     deepest : int
-        How many objects are above the lowest one.
+        Number of objects above the lowest one.
     whole : bool
-        False if there was more than anything should be asked to print.
+        False if there are more objects or triangles than the limits allow.
     visits : int
-        How many objects were looked at.
+        Number of objects visited.
     """
 
     leaves: tuple[Leaf, ...]
@@ -149,19 +149,19 @@ class Package:
     names : frozenset of str
         Keys of all files in it.
     texts : mapping of str to bytes
-        Those that are settings, by key.
+        Contents of the settings files, by key.
     unit : str
     extensions : tuple of Extension
-        That a reader must know.
+        Extensions that a reader must know.
     metadata : mapping of str to str
     prefix : str
-        Before the names of the core specification; empty for none, as most programs write them.
+        Prefix of the names of the core specification; empty for none, as most programs write them.
     bodies : mapping of str to Body
-        By number, and by ``number of /path`` for those in other files of the package; in their order in the file.
+        Objects by number, or by ``number of /path`` in other files of the package; in their order in the file.
     twice : tuple of str
         Numbers that several objects of one file have.
     items : tuple of Item
-        What is built.
+        The items to build.
     """
 
     path: Path
@@ -174,26 +174,26 @@ class Package:
     bodies: Mapping[str, Body]
     twice: tuple[str, ...]
     items: tuple[Item, ...]
-    trees: dict[str, Tree] = field(default_factory=dict, repr=False)  # those that were asked for
+    trees: dict[str, Tree] = field(default_factory=dict, repr=False)  # a cache
 
     def has(self, name: str) -> bool:
-        """Return whether there is a file of this name; capitals and small letters are the same."""
+        """Tell whether a file has this name, in capitals or small letters."""
         return part_key(name) in self.names
 
     def xml(self, name: str) -> ElementTree.Element | None:
-        """Return the root of a file of settings; None if there is none, or FormatError if it is broken."""
+        """Parse a settings file; return its root, or None without such a file. Raise FormatError if it is broken."""
         if part_key(name) not in self.texts:
             return None
         with told_broken(self.path, f"has a broken {name}", AGAIN):
             return parsed_xml(self.texts[part_key(name)], self.path)
 
     def tree(self, key: str) -> Tree:
-        """Return what an object consists of; of all objects together, no more than is allowed."""
+        """Find the components of an object; all objects together are limited."""
         if key not in self.trees:
-            self.trees[key] = self._tree(key, sum(each.visits for each in self.trees.values()))
+            self.trees[key] = self._build_tree(key, sum(tree.visits for tree in self.trees.values()))
         return self.trees[key]
 
-    def _tree(self, key: str, before: int) -> Tree:
+    def _build_tree(self, key: str, before: int) -> Tree:
         leaves: list[Leaf] = []
         missing: dict[str, None] = {}
         visits, triangles, deepest = before, 0, 0
@@ -210,17 +210,19 @@ class Package:
                 return
             if body.mesh is not None:
                 triangles += len(body.mesh.faces)
-                leaves.append(Leaf(key=key, body=body, above=tuple(self.bodies[each] for each in above)))
-            for each in body.components:
-                visit(each, (*above, key))
+                leaves.append(Leaf(key=key, body=body, above=tuple(self.bodies[ancestor] for ancestor in above)))
+            for component in body.components:
+                visit(component, (*above, key))
 
         visit(key, ())
-        whole = visits <= MOST_PLACED and triangles <= MOST_TRIANGLES
-        return Tree(leaves=tuple(leaves), missing=tuple(missing), deepest=deepest, whole=whole, visits=visits - before)
+        is_whole = visits <= MOST_PLACED and triangles <= MOST_TRIANGLES
+        return Tree(
+            leaves=tuple(leaves), missing=tuple(missing), deepest=deepest, whole=is_whole, visits=visits - before
+        )
 
 
 def read_package(path: Path) -> Package:
-    """Return what a 3MF holds, or raise FormatError."""
+    """Read a 3MF, or raise FormatError."""
     source = readable(path, [".3mf"], "a project")
     with opened(source) as package:
         parts = parts_of_package(package)
@@ -236,21 +238,19 @@ def read_package(path: Path) -> Package:
         raise FormatError(f"{source} builds {built:,} objects, more than {MOST_PLACED:,}; build fewer")
     bodies: dict[str, Body] = {}
     twice = []
-    for name, each_model in models.items():
-        for each in each_model.objects:
-            key = key_of("" if name == main else f"/{name}", each.get("id"))
+    for name, part_model in models.items():
+        for element in part_model.objects:
+            key = key_of("" if name == main else f"/{name}", element.get("id"))
             if key in bodies:
                 twice.append(key)
-            bodies[key] = _body(each_model, each, name, main, source)
+            bodies[key] = _read_body(part_model, element, name, main, source)
     return Package(
         path=source,
         names=frozenset(parts),
         texts=texts,
         unit=model.root.get("unit", "millimeter"),
         extensions=tuple(required(model)),
-        metadata={
-            excerpt(each.get("name", "")): excerpt(each.text or "") for each in model.below(model.root, "metadata")
-        },
+        metadata={excerpt(row.get("name", "")): excerpt(row.text or "") for row in model.below(model.root, "metadata")},
         prefix=next((prefix for prefix, uri in model.spaces.items() if prefix and f"{{{uri}}}" == model.core), "")
         if "" not in model.spaces
         else "",
@@ -258,7 +258,7 @@ def read_package(path: Path) -> Package:
         twice=tuple(dict.fromkeys(twice)),
         items=tuple(
             Item(
-                key=_key(item, main, main),
+                key=_key_of_reference(item, main, main),
                 stays=item.get("transform", IDENTITY).split() == IDENTITY.split(),
                 printable=item.get("printable", ""),
             )
@@ -268,33 +268,35 @@ def read_package(path: Path) -> Package:
 
 
 def key_of(part: str, number: str | None) -> str:
-    """Return how an object is known in the package: by its number, and by its file, if that is another one."""
+    """Return the key of an object in the package: its number, and its file if that is not the main one."""
     plain = excerpt(object_key(number))
     return f"{plain} of {excerpt(part)}" if part else plain
 
 
-def _key(element: ElementTree.Element, part: str, main: str) -> str:
-    """Return the object that a component or an item refers to; the production extension lets it be in another file."""
+def _key_of_reference(element: ElementTree.Element, part: str, main: str) -> str:
+    """Return the key of the object that a component or an item refers to, perhaps in another file."""
     path = next((value for name, value in element.items() if name.endswith("}path")), None)
     part = part if path is None else part_key(path)
     return key_of("" if part == main else f"/{part}", element.get("objectid"))
 
 
-def _body(model: Model, element: ElementTree.Element, part: str, main: str, path: Path) -> Body:
-    found = model.mesh_of(element)
+def _read_body(model: Model, element: ElementTree.Element, part: str, main: str, path: Path) -> Body:
+    read_mesh = model.mesh_of(element)
     mesh = None
     foreign = list(model.foreign(element))
-    if found is not None:
-        foreign += model.foreign(found[0])
-        if found[1].fault:
-            raise FormatError(f"{path} has {found[1].fault}; {AGAIN}")
-        mesh = Surface(vertices=found[1].vertices, faces=found[1].faces)
+    if read_mesh is not None:
+        foreign += model.foreign(read_mesh[0])
+        if read_mesh[1].fault:
+            raise FormatError(f"{path} has {read_mesh[1].fault}; {AGAIN}")
+        mesh = Surface(vertices=read_mesh[1].vertices, faces=read_mesh[1].faces)
     return Body(
         number=excerpt(object_key(element.get("id"))),
         name=excerpt(element.get("name", "")),
         kind=excerpt(element.get("type", "")),
         mesh=mesh,
-        components=tuple(_key(each, part, main) for each in model.below(element, "components/component")),
+        components=tuple(
+            _key_of_reference(component, part, main) for component in model.below(element, "components/component")
+        ),
         settings={
             excerpt(key, 200): excerpt(value) for key, value in settings_of(element, model.core, model.spaces).items()
         },

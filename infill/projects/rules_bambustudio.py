@@ -1,4 +1,4 @@
-"""How Bambu Studio and OrcaSlicer read a 3MF."""
+"""The rules by which Bambu Studio and OrcaSlicer read a 3MF."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ RESERVED = {
     "source_in_inches",
     "source_in_meters",
 }
-# By whom a file has to say that it was written, for the settings of its objects to be kept.
+# Applications that a file must name for the settings of its objects to be kept.
 KEPT_FROM = {"bambustudio": ("BambuStudio-",), "orcaslicer": ("BambuStudio-", "OrcaSlicer-")}
 KEYS = WALL_KEYS["Bambu"] | {
     "bottom_shell_layers",
@@ -65,48 +65,50 @@ KEYS = WALL_KEYS["Bambu"] | {
 
 
 def volumes_for_bambustudio(package: Package, slicer: str) -> Iterator[PrintedVolume | Finding]:
-    """Yield the volumes that one of the two makes of a file, and what it loses."""
+    """Yield the volumes that one of the two slicers makes of a file, and the problems and warnings."""
     who, application = NAMES[slicer], package.metadata.get("Application", "")
     config = package.xml(CONFIG)
-    told = {} if config is None else {object_key(each.get("id")): each for each in config.findall("object")}
+    configured = {} if config is None else {object_key(row.get("id")): row for row in config.findall("object")}
     built = {item.key for item in package.items}
     if "PrusaSlicer" in application:
         yield as_problem(f"it says that PrusaSlicer wrote it: {who} reads it as such, and drops every setting")
     elif config is not None and not application.startswith(KEPT_FROM[slicer]):
-        only = " or ".join(each.rstrip("-") for each in KEPT_FROM[slicer])
+        only = " or ".join(prefix.rstrip("-") for prefix in KEPT_FROM[slicer])
         yield as_problem(
             f"it says that {application or 'nobody'} wrote it, and {who} keeps the settings of objects only from files "
             f"of {only}; make it again with --for {slicer}"
         )
     if config is None and len(package.bodies) > 1:
         yield as_warning(f"it has no {CONFIG}: every part is filled as the profile says")
-    for number in told:
+    for number in configured:
         if number not in built:
             yield as_problem(f"{CONFIG} is about an object {number} that is not built: its settings are lost")
     for item in package.items:
         body = package.bodies.get(item.key)
         if body is not None and item.prints:
-            yield from _of_object(package.tree(item.key), body, told.get(item.key), slicer)
+            yield from _read_object(package.tree(item.key), body, configured.get(item.key), slicer)
 
 
-def _of_object(
-    tree: Tree, body: Body, told: ElementTree.Element | None, slicer: str
+def _read_object(
+    tree: Tree, body: Body, configured: ElementTree.Element | None, slicer: str
 ) -> Iterator[PrintedVolume | Finding]:
     """Yield the parts of an object."""
     who = NAMES[slicer]
-    common = {} if told is None else {key: value for key, value in rows_of(told).items() if key not in RESERVED}
-    parts = {} if told is None else {object_key(each.get("id")): each for each in told.findall("part")}
-    held = {leaf.body.number for leaf in tree.leaves}
+    common = (
+        {} if configured is None else {key: value for key, value in rows_of(configured).items() if key not in RESERVED}
+    )
+    parts = {} if configured is None else {object_key(row.get("id")): row for row in configured.findall("part")}
+    ids = {leaf.body.number for leaf in tree.leaves}
     for number in parts:
-        if number not in held:
+        if number not in ids:
             yield as_problem(
-                f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(sorted(held))}: "
+                f"{CONFIG} is about a part {number}, and object {body.number} consists of {', '.join(sorted(ids))}: "
                 "the settings are lost, and what was to be a modifier is printed as a part"
             )
     volumes: list[PrintedVolume] = []
     for leaf in tree.leaves:
-        member, other = leaf.body, leaf.other
-        if member.mesh is None or (other is not None and other.kind not in READ_TYPES):
+        member, not_a_part = leaf.body, leaf.other
+        if member.mesh is None or (not_a_part is not None and not_a_part.kind not in READ_TYPES):
             continue
         number = member.number
         part = parts.get(number)
@@ -115,9 +117,9 @@ def _of_object(
         kind = "normal_part" if part is None else part.get("subtype", "normal_part")
         if kind not in BAMBU_ROLES:
             yield as_problem(f"{name} is a {kind!r}; {who} knows {', '.join(BAMBU_ROLES)}")
-        own = {key: value for key, value in rows.items() if key not in RESERVED}
-        volumes.append(PrintedVolume.of(name, member.mesh, BAMBU_ROLES.get(kind, kind), own))
-        yield from of_filling(name, own, "sparse_infill_density", KEYS, who)
+        settings = {key: value for key, value in rows.items() if key not in RESERVED}
+        volumes.append(PrintedVolume.of(name, member.mesh, BAMBU_ROLES.get(kind, kind), settings))
+        yield from of_filling(name, settings, "sparse_infill_density", KEYS, who)
     yield from volumes
     yield from in_order(volumes)
     shell_keys = ("sparse_infill_density", "minimum_sparse_infill_area")

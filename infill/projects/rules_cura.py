@@ -1,4 +1,4 @@
-"""How Cura reads a 3MF."""
+"""The rules by which Cura reads a 3MF."""
 
 from __future__ import annotations
 
@@ -30,24 +30,24 @@ KEYS = {
 
 
 def volumes_for_cura(package: Package) -> Iterator[PrintedVolume | Finding]:
-    """Yield the volumes that Cura makes of a file, and what it loses."""
-    found: list[tuple[Body, PrintedVolume]] = []
+    """Yield the volumes that Cura makes of a file, and the problems and warnings."""
+    volumes: list[tuple[Body, PrintedVolume]] = []
     for item in package.items:
         for leaf in package.tree(item.key).leaves if item.prints else ():
             member = leaf.body
             if member.mesh is not None and leaf.other is None:
                 name = member.name or f"object {leaf.key}"
-                own = {
+                settings = {
                     key.removeprefix(INSIDE): value for key, value in member.settings.items() if key.startswith(INSIDE)
                 }
-                role = next((role for key, role in CURA_ROLES.items() if own.get(key) == "True"), "part")
-                found.append((member, PrintedVolume.of(name, member.mesh, role, own)))
-    yield from (volume for _, volume in found)
-    for body, volume in found:
-        yield from _of_volume(body, volume)
-    parts = [volume for _, volume in found if volume.prints]
-    modifiers = [volume for _, volume in found if volume.role == "modifier"]
-    if len(found) > 1 and len(package.items) > 1:
+                role = next((role for key, role in CURA_ROLES.items() if settings.get(key) == "True"), "part")
+                volumes.append((member, PrintedVolume.of(name, member.mesh, role, settings)))
+    yield from (volume for _, volume in volumes)
+    for body, volume in volumes:
+        yield from _check_volume(body, volume)
+    parts = [volume for _, volume in volumes if volume.prints]
+    modifiers = [volume for _, volume in volumes if volume.role == "modifier"]
+    if len(volumes) > 1 and len(package.items) > 1:
         yield as_warning("its objects are not in one group: moving one leaves the others where they are")
     for modifier in modifiers:
         for part in parts:
@@ -55,8 +55,8 @@ def volumes_for_cura(package: Package) -> Iterator[PrintedVolume | Finding]:
                 yield as_warning(f"{part.name} has infill of its own around {modifier.name}: its density is not 0")
 
 
-def _of_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
-    """Say what is wrong with the settings of a volume."""
+def _check_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
+    """Yield findings about the settings of a volume."""
     for key, value in volume.settings.items():
         if key not in KEYS:
             yield as_warning(
@@ -84,7 +84,7 @@ def _of_volume(body: Body, volume: PrintedVolume) -> Iterator[Finding]:
 
 
 def float_of(text: str) -> float:
-    """Return the number of a text, or -1 if it is none.
+    """Parse a number; return -1 for other texts.
 
     >>> float_of("3"), float_of("three")
     (3.0, -1.0)

@@ -1,4 +1,4 @@
-"""How PrusaSlicer reads a 3MF."""
+"""The rules by which PrusaSlicer reads a 3MF."""
 
 from __future__ import annotations
 
@@ -92,15 +92,15 @@ KEYS = WALL_KEYS["PrusaSlicer"] | {
 
 
 def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Finding]:
-    """Yield the volumes that PrusaSlicer makes of a file, and what it loses."""
+    """Yield the volumes that PrusaSlicer makes of a file, and the problems and warnings."""
     if package.has(PROFILE):
         yield as_warning(f"it holds a print profile, {PROFILE}, which takes the place of the user's own")
     config = package.xml(CONFIG)
-    told: dict[str, ElementTree.Element] = {}
-    for each in [] if config is None else config.findall("object"):
-        if (number := object_key(each.get("id"))) in told:
+    configured: dict[str, ElementTree.Element] = {}
+    for element in [] if config is None else config.findall("object"):
+        if (number := object_key(element.get("id"))) in configured:
             yield as_problem(f"{CONFIG} tells of object {number} twice: the file is not opened")
-        told[number] = each
+        configured[number] = element
         if number not in package.bodies:
             yield as_problem(
                 f"{CONFIG} is about an object {number} that the model does not hold: its settings are lost"
@@ -110,7 +110,7 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
                 f"{CONFIG} is about object {number}, which has components and no mesh: its settings are lost, and what "
                 "was to be a modifier is printed as a part"
             )
-    yield from _opens(package)
+    yield from _check_opening(package)
     if config is None and len(package.items) + sum(len(body.components) for body in package.bodies.values()) > 1:
         yield as_warning(f"it has no {CONFIG}: each object is printed for itself, with the settings of the profile")
     versioned = VERSION in package.metadata
@@ -134,22 +134,22 @@ def volumes_for_prusaslicer(package: Package) -> Iterator[PrintedVolume | Findin
             if leaf.body.mesh is None or leaf.key in listed:
                 continue  # another instance
             listed.add(leaf.key)
-            found = list(_of_object(leaf.body, leaf.body.mesh, told.get(leaf.key)))
-            yield from found
+            results = list(_read_object(leaf.body, leaf.body.mesh, configured.get(leaf.key)))
+            yield from results
             moved = not item.stays or leaf.above
-            if not versioned and moved and sum(isinstance(each, PrintedVolume) for each in found) > 1:
+            if not versioned and moved and sum(isinstance(result, PrintedVolume) for result in results) > 1:
                 yield as_problem(
                     f"it says no {VERSION}, and moves object {leaf.key}: only the first volume is moved; say it"
                 )
 
 
 def is_read(body: Body) -> bool:
-    """Return whether PrusaSlicer reads an object of this type; others are as if they were not there."""
+    """Tell whether PrusaSlicer reads an object of this type; it ignores others."""
     return body.kind in ("", "model")
 
 
-def _opens(package: Package) -> Iterator[Finding]:
-    """Say for what PrusaSlicer does not open a file; where its exit status or its message is another's, that too."""
+def _check_opening(package: Package) -> Iterator[Finding]:
+    """Yield the reasons for which PrusaSlicer does not open a file; add its message where that is misleading."""
     closed = "the file is not opened"
     if package.prefix:
         yield as_problem(
@@ -159,7 +159,7 @@ def _opens(package: Package) -> Iterator[Finding]:
     for number in package.twice:
         yield as_problem(f"there are two objects {number}: {closed}")
     reached: set[str] = set()
-    for item in {each.key: each for each in package.items}.values():
+    for item in {item.key: item for item in package.items}.values():
         tree = package.tree(item.key)
         reached.update(leaf.key for leaf in tree.leaves if not leaf.covered)
         body = package.bodies.get(item.key)
@@ -167,10 +167,10 @@ def _opens(package: Package) -> Iterator[Finding]:
             yield as_problem(f"object {item.key} consists of {tree.missing[0]}, which is not there: {closed}")
         if tree.deepest > MOST_NESTED or not tree.whole:
             yield as_problem(f"object {item.key} has objects in objects, more than {MOST_NESTED} deep: {closed}")
-        others = [each for leaf in tree.leaves for each in (*leaf.above, leaf.body) if not is_read(each)]
-        for other in dict.fromkeys(others):
+        ignored = [member for leaf in tree.leaves for member in (*leaf.above, leaf.body) if not is_read(member)]
+        for stray in dict.fromkeys(ignored):
             yield as_problem(
-                f"object {other.number} is of type {other.kind!r}, and PrusaSlicer knows only parts, of type 'model': "
+                f"object {stray.number} is of type {stray.kind!r}, and PrusaSlicer knows only parts, of type 'model': "
                 f"{closed} (it calls that an invalid object id)"
             )
         if body is not None and body.mesh is None and not body.components:
@@ -192,49 +192,53 @@ def _opens(package: Package) -> Iterator[Finding]:
         yield as_problem("it has objects in files of their own, which PrusaSlicer reads from 2.9 on and 2.5 does not")
 
 
-def _of_object(body: Body, mesh: Surface, told: ElementTree.Element | None) -> Iterator[PrintedVolume | Finding]:
+def _read_object(
+    body: Body, mesh: Surface, configured: ElementTree.Element | None
+) -> Iterator[PrintedVolume | Finding]:
     """Yield the volumes of an object."""
-    whole = body.name or f"object {body.number}"
-    if told is None:
-        yield PrintedVolume.of(whole, mesh, "part", {})
+    object_name = body.name or f"object {body.number}"
+    if configured is None:
+        yield PrintedVolume.of(object_name, mesh, "part", {})
         return
     volumes: list[PrintedVolume] = []
     covered = 0
-    yield from _metadata(told, "object")
-    common = {key: value for key, value in rows_of(told).items() if key not in RESERVED}
-    for each in told.findall("volume"):
-        first, last = (whole_number(each.get(name)) for name in ("firstid", "lastid"))
-        rows = rows_of(each)
+    yield from _check_rows(configured, "object")
+    common = {key: value for key, value in rows_of(configured).items() if key not in RESERVED}
+    for element in configured.findall("volume"):
+        low, high = (whole_number(element.get(name)) for name in ("firstid", "lastid"))
+        rows = rows_of(element)
         name = rows.get("name", "") or f"volume {len(volumes) + 1}"
-        yield from _metadata(each, "volume")
-        if not 0 <= first <= last < len(mesh.faces):
+        yield from _check_rows(element, "volume")
+        if not 0 <= low <= high < len(mesh.faces):
             yield as_problem(
-                f"{name} has the triangles {each.get('firstid')} to {each.get('lastid')}, and the object "
+                f"{name} has the triangles {element.get('firstid')} to {element.get('lastid')}, and the object "
                 f"{len(mesh.faces):,} from 0 on: the file is not opened"
             )
             continue
-        covered += last - first + 1
+        covered += high - low + 1
         kind = rows.get("volume_type", "ModelPart")
         if kind not in PRUSA_ROLES and kind != "1":
             yield as_problem(
                 f"{name} is a {kind!r}, which PrusaSlicer takes for a part; it knows {', '.join(PRUSA_ROLES)}"
             )
-        own = {key: value for key, value in rows.items() if key not in RESERVED}
-        part = replace(mesh, faces=mesh.faces[first : last + 1])
-        volumes.append(PrintedVolume.of(name, part, prusa_role(each), own))
-        yield from of_filling(name, own, "fill_density", KEYS, "PrusaSlicer")
-        yield from _at_full_density(name, {**common, **own})
+        settings = {key: value for key, value in rows.items() if key not in RESERVED}
+        part = replace(mesh, faces=mesh.faces[low : high + 1])
+        volumes.append(PrintedVolume.of(name, part, prusa_role(element), settings))
+        yield from of_filling(name, settings, "fill_density", KEYS, "PrusaSlicer")
+        yield from _check_full_density(name, {**common, **settings})
     yield from volumes
     if covered < len(mesh.faces):
-        yield as_problem(f"{len(mesh.faces) - covered:,} triangles of {whole} are in no volume: they are left out")
+        yield as_problem(
+            f"{len(mesh.faces) - covered:,} triangles of {object_name} are in no volume: they are left out"
+        )
     yield from in_order(volumes)
     shell_keys = ("fill_density", "solid_infill_below_area")
     yield from check_shells(volumes, common, shell_keys, "PrusaSlicer", "prusaslicer")
     yield from with_walls(volumes, WALL_KEYS["PrusaSlicer"])
 
 
-def _at_full_density(name: str, settings: Mapping[str, str]) -> Iterator[Finding]:
-    """Say which pattern cannot be as dense as that."""
+def _check_full_density(name: str, settings: Mapping[str, str]) -> Iterator[Finding]:
+    """Yield a problem if a pattern cannot have a density of 100 %."""
     pattern = settings.get("fill_pattern")
     if settings.get("fill_density") == "100%" and pattern is not None and pattern not in FULL_PATTERNS:
         yield as_problem(
@@ -243,8 +247,8 @@ def _at_full_density(name: str, settings: Mapping[str, str]) -> Iterator[Finding
         )
 
 
-def _metadata(element: ElementTree.Element, kind: str) -> Iterator[Finding]:
-    """Say which rows have no type, which ends the reading of the file."""
-    for each in element.findall("metadata"):
-        if each.get("type") != kind:
-            yield as_problem(f'{CONFIG} has a row {each.get("key")!r} without type="{kind}": the file is not opened')
+def _check_rows(element: ElementTree.Element, kind: str) -> Iterator[Finding]:
+    """Yield the rows without a type; they end the reading of the file."""
+    for row in element.findall("metadata"):
+        if row.get("type") != kind:
+            yield as_problem(f'{CONFIG} has a row {row.get("key")!r} without type="{kind}": the file is not opened')

@@ -1,4 +1,4 @@
-"""`save_project`: a part that was filled, as a project for a slicer."""
+"""`save_project`: a filled part as a project for a slicer."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from infill.result import Result
 
 
 def project_writer(slicer: str) -> Callable[[Project, BinaryIO], None]:
-    """Return what writes projects for a slicer, or raise UsageError."""
+    """Look up the function that writes projects for a slicer, or raise UsageError."""
     if slicer not in SLICERS:
         raise UsageError(f"slicer is {slicer!r}; choose from {', '.join(SLICERS)}")
     return WRITERS[slicer]
 
 
 def project_of(result: Result[Any, Any], *, slicer: str, title: str, units: str | None = None) -> Project:
-    """Return a part that was filled as a project, with a picture and the options that make it again.
+    """Turn a filled part into a project, with a picture and the options that make it again.
 
     Raises
     ------
     UsageError
-        If it was filled as something else.
+        If it was not filled as a project.
     """
     if set(result.surfaces) != {PART, INFILL}:
         raise UsageError(f"this holds {' and '.join(result.surfaces)}, no part and infill; fill it as a project")
@@ -69,7 +69,7 @@ def save_project(
     FormatError
         For a suffix other than .3mf.
     UsageError
-        For a slicer that is not known, or a result that is no project.
+        For an unknown slicer, or a result that was not filled as a project.
     OutputError
         If the file cannot be written.
     """
