@@ -87,15 +87,15 @@ def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration
     tried = [_SampledLayers.of(batch, rounding, acceleration) for batch in batches]
     threads = thread_count()
 
-    def measured(infill: Callable[[_SampledLayers], Strokes | Rounded]) -> tuple[Contact, float]:
-        results = [pair for _, pair in in_order(lambda layers: layers.measured(infill(layers)), tried, threads=threads)]
+    def measure_all(infill: Callable[[_SampledLayers], Strokes | Rounded]) -> tuple[Contact, float]:
+        results = [pair for _, pair in in_order(lambda layers: layers.measure(infill(layers)), tried, threads=threads)]
         return sum((contact for contact, _ in results), Contact()), sum(length for _, length in results)
 
-    old_contact, old = measured(lambda layers: layers.batch.infill)
+    old_contact, old = measure_all(lambda layers: layers.batch.infill)
 
     def share(deviation: float) -> float:
         trial_rounding = replace(rounding, deviation=deviation)
-        contact, new = measured(lambda layers: layers.corners.rounded(trial_rounding))
+        contact, new = measure_all(lambda layers: layers.corners.rounded(trial_rounding))
         return min(*kept_shares(old_contact, contact), kept_length(old, new))
 
     if share(rounding.deviation) >= AIM:
@@ -104,15 +104,15 @@ def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration
 
 
 def smaller_deviation(deviation: float, share: float, previous_share: float = 0.0) -> float:
-    """Return a smaller deviation, mm, if the kept share is too low: it falls with the excess loss, and a little more.
+    """Lower a deviation, mm, that keeps too small a share.
 
-    What is lost grows with the deviation: it is lowered by as much as too much was lost, and a little more.
+    The loss grows with the deviation, so the deviation falls in proportion to the excess loss, and a little more.
 
     Parameters
     ----------
     deviation : float, mm
     share : float
-        The lesser share that it left.
+        The smaller of the shares that it left.
     previous_share : float
         The share that the previous, larger deviation left. Without a difference, the legs limited the arcs: the
         deviation is halved.
@@ -163,7 +163,7 @@ class _SampledLayers:
             walls={number: batch.others.samples_of(number - 1) for number in filled(batch)},
         )
 
-    def measured(self, infill: Strokes | Rounded) -> tuple[Contact, float]:
+    def measure(self, infill: Strokes | Rounded) -> tuple[Contact, float]:
         """Measure the contact of the layers with some infill, and the length of all of it, mm."""
         drawn = Drawing(points=infill.points, first=infill.first, layer=self.batch.layer)
         total = Contact()

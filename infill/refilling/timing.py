@@ -103,7 +103,7 @@ class PrintClock:
 
     Parameters
     ----------
-    given : SlicedText
+    sliced : SlicedText
         The print, with its metadata.
     text : binary file, optional
         Its text, if it has changed.
@@ -115,13 +115,13 @@ class PrintClock:
 
     def __init__(
         self,
-        given: SlicedText,
+        sliced: SlicedText,
         text: BinaryIO | None = None,
         places: Sequence[int] = (),
         *,
         like: PrintClock | None = None,
     ) -> None:
-        self._timeline = timeline_of_text(given, text, found=None if like is None else like.found)
+        self._timeline = timeline_of_text(sliced, text, found=None if like is None else like.found)
         self.found: FoundLimits = self._timeline.found
         self.begin: State = self._timeline.state
         self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
