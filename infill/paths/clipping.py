@@ -1,8 +1,9 @@
 """Paths cut at the outline of a region, each on its own: a union would also cut paths where they touch each other.
 
-Step 1. Find where segments of paths meet edges of the outline: exact predicates say which, floating point where.
-Step 2. Each run of a path from one such place to the next lies on one side; its longest piece says which.
-Step 3. Runs inside that follow one another are one path: the outline only touches it there.
+Step 1. Intersect the segments of paths with the edges of the outline: exact predicates choose the pairs, floating
+        point gives the coordinates.
+Step 2. Each run of a path from one cut to the next lies on one side; the middle of its longest piece tells the side.
+Step 3. Consecutive runs inside form one path: the outline only touches it there.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 from infill.paths.families.protocol import Path
 from infill.paths.outlines import Floats, Numbers, Outline
 
-SAME = 1e-9  # mm: a cut so near to a corner is at the corner
+SAME = 1e-9  # mm: a cut this close to a corner is at the corner
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,29 +49,29 @@ def clip(paths: Sequence[Path], outline: Outline) -> Pieces:
     ([[0.0, 1.0], [3.0, 1.0]], [[6.0, 1.0]])
     """
     paths = [path for path in paths if len(path) > 1]
-    found: list[Path] = []
+    inside: list[Path] = []
     ends: list[tuple[int, int]] = []
     ring, place = np.zeros(0, dtype=np.intp), np.zeros(0)
     if paths:
         points, owner, ring, place = _cut(paths, outline)
         for run in _runs_inside(points, owner, ring >= 0, outline):
             path = points[run[0]] if len(run) == 1 else np.concatenate([points[part] for part in run])
-            found.append(path)
+            inside.append(path)
             ends.append((run[0].start, run[-1].stop - 1))
-    chosen = np.array(ends, dtype=np.intp).reshape(-1, 2)
-    ring, place = ring[chosen], place[chosen]
-    closed = np.array([is_closed(path) for path in found], dtype=bool)
+    end_points = np.array(ends, dtype=np.intp).reshape(-1, 2)
+    ring, place = ring[end_points], place[end_points]
+    closed = np.array([is_closed(path) for path in inside], dtype=bool)
     ring[closed], place[closed] = -1, np.nan
-    return Pieces(paths=found, ring=ring, place=place)
+    return Pieces(paths=inside, ring=ring, place=place)
 
 
 def is_closed(path: Path) -> bool:
-    """Return whether a path ends where it begins."""
+    """Tell whether a path ends where it begins."""
     return len(path) > 2 and bool((path[0] == path[-1]).all())
 
 
 def _cut(paths: Sequence[Path], outline: Outline) -> tuple[Path, Numbers, Numbers, Floats]:
-    """Return the corners of all paths and the cuts between them, their path, and their ring (or −1) and place."""
+    """Cut paths at the outline; return all points in order, the path, ring (or −1) and place of each."""
     import shapely
 
     points = np.concatenate(paths)
@@ -86,70 +87,70 @@ def _cut(paths: Sequence[Path], outline: Outline) -> tuple[Path, Numbers, Number
     parallel = np.abs(cross) <= 1e-14 * np.hypot(*along.T) * np.hypot(*side.T)
     divisor = np.where(parallel, (along**2).sum(axis=-1), cross)
     divisor[divisor == 0] = 1.0  # a path that stands still
-    part = np.where(parallel, ((b - a) * along).sum(axis=-1), _cross(b - a, side)) / divisor
-    cut = a + part.clip(0, 1)[:, None] * along
+    fraction_along = np.where(parallel, ((b - a) * along).sum(axis=-1), _cross(b - a, side)) / divisor
+    cut = a + fraction_along.clip(0, 1)[:, None] * along
     length = np.hypot(*side.T)
     place = outline.place[edge] + (((cut - b) * side).sum(axis=-1) / length).clip(0, length)
 
     key = np.concatenate([np.arange(len(points), dtype=np.float64), start[segment].astype(np.float64)])
-    fraction = np.concatenate([np.zeros(len(points)), part.clip(0, 1)])
-    order = np.lexsort((fraction, key))
-    everything = np.concatenate([points, cut])[order]
-    whose = np.concatenate([owner, owner[start[segment]]])[order]
+    sort_fraction = np.concatenate([np.zeros(len(points)), fraction_along.clip(0, 1)])
+    order = np.lexsort((sort_fraction, key))
+    merged_points = np.concatenate([points, cut])[order]
+    path_of = np.concatenate([owner, owner[start[segment]]])[order]
     ring = np.concatenate([np.full(len(points), -1), outline.ring[edge]])[order]
-    reached = np.concatenate([np.full(len(points), np.nan), place])[order]
+    places = np.concatenate([np.full(len(points), np.nan), place])[order]
     # Cuts at a corner, and two cuts at a corner of the outline, become one.
-    again = np.zeros(len(everything), dtype=bool)
-    again[1:] = (np.abs(np.diff(everything, axis=0)).max(axis=-1) <= SAME) & (whose[1:] == whose[:-1])
-    if again.any():
-        group = np.cumsum(~again) - 1
-        kept = np.flatnonzero(~again)
+    repeats = np.zeros(len(merged_points), dtype=bool)
+    repeats[1:] = (np.abs(np.diff(merged_points, axis=0)).max(axis=-1) <= SAME) & (path_of[1:] == path_of[:-1])
+    if repeats.any():
+        group = np.cumsum(~repeats) - 1
+        unique_points = np.flatnonzero(~repeats)
         cuts = np.flatnonzero(ring >= 0)
-        ring_of, place_of = np.full(len(kept), -1), np.full(len(kept), np.nan)
-        ring_of[group[cuts]], place_of[group[cuts]] = ring[cuts], reached[cuts]
-        return everything[kept], whose[kept], ring_of, place_of
-    return everything, whose, ring, reached
+        ring_of, place_of = np.full(len(unique_points), -1), np.full(len(unique_points), np.nan)
+        ring_of[group[cuts]], place_of[group[cuts]] = ring[cuts], places[cuts]
+        return merged_points[unique_points], path_of[unique_points], ring_of, place_of
+    return merged_points, path_of, ring, places
 
 
 def _runs_inside(points: Path, owner: Numbers, cut: NDArray[np.bool_], outline: Outline) -> list[list[slice]]:
-    """Return the points of each path inside: one slice, or two for a closed path whose ends lie inside."""
+    """Find the runs of points inside the region: one slice each, or two for a closed path whose ends lie inside."""
     import shapely
 
-    first = np.append(True, owner[1:] != owner[:-1])
-    last = np.append(first[1:], True)
-    firsts, lasts = np.flatnonzero(first), np.flatnonzero(last)
-    begin = np.flatnonzero((first | cut) & ~last)
+    is_first = np.append(True, owner[1:] != owner[:-1])
+    is_last = np.append(is_first[1:], True)
+    path_starts, path_ends = np.flatnonzero(is_first), np.flatnonzero(is_last)
+    begin = np.flatnonzero((is_first | cut) & ~is_last)
     if not len(begin):
         return []
-    path = np.searchsorted(lasts, begin)
-    end = np.minimum(np.append(begin[1:], len(points)), lasts[path])
-    longest = _longest(np.where(last[:-1], 0.0, np.hypot(*np.diff(points, axis=0).T)), begin)
+    path = np.searchsorted(path_ends, begin)
+    end = np.minimum(np.append(begin[1:], len(points)), path_ends[path])
+    longest = _longest(np.where(is_last[:-1], 0.0, np.hypot(*np.diff(points, axis=0).T)), begin)
     inside = shapely.contains_xy(outline.region, (points[longest] + points[longest + 1]) / 2)
     begin, end, path = begin[inside], end[inside], path[inside]
     # A run that begins where another ends continues it.
     opens = np.append(True, begin[1:] != end[:-1])[: len(begin)]
     begin, end, path = begin[opens], end[np.append(opens[1:], True)[: len(end)]], path[opens]
-    closed = (points[firsts] == points[lasts]).all(axis=-1)[path]
+    closed = (points[path_starts] == points[path_ends]).all(axis=-1)[path]
     runs: list[list[slice]] = []
     opening: dict[int, int] = {}
-    for one, other, number, ring in zip(begin.tolist(), end.tolist(), path.tolist(), closed.tolist(), strict=True):
-        if ring and one != firsts[number] and other == lasts[number] and number in opening:
-            runs[opening[number]].insert(0, slice(one, other))
+    for start, stop, number, ring in zip(begin.tolist(), end.tolist(), path.tolist(), closed.tolist(), strict=True):
+        if ring and start != path_starts[number] and stop == path_ends[number] and number in opening:
+            runs[opening[number]].insert(0, slice(start, stop))
         else:
-            if ring and one == firsts[number]:
+            if ring and start == path_starts[number]:
                 opening[number] = len(runs)
-            runs.append([slice(one, other + 1)])
+            runs.append([slice(start, stop + 1)])
     return runs
 
 
 def _longest(piece: Floats, begin: Numbers) -> Numbers:
-    """Return the number of the longest piece of each run; a run begins where the one before it ends."""
+    """Find the longest piece of each run; a run begins where the one before it ends."""
     run = np.zeros(len(piece), dtype=np.intp)
     run[begin[1:]] = 1
     run = np.cumsum(run)
     order = np.lexsort((piece, run))
-    found: Numbers = order[np.append(np.flatnonzero(np.diff(run)), len(piece) - 1)]
-    return found
+    longest: Numbers = order[np.append(np.flatnonzero(np.diff(run)), len(piece) - 1)]
+    return longest
 
 
 def _cross(a: Path, b: Path) -> Floats:

@@ -1,4 +1,4 @@
-"""What holds infill up: the bead below it, and the beads beside it.
+"""Support of infill by the layer below, and its contact with the beads beside it.
 
 Both are shares of the infill's length. A point of a centre line is *supported* if a centre line of the layer below
 passes within half a line width of it, so that at least half of the bead lies on something. It is *bonded* if another
@@ -15,18 +15,18 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-LEAST_POINTS, MOST_POINTS = 1000, 5000  # of a layer that are looked at: with fewer, shares would be off
+LEAST_POINTS, MOST_POINTS = 1000, 5000  # sampled points in a layer: with fewer, shares would be inaccurate
 STEP = 0.4  # mm, of the pieces that paths are cut into; distances to pieces are exact
 TOUCHING = 1.05  # line widths between two centre lines whose beads touch
 OWN = 4.0  # line widths along a path within which it is its own neighbour
-# Within 1.05 line widths of 0.45 mm lie 5 pieces of the path itself, and fewer of each other; more are looked at
-# where beads are wider, or chords shorter.
+# Within 1.05 line widths of 0.45 mm lie 5 pieces of the path itself, and fewer of any other path; the search takes
+# more where beads are wider, or chords shorter.
 NEIGHBOURS = 12
 
 
 @dataclass(frozen=True, kw_only=True)
 class Contact:
-    """How much of some infill touches what.
+    """Length of some infill, and the lengths of it that are supported and bonded.
 
     Parameters
     ----------
@@ -49,8 +49,8 @@ class Contact:
     @property
     def shares(self) -> tuple[float, float]:
         """Supported and bonded per length, 0 to 1."""
-        whole = self.length or 1.0
-        return self.supported / whole, self.bonded / whole
+        length = self.length or 1.0
+        return self.supported / length, self.bonded / length
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,47 +75,47 @@ class Samples:
     half: Floats
 
 
-def merged(one: Samples, other: Samples) -> Samples:
-    """Return the samples of both; paths of the second are numbered anew."""
-    number = int(one.path.max()) + 1 if len(one.path) else 0
+def merged(a: Samples, b: Samples) -> Samples:
+    """Concatenate samples; the paths of the second follow those of the first in number."""
+    count = int(a.path.max()) + 1 if len(a.path) else 0
     return Samples(
-        points=np.concatenate([one.points, other.points]),
-        weight=np.concatenate([one.weight, other.weight]),
-        path=np.concatenate([one.path, other.path + number]),
-        along=np.concatenate([one.along, other.along]),
-        half=np.concatenate([one.half, other.half]),
+        points=np.concatenate([a.points, b.points]),
+        weight=np.concatenate([a.weight, b.weight]),
+        path=np.concatenate([a.path, b.path + count]),
+        along=np.concatenate([a.along, b.along]),
+        half=np.concatenate([a.half, b.half]),
     )
 
 
-def sampled(points: Floats, first: Places, step: float = STEP) -> Samples:
-    """Return the middles of equal pieces of every segment, at most `step` long.
+def sampled(points: Floats, offsets: Places, step: float = STEP) -> Samples:
+    """Cut every segment into equal pieces, at most `step` long; return their middles.
 
     >>> sampled(np.array([[0.0, 0.0], [0.4, 0.0]]), np.array([0, 2]), 0.2).points[:, 0].round(3).tolist()
     [0.1, 0.3]
     """
     # Axis by axis: NumPy is slow along the short axis of an array.
-    number = np.maximum(np.diff(first) - 1, 0)  # of segments
+    number = np.maximum(np.diff(offsets) - 1, 0)  # of segments
     path = np.repeat(np.arange(len(number)), number)
     inner = np.ones(len(points), dtype=bool)
-    inner[first[1:] - 1] = False
+    inner[offsets[1:] - 1] = False
     segment = np.flatnonzero(inner)
     x, y = points[segment].T
     dx, dy = (points[segment + 1] - points[segment]).T
     length = np.hypot(dx, dy)
     pieces = np.maximum(1, np.ceil(length / step - 1e-9)).astype(np.intp)
-    of = np.repeat(np.arange(len(segment)), pieces)
+    segment_of = np.repeat(np.arange(len(segment)), pieces)
     total = np.cumsum(pieces)
-    share = (np.arange(len(of)) - (total - pieces)[of] + 0.5) / pieces[of]
+    share = (np.arange(len(segment_of)) - (total - pieces)[segment_of] + 0.5) / pieces[segment_of]
     begins = np.concatenate([[0.0], np.cumsum(length)])
     starts = begins[np.cumsum(number) - number]
-    where = path[of]
-    dx_of, dy_of = dx[of], dy[of]
-    halves = 2 * pieces[of]
+    path_of = path[segment_of]
+    dx_of, dy_of = dx[segment_of], dy[segment_of]
+    halves = 2 * pieces[segment_of]
     return Samples(
-        points=np.stack([x[of] + share * dx_of, y[of] + share * dy_of], axis=1),
-        weight=(length / pieces)[of],
-        path=where,
-        along=begins[of] + share * length[of] - starts[where],
+        points=np.stack([x[segment_of] + share * dx_of, y[segment_of] + share * dy_of], axis=1),
+        weight=(length / pieces)[segment_of],
+        path=path_of,
+        along=begins[segment_of] + share * length[segment_of] - starts[path_of],
         half=np.stack([dx_of / halves, dy_of / halves], axis=1),
     )
 
@@ -137,19 +137,21 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
         return Contact()
     # One of a few neighbours, anywhere on its piece: patterns repeat, and so would the error of a regular choice.
     random = np.random.default_rng(0)
-    apart = max(1, len(infill.points) // MOST_POINTS)
-    some = np.repeat(np.arange(0, len(infill.points), apart), max(1, LEAST_POINTS // len(infill.points)))
-    some = np.minimum(some + random.integers(0, apart, len(some)), len(infill.points) - 1)
-    aside = random.uniform(-1, 1, len(some))
-    points = infill.points[some] + infill.half[some] * aside[:, None]
-    along = infill.along[some] + infill.weight[some] * aside / 2
-    weight = infill.weight[some] * (infill.weight.sum() / infill.weight[some].sum())
+    stride = max(1, len(infill.points) // MOST_POINTS)
+    chosen = np.repeat(np.arange(0, len(infill.points), stride), max(1, LEAST_POINTS // len(infill.points)))
+    chosen = np.minimum(chosen + random.integers(0, stride, len(chosen)), len(infill.points) - 1)
+    jitter = random.uniform(-1, 1, len(chosen))
+    points = infill.points[chosen] + infill.half[chosen] * jitter[:, None]
+    along = infill.along[chosen] + infill.weight[chosen] * jitter / 2
+    weight = infill.weight[chosen] * (infill.weight.sum() / infill.weight[chosen].sum())
     supported: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
     if len(below.points):
         reach = line_width / 2
-        _, other = cKDTree(below.points, balanced_tree=False).query(points, k=3, distance_upper_bound=reach + STEP / 2)
-        supported |= (_nearest(points, below, other)[0] <= reach).any(axis=1)
-    bonded = _beside(points, infill.path[some], along, infill, TOUCHING * line_width)
+        _, candidates = cKDTree(below.points, balanced_tree=False).query(
+            points, k=3, distance_upper_bound=reach + STEP / 2
+        )
+        supported |= (_nearest(points, below, candidates)[0] <= reach).any(axis=1)
+    bonded = _beside(points, infill.path[chosen], along, infill, TOUCHING * line_width)
     return Contact(
         length=float(infill.weight.sum()),
         supported=float(weight[supported].sum()),
@@ -157,19 +159,19 @@ def contact(infill: Samples, below: Samples, line_width: float) -> Contact:
     )
 
 
-def _nearest(points: Floats, others: Samples, which: Places) -> tuple[Floats, Floats]:
-    """Return how far each point is from pieces of others, and where along their path it is nearest: mm, (N, k) both.
+def _nearest(points: Floats, samples: Samples, candidates: Places) -> tuple[Floats, Floats]:
+    """Compute the distance from each point to its candidate pieces, and where along their paths they are nearest.
 
-    Infinite where there is no piece.
+    Both are (N, k), mm; the distance is infinite where a candidate is missing.
     """
-    there = which < len(others.points)
-    which = np.where(there, which, 0)
-    along, apart = projected(points, others.points, others.half, which)
-    return np.where(there, apart, np.inf), others.along[which] + along * others.weight[which] / 2
+    exists = candidates < len(samples.points)
+    candidates = np.where(exists, candidates, 0)
+    along, apart = projected(points, samples.points, samples.half, candidates)
+    return np.where(exists, apart, np.inf), samples.along[candidates] + along * samples.weight[candidates] / 2
 
 
 def projected(points: Floats, middle: Floats, half: Floats, which: Places) -> tuple[Floats, Floats]:
-    """Return where pieces of paths are nearest to points, and how far that is.
+    """Project points onto pieces of paths; return the nearest places and the distances.
 
     Parameters
     ----------
@@ -177,7 +179,7 @@ def projected(points: Floats, middle: Floats, half: Floats, which: Places) -> tu
     middle, half : (K, 2) float64, mm
         Of pieces: their middle, and the way from there to their end.
     which : (N, k) int
-        The pieces to look at for each point.
+        Candidate pieces of each point.
 
     Returns
     -------
@@ -189,29 +191,29 @@ def projected(points: Floats, middle: Floats, half: Floats, which: Places) -> tu
     [[1.0]]
     """
     # Axis by axis: NumPy is slow along the short axis of an array.
-    (mx, my), (hx, hy) = ([column[which] for column in each.T] for each in (middle, half))
+    (mx, my), (hx, hy) = ([column[which] for column in pairs.T] for pairs in (middle, half))
     dx, dy = points[:, :1] - mx, points[:, 1:] - my
     along = np.clip((dx * hx + dy * hy) / np.maximum(hx**2 + hy**2, 1e-18), -1.0, 1.0)
     return along, np.hypot(dx - along * hx, dy - along * hy)
 
 
 def _beside(points: Floats, path: Places, along: Floats, infill: Samples, reach: float) -> NDArray[np.bool_]:
-    """Return which points, at certain places along paths of some infill, have another stretch of it within `reach`."""
+    """Tell which points, at places along paths of the infill, have another stretch of it within `reach`."""
     from scipy.spatial import cKDTree
 
-    tree, number = cKDTree(infill.points, balanced_tree=False), len(infill.points)
+    tree, total = cKDTree(infill.points, balanced_tree=False), len(infill.points)
     touches: NDArray[np.bool_] = np.zeros(len(points), dtype=np.bool_)
-    left, count = np.arange(len(points)), NEIGHBOURS
-    while len(left):
-        count = min(count, number)
-        _, other = tree.query(points[left], k=count, distance_upper_bound=reach + STEP / 2)
-        other = other.reshape(len(left), -1)
-        distance, there = _nearest(points[left], infill, other)
-        full = other[:, -1] < number
-        same = infill.path[np.minimum(other, number - 1)] == path[left, None]
-        own = np.abs(there - along[left, None]) <= OWN * reach / TOUCHING
-        touches[left] = ((distance <= reach) & ~(same & own)).any(axis=1)
-        if count == number:
+    pending, count = np.arange(len(points)), NEIGHBOURS
+    while len(pending):
+        count = min(count, total)
+        _, candidates = tree.query(points[pending], k=count, distance_upper_bound=reach + STEP / 2)
+        candidates = candidates.reshape(len(pending), -1)
+        distance, place = _nearest(points[pending], infill, candidates)
+        has_more = candidates[:, -1] < total
+        is_same_path = infill.path[np.minimum(candidates, total - 1)] == path[pending, None]
+        is_close = np.abs(place - along[pending, None]) <= OWN * reach / TOUCHING
+        touches[pending] = ((distance <= reach) & ~(is_same_path & is_close)).any(axis=1)
+        if count == total:
             break
-        left, count = left[full & ~touches[left]], 4 * count
+        pending, count = pending[has_more & ~touches[pending]], 4 * count
     return touches

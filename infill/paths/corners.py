@@ -33,14 +33,14 @@ SHORTEST_CHORD = 0.06  # mm: speed is no reason for shorter ones
 
 @dataclass(frozen=True, kw_only=True)
 class Machine:
-    """What decides how finely a curve is cut.
+    """Speed, acceleration and cornering of a machine, which decide how finely a curve is cut.
 
     Parameters
     ----------
     acceleration : float or (N,) float64
         mm/s², of the path's points if an array.
     speed : float or (N,) float64
-        mm/s that is asked for.
+        Requested, mm/s.
     corner : float
         Turn, in radians, times speed, in mm/s, that the firmware passes without slowing down: 1.82 × the square
         corner velocity, √(8 a × junction deviation), or the jerk.
@@ -63,7 +63,7 @@ class Rounded:
     source : (K,) int
         The number of the old point that each new one stands for.
     radius : (N,) float64, mm
-        Of the arc at each old point; infinite where there is no corner, 0 where it was left as it was.
+        Of the arc at each old point; infinite at points that are not corners, 0 at corners that stay sharp.
     """
 
     points: Floats
@@ -74,7 +74,7 @@ class Rounded:
 
 def rounded(
     points: Floats,
-    first: Places,
+    offsets: Places,
     *,
     deviation: float | Floats = math.inf,
     radius: float = math.inf,
@@ -87,7 +87,7 @@ def rounded(
     ----------
     points : (N, 2) float64, mm
         The paths one after another.
-    first : (M + 1,) int
+    offsets : (M + 1,) int
         Where each begins, and N.
     deviation : float or (N,) float64, mm
         How far an arc may lie from the corner.
@@ -103,39 +103,39 @@ def rounded(
     Rounded
 
     >>> corner = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
-    >>> done = rounded(corner, np.array([0, 3]), radius=2.0)
-    >>> float(done.radius[1]), len(done.points)
+    >>> result = rounded(corner, np.array([0, 3]), radius=2.0)
+    >>> float(result.radius[1]), len(result.points)
     (2.0, 11)
     """
     machine = machine or Machine()
     count = len(points)
     inner = np.ones(count, dtype=bool)
-    inner[first[:-1][first[:-1] < count]] = False
-    inner[first[1:] - 1] = False
-    here = np.flatnonzero(inner)
-    turn, before, after, lengths = turns(points, here)
+    inner[offsets[:-1][offsets[:-1] < count]] = False
+    inner[offsets[1:] - 1] = False
+    corners = np.flatnonzero(inner)
+    turn, before, after, lengths = turns(points, corners)
     half = turn / 2
     half_tangent = np.maximum(np.tan(half), 1e-12)
-    wanted = np.minimum(radius * half_tangent, _at(deviation, here) / np.maximum(np.tan(turn / 4), 1e-12))
-    wanted[(turn > SHARPEST) | (lengths.min(axis=0) == 0)] = 0.0
-    setback = _shared(wanted, here, lengths, half_tangent, count)
+    full_setback = np.minimum(radius * half_tangent, _take(deviation, corners) / np.maximum(np.tan(turn / 4), 1e-12))
+    full_setback[(turn > SHARPEST) | (lengths.min(axis=0) == 0)] = 0.0
+    setback = _fit_setbacks(full_setback, corners, lengths, half_tangent, count)
     straight = half < 1e-9
-    arc = np.divide(setback, np.tan(half), out=np.full(len(here), np.inf), where=~straight)
+    arc = np.divide(setback, np.tan(half), out=np.full(len(corners), np.inf), where=~straight)
     setback[(setback * np.tan(turn / 4) < LEAST_DEVIATION) | straight] = 0.0
-    chords = _chords(arc, turn, machine, here)
+    chords = _chord_counts(arc, turn, machine, corners)
     chords[setback == 0] = 0
     radii = np.full(count, np.inf)
-    radii[here] = np.where(straight, np.inf, np.where(setback == 0, 0.0, arc))
-    return _drawn(points, first, here, setback, arc, turn, before, after, chords, radii, unit)
+    radii[corners] = np.where(straight, np.inf, np.where(setback == 0, 0.0, arc))
+    return _insert_arcs(points, offsets, corners, setback, arc, turn, before, after, chords, radii, unit)
 
 
-def _at(value: float | Floats, here: Places) -> Floats | float:
-    return value[here] if isinstance(value, np.ndarray) else value
+def _take(value: float | Floats, index: Places) -> Floats | float:
+    return value[index] if isinstance(value, np.ndarray) else value
 
 
-def turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the turn at each inner point, the directions of its two legs, and their lengths (2, n)."""
-    before, after = points[here] - points[here - 1], points[here + 1] - points[here]
+def turns(points: Floats, index: Places) -> tuple[Floats, Floats, Floats, Floats]:
+    """Compute the turn at each inner point, the directions of its two legs, and their lengths (2, n)."""
+    before, after = points[index] - points[index - 1], points[index + 1] - points[index]
     lengths = np.stack([np.hypot(*before.T), np.hypot(*after.T)])
     before, after = (
         leg / np.maximum(length, 1e-300)[:, None] for leg, length in zip((before, after), lengths, strict=True)
@@ -144,34 +144,34 @@ def turns(points: Floats, here: Places) -> tuple[Floats, Floats, Floats, Floats]
     return np.arctan2(np.abs(cross), before[:, 0] * after[:, 0] + before[:, 1] * after[:, 1]), before, after, lengths
 
 
-def _shared(wanted: Floats, here: Places, lengths: Floats, half_tangent: Floats, count: int) -> Floats:
-    """Return setbacks that fit: two corners share their leg so that their arcs are equal, unless one needs less."""
+def _fit_setbacks(full_setback: Floats, corners: Places, lengths: Floats, half_tangent: Floats, count: int) -> Floats:
+    """Fit setbacks into their legs: two corners share a leg so that their arcs are equal, unless one needs less."""
     needs, weight = np.zeros(count), np.zeros(count)
-    needs[here], weight[here] = wanted, np.where(wanted > 0, half_tangent, 0.0)
-    own = np.maximum(weight[here], 1e-12)
+    needs[corners], weight[corners] = full_setback, np.where(full_setback > 0, half_tangent, 0.0)
+    corner_weight = np.maximum(weight[corners], 1e-12)
     fits = [
-        np.maximum(length * (own / (own + weight[here + step])), length - needs[here + step])
+        np.maximum(length * (corner_weight / (corner_weight + weight[corners + step])), length - needs[corners + step])
         for length, step in zip(lengths, (-1, 1), strict=True)
     ]
-    setback: Floats = np.minimum(wanted, np.minimum(*fits))
+    setback: Floats = np.minimum(full_setback, np.minimum(*fits))
     return setback
 
 
-def _chords(arc: Floats, turn: Floats, machine: Machine, here: Places) -> Places:
-    """Return into how many chords each arc is cut."""
+def _chord_counts(arc: Floats, turn: Floats, machine: Machine, corners: Places) -> Places:
+    """Compute the number of chords of each arc."""
     arc = np.where(np.isfinite(arc), np.maximum(arc, 1e-9), 1e9)
-    speed = np.minimum(np.sqrt(_at(machine.acceleration, here) * arc), _at(machine.speed, here))
-    quick = np.ceil(turn * speed / machine.corner - 1e-9)
-    quick = np.minimum(quick, np.floor(turn * arc / SHORTEST_CHORD))
-    close = np.ceil(turn / (2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0))) - 1e-9)
-    number: Places = np.maximum(np.maximum(quick, close), 1).astype(np.intp)
+    speed = np.minimum(np.sqrt(_take(machine.acceleration, corners) * arc), _take(machine.speed, corners))
+    speed_count = np.ceil(turn * speed / machine.corner - 1e-9)
+    speed_count = np.minimum(speed_count, np.floor(turn * arc / SHORTEST_CHORD))
+    shape_count = np.ceil(turn / (2 * np.arccos(np.maximum(1 - COARSEST / arc, 0.0))) - 1e-9)
+    number: Places = np.maximum(np.maximum(speed_count, shape_count), 1).astype(np.intp)
     return number
 
 
-def _drawn(
+def _insert_arcs(
     points: Floats,
-    first: Places,
-    here: Places,
+    offsets: Places,
+    corners: Places,
     setback: Floats,
     arc: Floats,
     turn: Floats,
@@ -181,35 +181,35 @@ def _drawn(
     radii: Floats,
     unit: float,
 ) -> Rounded:
-    """Put arcs in the place of their corners."""
+    """Replace corners by their arcs."""
     count = len(points)
     number = np.ones(count, dtype=np.intp)  # of new points for each old one
-    number[here] = np.where(chords > 0, chords + 1, 1)
+    number[corners] = np.where(chords > 0, chords + 1, 1)
     source = np.repeat(np.arange(count), number)
     start = np.concatenate([[0], np.cumsum(number)])
     new = points[source]
     corner = np.zeros(count, dtype=np.intp)
-    corner[here] = np.arange(len(here))
+    corner[corners] = np.arange(len(corners))
     bent = np.zeros(count, dtype=bool)
-    bent[here] = chords > 0
+    bent[corners] = chords > 0
     on_arc = np.flatnonzero(bent[source])
-    which = corner[source[on_arc]]
+    arc_index = corner[source[on_arc]]
     place = on_arc - start[source[on_arc]]
-    angle = (turn / np.maximum(chords, 1))[which] * place
-    size = arc[which]
-    along, inwards = size * np.sin(angle) - setback[which], size * (1 - np.cos(angle))
-    left = np.sign(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
+    angle = (turn / np.maximum(chords, 1))[arc_index] * place
+    size = arc[arc_index]
+    along, inwards = size * np.sin(angle) - setback[arc_index], size * (1 - np.cos(angle))
+    side = np.sign(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
     # Axis by axis: NumPy is slow along the short axis of an array.
-    new[on_arc, 0] += along * before[which, 0] - inwards * (left * before[:, 1])[which]
-    new[on_arc, 1] += along * before[which, 1] + inwards * (left * before[:, 0])[which]
+    new[on_arc, 0] += along * before[arc_index, 0] - inwards * (side * before[:, 1])[arc_index]
+    new[on_arc, 1] += along * before[arc_index, 1] + inwards * (side * before[:, 0])[arc_index]
     if unit:
         new = np.rint(new / unit) * unit
     # Arcs that meet in the middle of a leg share a point there; an arc may end at a point of the path, which stays.
     keep = np.ones(len(new), dtype=bool)
     step = np.abs(np.diff(new, axis=0))
-    near = np.flatnonzero(np.maximum(step[:, 0], step[:, 1]) <= max(unit * 5, 1e-9)) + 1
+    close = np.flatnonzero(np.maximum(step[:, 0], step[:, 1]) <= max(unit * 5, 1e-9)) + 1
     fixed = ~bent[source]
-    both = fixed[near] & fixed[near - 1]
-    keep[np.where(fixed[near], near - 1, near)[~both]] = False
+    both_fixed = fixed[close] & fixed[close - 1]
+    keep[np.where(fixed[close], close - 1, close)[~both_fixed]] = False
     final = np.concatenate([[0], np.cumsum(keep)])
-    return Rounded(points=new[keep], first=final[start[first]], source=source[keep], radius=radii)
+    return Rounded(points=new[keep], first=final[start[offsets]], source=source[keep], radius=radii)

@@ -1,4 +1,4 @@
-"""A region covered by a family of paths, and the cell at which that takes the length of line asked for."""
+"""Cover a region with a family of paths, and solve for the cell that gives a requested length of line."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
     from shapely import MultiPolygon, Polygon
 
 ANCHOR, ANCHOR_MAX = 2.5, 12.0  # mm, as slicers have them
-CLOSE = 0.005  # of the length asked for: near enough
+CLOSE = 0.005  # of the requested length: accurate enough
 SECANTS = 6
-MORE = 10  # steps, if secants found none
-AROUND = 1.012  # the factor between cells that are tried around the nearest one
-FINEST = 1.002  # the factor between cells within which a jump is taken for one
+MORE = 10  # further steps, if no secant step is accurate enough
+AROUND = 1.012  # ratio of the cells that are tried around the best one
+FINEST = 1.002  # ratio of two cells below which a jump between them is not divided further
 
 
 @dataclass(frozen=True, kw_only=True)
 class Solved:
-    """A cell, the length of line that it gives, mm, and by which share of the length asked for that is off."""
+    """A cell, the length of line that it gives, mm, and its relative error against the requested length."""
 
     cell: float
     length: float
@@ -59,7 +59,7 @@ def cover(
     Parameters
     ----------
     region : Polygon, MultiPolygon or Outline
-        Where centre lines may lie, mm; the outline of one that is covered repeatedly is best found once.
+        Area for centre lines, mm; pass an `Outline` to cover the same region repeatedly.
     family : Family
     cell, line_width, z, layer, radius
         As for `Family.strands`. Corners are returned as such, to be rounded by up to `radius`.
@@ -88,7 +88,7 @@ def cover(
     """
     outline = region if isinstance(region, Outline) else outline_of(region)
     check_cell(cell, line_width)
-    paths = _joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max, ground)
+    paths = _draw_joined(outline, family, cell, line_width, z, layer, radius, anchor, anchor_max, ground)
     return order(paths, start)
 
 
@@ -103,11 +103,10 @@ def solve_cell(
     anchor_max: float = ANCHOR_MAX,
     measure: Callable[[Sequence[Path], float], float] | None = None,
 ) -> Solved:
-    """Return the cell at which a family's paths in some regions are as long as asked, together.
+    """Solve for the cell at which a family's paths in some regions have a total length.
 
-    Secant steps in the logarithms of cell and length, inside the bracket that is known so far. In small regions
-    the length jumps with the cell, as whole lines come and go: the nearest that was found is returned then, with the
-    error that remains.
+    Secant steps in the logarithms of cell and length stay inside the current bracket. In small regions the length
+    jumps with the cell, as whole lines come and go: the result is then the closest cell, with the remaining error.
 
     Parameters
     ----------
@@ -119,38 +118,39 @@ def solve_cell(
     line_width, radius, anchor, anchor_max
         As for `cover`.
     measure : callable, optional
-        What counts as the length of paths, mm, drawn at a cell, mm: after rounding, for instance. `total_length` if it
-        is not given.
+        Length of paths, mm, drawn at a cell, mm: after rounding, for instance. Default: `total_length`.
 
     Raises
     ------
     ParameterError
         If `length` is not above 0, or beads would have to overlap.
     """
-    wanted = positive("length", length, "mm")
-    own = {id(each): each if isinstance(each, Outline) else outline_of(each) for each, _, _ in regions}
-    places = Counter((id(each), *((0.0, 0) if family.prismatic else (z, layer))) for each, z, layer in regions)
-    least = TOUCH * line_width
-    area = sum(own[region].region.area * number for (region, _, _), number in places.items())
-    if not places or wanted * least > area:
+    target = positive("length", length, "mm")
+    outlines = {id(key): key if isinstance(key, Outline) else outline_of(key) for key, _, _ in regions}
+    places = Counter((id(key), *((0.0, 0) if family.prismatic else (z, layer))) for key, z, layer in regions)
+    smallest = TOUCH * line_width
+    area = sum(outlines[region].region.area * number for (region, _, _), number in places.items())
+    if not places or target * smallest > area:
         raise ParameterError(
-            f"{wanted:g} mm of beads {least:g} mm apart do not fit into {area:g} mm²; ask for a lower density"
+            f"{target:g} mm of beads {smallest:g} mm apart do not fit into {area:g} mm²; ask for a lower density"
         )
 
     def ratio(cell: float) -> float:
         length = 0.0
         for (region, z, layer), number in places.items():
-            paths = _joined(own[region], family, cell, line_width, z, layer, radius, anchor, anchor_max)
+            paths = _draw_joined(outlines[region], family, cell, line_width, z, layer, radius, anchor, anchor_max)
             length += number * (total_length(paths) if measure is None else measure(paths, cell))
-        return length / wanted
+        return length / target
 
-    found: list[tuple[float, float]] = []
-    for cell, share in _steps(ratio, max(least, family.cell_for(wanted * least / area, line_width)), least):
-        found.append((share, cell))
+    trials: list[tuple[float, float]] = []
+    for cell, share in _search_cells(
+        ratio, max(smallest, family.cell_for(target * smallest / area, line_width)), smallest
+    ):
+        trials.append((share, cell))
         if abs(share - 1) <= CLOSE:
             break
-    share, cell = min(found, key=lambda pair: abs(math.log(pair[0])) if pair[0] > 0 else math.inf)
-    return Solved(cell=cell, length=share * wanted, error=share - 1)
+    share, cell = min(trials, key=lambda pair: abs(math.log(pair[0])) if pair[0] > 0 else math.inf)
+    return Solved(cell=cell, length=share * target, error=share - 1)
 
 
 def total_length(paths: Sequence[Path]) -> float:
@@ -162,45 +162,45 @@ def total_length(paths: Sequence[Path]) -> float:
     return float(sum(np.hypot(*np.diff(path, axis=0).T).sum() for path in paths))
 
 
-def _steps(ratio: Callable[[float], float], first: float, least: float) -> Iterator[tuple[float, float]]:
-    """Yield cells, from `first` on, and the shares of the length asked for that they give.
+def _search_cells(ratio: Callable[[float], float], start: float, smallest: float) -> Iterator[tuple[float, float]]:
+    """Yield cells, from `start` on, and their shares of the requested length.
 
-    Secants first. Where lengths jump over the one asked for, cells around the one that came nearest, and between those
-    on either side of it: between jumps lengths drift.
+    Secants come first. Where lengths jump over the requested one, the next cells lie around the best one, and between
+    those on either side of it: between jumps lengths drift.
     """
-    low, high = least, math.inf  # cells known to give too much and too little
-    cell, slope = first, -1.0
-    found: list[tuple[float, float]] = []
+    low, high = smallest, math.inf  # cells that give too much and too little
+    cell, slope = start, -1.0
+    trials: list[tuple[float, float]] = []
     for _ in range(SECANTS):
         share = ratio(cell)
         yield cell, share
         low, high = (max(low, cell), high) if share > 1 else (low, min(high, cell))
-        if found and share > 0 and found[-1][1] > 0 and cell != found[-1][0]:
-            slope = math.log(share / found[-1][1]) / math.log(cell / found[-1][0])
+        if trials and share > 0 and trials[-1][1] > 0 and cell != trials[-1][0]:
+            slope = math.log(share / trials[-1][1]) / math.log(cell / trials[-1][0])
             slope = min(-0.5, max(-2.0, slope))
-        found.append((cell, share))
+        trials.append((cell, share))
         cell *= max(share, 0.1) ** (-1 / slope)
         if not low < cell < high:
             cell = math.sqrt(low * high) if high < math.inf else 2 * low
-    nearest = min(found, key=lambda pair: abs(pair[1] - 1))[0]
-    tried = 0
+    nearest = min(trials, key=lambda pair: abs(pair[1] - 1))[0]
+    attempts = 0
     for _ in range(MORE):
-        found.sort()
+        trials.sort()
         sides = [
-            math.sqrt(one * other)
-            for (one, more), (other, less) in itertools.pairwise(found)
-            if (more - 1) * (less - 1) < 0 and other > FINEST * one
+            math.sqrt(fine * coarse)
+            for (fine, fine_share), (coarse, coarse_share) in itertools.pairwise(trials)
+            if (fine_share - 1) * (coarse_share - 1) < 0 and coarse > FINEST * fine
         ]
         if sides:
             cell = min(sides, key=lambda cell: abs(math.log(cell / nearest)))
         else:
-            tried += 1
-            cell = max(least, nearest * AROUND ** ((tried + 1) // 2 * (-1) ** tried))
-        found.append((cell, ratio(cell)))
-        yield found[-1]
+            attempts += 1
+            cell = max(smallest, nearest * AROUND ** ((attempts + 1) // 2 * (-1) ** attempts))
+        trials.append((cell, ratio(cell)))
+        yield trials[-1]
 
 
-def _joined(
+def _draw_joined(
     outline: Outline,
     family: Family,
     cell: float,
@@ -212,7 +212,7 @@ def _joined(
     anchor_max: float,
     ground: Ground | None = None,
 ) -> list[Path]:
-    """Return the paths of a family in a region, in no order."""
+    """Draw the paths of a family in a region, in any order."""
     if isinstance(family, RegionFamily):
         return family.strands_inside(outline.region, cell=cell, line_width=line_width)
     strands = family.strands(outline.region.bounds, cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
@@ -221,7 +221,7 @@ def _joined(
 
 
 def check_cell(cell: float, line_width: float) -> None:
-    """Raise ParameterError for a cell that beads do not fit into."""
-    least = TOUCH * positive("line width", line_width, "mm")
-    if positive("cell", cell, "mm") < least * (1 - 1e-9):
-        raise ParameterError(f"cell is {cell:g} mm; beads of {line_width:g} mm need at least {least:g} mm")
+    """Raise ParameterError if a cell is too small for beads."""
+    smallest = TOUCH * positive("line width", line_width, "mm")
+    if positive("cell", cell, "mm") < smallest * (1 - 1e-9):
+        raise ParameterError(f"cell is {cell:g} mm; beads of {line_width:g} mm need at least {smallest:g} mm")

@@ -5,8 +5,8 @@ are gentle, a smooth curve goes through the joints (its direction there is that 
 neighbours, each leg a cubic Bézier curve between two such directions) and is cut again: a chord may turn by c / v at
 the speed v = √(a / κ) that the curvature κ allows, so the density of chords along the curve is √(a κ) / c.
 
-The curve is not moved: it leaves the slicer's chords by their own sagitta, of 0.1 mm at most; elsewhere, there is no
-curve but a corner.
+The curve does not move: it leaves the slicer's chords by their own sagitta, of 0.1 mm at most. Where the sagitta would
+be larger, the joint counts as a corner.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ class Recut:
     first : (M + 1,) int
         Where each path begins.
     source : (K,) int
-        The old point that each is, or that it follows.
+        The old point equal to each new one, or the last old point before it.
     curved : (K,) bool
-        The point lies on a curve: it is no corner.
+        True on a curve, False at corners.
     """
 
     points: Floats
@@ -50,14 +50,14 @@ class Recut:
     curved: NDArray[np.bool_]
 
 
-def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats = MOST_BULGE) -> Recut:
+def recut(points: Floats, offsets: Places, machine: Machine, bulge: float | Floats = MOST_BULGE) -> Recut:
     """Cut the curves among some paths into the chords that a machine needs.
 
     Parameters
     ----------
     points : (N, 2) float64, mm
         The paths one after another.
-    first : (M + 1,) int
+    offsets : (M + 1,) int
         Where each begins, and N.
     machine : Machine
     bulge : float or (N,) float64, mm
@@ -68,28 +68,28 @@ def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats
     Recut
     """
     count = len(points)
-    same = np.ones(max(count - 1, 0), dtype=bool)  # the leg after a point belongs to its path
-    same[first[1:-1] - 1] = False
+    has_leg = np.ones(max(count - 1, 0), dtype=bool)  # the leg after a point belongs to its path
+    has_leg[offsets[1:-1] - 1] = False
     leg = np.diff(points, axis=0)
     length = np.hypot(*leg.T)
     heading = np.arctan2(leg[:, 1], leg[:, 0])
     turn = np.zeros(count)
-    turn[1:-1] = np.where(same[:-1] & same[1:], _wrapped(np.diff(heading)), np.pi)
+    turn[1:-1] = np.where(has_leg[:-1] & has_leg[1:], _wrap_angle(np.diff(heading)), np.pi)
     longer = np.maximum(length[:-1], length[1:])
     gentle = np.zeros(count, dtype=bool)
-    gentle[1:-1] = same[:-1] & same[1:] & (np.minimum(length[:-1], length[1:]) > 0)
-    most = np.broadcast_to(bulge, count)
-    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < most[1:-1])
-    bent = np.flatnonzero(gentle[:-1] & gentle[1:] & same)
+    gentle[1:-1] = has_leg[:-1] & has_leg[1:] & (np.minimum(length[:-1], length[1:]) > 0)
+    limit = np.broadcast_to(bulge, count)
+    gentle[1:-1] &= (np.abs(turn[1:-1]) < GENTLE) & (longer * np.abs(turn[1:-1]) / 8 < limit[1:-1])
+    bent = np.flatnonzero(gentle[:-1] & gentle[1:] & has_leg)
     # The circle through three points turns towards each neighbour by that leg's share.
-    part = np.zeros(count)
-    part[1:-1] = length[:-1] / np.maximum(length[:-1] + length[1:], 1e-300)
-    leaving, arriving = -turn[bent] * (1 - part[bent]), turn[bent + 1] * part[bent + 1]
+    share = np.zeros(count)
+    share[1:-1] = length[:-1] / np.maximum(length[:-1] + length[1:], 1e-300)
+    leaving, arriving = -turn[bent] * (1 - share[bent]), turn[bent + 1] * share[bent + 1]
     # A leg beside shorter ones takes nearly all of the turn at both of its ends.
-    low = _bulges(length[bent], np.abs(leaving), np.abs(arriving)) < np.minimum(most[bent], most[bent + 1])
+    low = _bound_bulges(length[bent], np.abs(leaving), np.abs(arriving)) < np.minimum(limit[bent], limit[bent + 1])
     bent, leaving, arriving = bent[low], leaving[low], arriving[low]
     if not len(bent):
-        return Recut(points=points, first=first, source=np.arange(count), curved=np.zeros(count, dtype=bool))
+        return Recut(points=points, first=offsets, source=np.arange(count), curved=np.zeros(count, dtype=bool))
     start, end = heading[bent] + leaving, heading[bent] + arriving
     handle = length[bent] / 3
     control = np.stack(
@@ -100,44 +100,46 @@ def recut(points: Floats, first: Places, machine: Machine, bulge: float | Floats
             points[bent + 1],
         ]
     )
-    number = _chords(control, bent, machine)
+    number = _chord_density(control, bent, machine)
     opens = np.flatnonzero(np.diff(bent, prepend=-2) != 1)  # where a run of curved legs begins
     while True:
-        done, astray = _resampled(points, first, bent, control, number, opens)
+        result, astray = _resample_runs(points, offsets, bent, control, number, opens)
         if not len(astray):
-            return done
+            return result
         opens = np.union1d(opens, astray)  # these joints stay
 
 
-def _bulges(length: Floats, one: Floats, other: Floats) -> Floats:
-    """Return how far cubic curves leave their legs at most, from the angles at both ends.
+def _bound_bulges(length: Floats, start_angle: Floats, end_angle: Floats) -> Floats:
+    """Bound the distance of cubic curves from their legs by the angles at both ends.
 
     That is L α / 4 if they are equal, 4 L α / 27 if one of them is 0, and no more than between these elsewhere.
     """
-    found: Floats = length * (np.minimum(one, other) / 4 + np.abs(one - other) * 4 / 27)
-    return found
+    distance: Floats = length * (np.minimum(start_angle, end_angle) / 4 + np.abs(start_angle - end_angle) * 4 / 27)
+    return distance
 
 
-def _wrapped(angle: Floats) -> Floats:
-    """Return angles between -π and π."""
-    wrapped: Floats = (angle + np.pi) % (2 * np.pi) - np.pi
-    return wrapped
+def _wrap_angle(angle: Floats) -> Floats:
+    """Wrap angles to the range from -π to π."""
+    result: Floats = (angle + np.pi) % (2 * np.pi) - np.pi
+    return result
 
 
 def _bezier(control: Floats, share: Floats) -> Floats:
     """Return points of cubic curves; `control` is (4, n, 2), `share` (n,)."""
     u, v = share[:, None], 1 - share[:, None]
-    found: Floats = v**3 * control[0] + 3 * v * v * u * control[1] + 3 * v * u * u * control[2] + u**3 * control[3]
-    return found
+    curve_points: Floats = (
+        v**3 * control[0] + 3 * v * v * u * control[1] + 3 * v * u * u * control[2] + u**3 * control[3]
+    )
+    return curve_points
 
 
-def _chords(control: Floats, bent: Places, machine: Machine) -> Floats:
-    """Return how many chords each quarter of each curved leg needs: (legs, PIECES)."""
+def _chord_density(control: Floats, bent: Places, machine: Machine) -> Floats:
+    """Compute the number of chords that each quarter of each curved leg needs: (legs, PIECES)."""
     grid = np.stack([_bezier(control, np.full(len(bent), k / PIECES)) for k in range(PIECES + 1)], axis=1)
     piece = np.diff(grid, axis=1)
     length = np.hypot(piece[..., 0], piece[..., 1])
     heading = np.arctan2(piece[..., 1], piece[..., 0])
-    inner = np.abs(_wrapped(np.diff(heading, axis=1)))
+    inner = np.abs(_wrap_angle(np.diff(heading, axis=1)))
     bend = np.concatenate([inner[:, :1], inner], axis=1)
     bend[:, 1:-1] = (inner[:, :-1] + inner[:, 1:]) / 2
     curvature = np.maximum(bend / np.maximum(length, 1e-9), STRAIGHTEST)
@@ -150,28 +152,28 @@ def _chords(control: Floats, bent: Places, machine: Machine) -> Floats:
     return number
 
 
-def _resampled(
-    points: Floats, first: Places, bent: Places, control: Floats, number: Floats, opens: Places
+def _resample_runs(
+    points: Floats, offsets: Places, bent: Places, control: Floats, number: Floats, opens: Places
 ) -> tuple[Recut, Places]:
-    """Put new points in the place of those inside runs of curved legs.
+    """Replace the points inside runs of curved legs by new ones.
 
-    Return also the curved legs that begin at an old point which the new chords miss: where a curve is straight for
-    long and then turns, its length tells too little.
+    Return also the curved legs whose first point, an old one, the new chords miss: this occurs where a curve is
+    straight for a long way and then turns.
     """
     count = len(points)
     run = np.repeat(np.arange(len(opens)), np.diff(np.append(opens, len(bent))))
-    whole = np.add.reduceat(number.sum(axis=1), opens)
-    chords = np.maximum(1, np.ceil(whole - 1e-9)).astype(np.intp)
-    # Along each run the number of chords so far goes from 0 to a whole number.
-    scaled = number * (chords / whole)[run][:, None]
+    run_chords = np.add.reduceat(number.sum(axis=1), opens)
+    chords = np.maximum(1, np.ceil(run_chords - 1e-9)).astype(np.intp)
+    # Along each run the cumulative number of chords goes from 0 to an integer.
+    scaled = number * (chords / run_chords)[run][:, None]
     before = np.concatenate([[0], np.cumsum(chords)])
     along = np.concatenate([[0.0], np.cumsum(scaled.ravel())])
-    wanted = np.arange(before[-1]) + 0.0
-    inner = np.ones(len(wanted), dtype=bool)
+    positions = np.arange(before[-1]) + 0.0
+    inner = np.ones(len(positions), dtype=bool)
     inner[before[:-1]] = False  # the beginnings of runs are points of the path
-    wanted, of = wanted[inner], np.repeat(np.arange(len(opens)), chords)[inner]
-    place = np.interp(wanted, along, np.arange(len(along)) / PIECES)
-    lowest, highest = opens[of], np.append(opens[1:], len(bent))[of] - 1
+    positions, run_of = positions[inner], np.repeat(np.arange(len(opens)), chords)[inner]
+    place = np.interp(positions, along, np.arange(len(along)) / PIECES)
+    lowest, highest = opens[run_of], np.append(opens[1:], len(bent))[run_of] - 1
     leg = np.clip(place.astype(np.intp), lowest, highest)
     new = _bezier(control[:, leg], np.clip(place - leg, 0.0, 1.0))
     starts = np.empty((int(before[-1]), 2))
@@ -189,19 +191,19 @@ def _resampled(
     old = np.flatnonzero(stays)
     source = np.concatenate([old, bent[leg]])
     order = np.lexsort((np.concatenate([np.zeros(len(old)), place + 1]), source))
-    found = np.concatenate([points[old], new])[order]
+    merged_points = np.concatenate([points[old], new])[order]
     source = source[order]
-    done = Recut(
-        points=found,
-        first=np.searchsorted(source, first),
+    result = Recut(
+        points=merged_points,
+        first=np.searchsorted(source, offsets),
         source=source,
         curved=np.concatenate([on_curve[old], np.ones(len(new), dtype=bool)])[order],
     )
-    return done, astray
+    return result, astray
 
 
 def _distances(points: Floats, starts: Floats, ends: Floats) -> Floats:
-    """Return the distance, mm, of each point from a chord of its own."""
+    """Return the distance, mm, of each point from its own chord."""
     chord, delta = ends - starts, points - starts
     share = (delta * chord).sum(axis=1) / np.maximum((chord**2).sum(axis=1), 1e-300)
     return np.asarray(np.hypot(*(delta - np.clip(share, 0.0, 1.0)[:, None] * chord).T))

@@ -1,4 +1,4 @@
-"""The outline of a region between neighbouring ends of paths, and how far it is clear for a bead."""
+"""Gaps: stretches of a region's outline between neighbouring ends of paths, and their clearance for a bead."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from infill.paths.outlines import Floats, Numbers, Outline
 CLEAR = 0.95  # of the distance of touching beads: beads overlap by at most 5 %
 NEXT = 3.5  # line widths along a path within which it may come near itself: joins with corners of 30° and more
 NEXT_OF_ANCHOR = 2.0  # an anchor has another way to go, or none
-STEPS = 4  # per line width, in which the outline is examined
+STEPS = 4  # samples of the outline per line width
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,9 +29,9 @@ class Gaps:
     place, length : (G,) float64
         Where it begins along its ring, and how long it is, mm.
     across : (G,) float64
-        How far apart the ends are, mm: less than `length` around a corner.
+        Distance between the ends, mm: less than `length` around a corner.
     clear : (G,) bool
-        Whether a bead fits along the whole of it.
+        True if a bead fits along the entire gap.
     forwards, backwards : (G,) float64
         How far an anchor may reach from `begin` and from `end`, mm.
     """
@@ -48,11 +48,11 @@ class Gaps:
 
 
 def gaps_of(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
-    """Return the gaps of all rings, and how far each is clear of paths."""
-    number = np.flatnonzero(pieces.ring.ravel() >= 0)
-    ring, place = pieces.ring.ravel()[number], pieces.place.ravel()[number]
+    """Find the gaps of all rings, and how far each is clear of paths."""
+    ends = np.flatnonzero(pieces.ring.ravel() >= 0)
+    ring, place = pieces.ring.ravel()[ends], pieces.place.ravel()[ends]
     order = np.lexsort((place, ring))
-    number, ring, place = number[order], ring[order], place[order]
+    ends, ring, place = ends[order], ring[order], place[order]
     tips = np.array([path[[0, -1]] for path in pieces.paths]).reshape(-1, 2)
     # The gap after the last end of a ring goes on to the first.
     opening = np.flatnonzero(np.append(True, ring[1:] != ring[:-1])[: len(ring)])
@@ -61,44 +61,46 @@ def gaps_of(pieces: Pieces, outline: Outline, line_width: float) -> Gaps:
     following[closing] = opening
     length = place[following] - place if len(ring) else place
     length[closing] += outline.around[ring[closing]]
-    forwards, backwards, whole = _clear(pieces, outline, line_width, (ring, place, length, number, number[following]))
+    forwards, backwards, is_clear = _measure_clearance(
+        pieces, outline, line_width, (ring, place, length, ends, ends[following])
+    )
     return Gaps(
         ring=ring,
-        begin=number,
-        end=number[following],
+        begin=ends,
+        end=ends[following],
         place=place,
         length=length,
-        across=np.hypot(*(tips[number[following]] - tips[number]).T),
-        clear=whole,
+        across=np.hypot(*(tips[ends[following]] - tips[ends]).T),
+        clear=is_clear,
         forwards=forwards,
         backwards=backwards,
     )
 
 
-def _clear(
+def _measure_clearance(
     pieces: Pieces,
     outline: Outline,
     line_width: float,
     gaps: tuple[Numbers, Floats, Floats, Numbers, Numbers],
 ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-    """Return how far gaps are clear from their begin and from their end, mm, and which are clear as a whole."""
+    """Measure the clear length of gaps from their begin and from their end, mm, and tell which are entirely clear."""
     import shapely
 
     ring, place, length, begin, end = gaps
-    forwards, backwards, whole = length.copy(), length.copy(), np.ones(len(length), dtype=bool)
+    forwards, backwards, is_clear = length.copy(), length.copy(), np.ones(len(length), dtype=bool)
     if not len(length):
-        return forwards, backwards, whole
-    reach, near = CLEAR * TOUCH * line_width, NEXT * line_width
+        return forwards, backwards, is_clear
+    reach, exempt = CLEAR * TOUCH * line_width, NEXT * line_width
     step = line_width / STEPS
     count = np.maximum(1, np.ceil(length / step).astype(np.intp))
     gap = np.repeat(np.arange(len(length)), count)
     within = (np.arange(len(gap)) - np.repeat(np.cumsum(count) - count, count) + 0.5) / count[gap] * length[gap]
     points = np.empty((len(gap), 2))
-    for one in np.unique(ring):
-        here = ring[gap] == one
-        points[here] = outline.points_at(int(one), (place[gap] + within)[here])
+    for ring_number in np.unique(ring):
+        on_ring = ring[gap] == ring_number
+        points[on_ring] = outline.points_at(int(ring_number), (place[gap] + within)[on_ring])
 
-    # Which segments of paths come near, and how far along the path those places are from either end of the gap.
+    # The segments of paths within reach, and the way along the path from either end of the gap to them.
     flat = np.concatenate(pieces.paths)
     owner = np.repeat(np.arange(len(pieces.paths)), [len(path) for path in pieces.paths])
     start = np.flatnonzero(owner[1:] == owner[:-1])
@@ -119,27 +121,29 @@ def _clear(
         np.where(path == tip // 2, np.where(tip % 2 == 0, passed, total[path] - passed) + walked, np.inf)
         for tip, walked in ((begin[gap[sample]], from_begin), (end[gap[sample]], from_end))
     ]
-    # Where the outline comes near itself nothing is walked: the other side may be.
-    tight = _near_itself(points, ring[gap], place[gap] + within, outline, reach, near)
+    # A pinched outline is never walked: the other side of the pinch may be.
+    tight = _pinched_points(points, ring[gap], place[gap] + within, outline, reach, exempt)
     sample = np.concatenate([sample, tight])
     by_begin, by_end = (np.concatenate([walk, np.full(len(tight), np.inf)]) for walk in walks)
-    which = gap[sample]
-    far = by_begin > NEXT_OF_ANCHOR * line_width
-    np.minimum.at(forwards, which[far], (within[sample] - step)[far])
-    far = by_end > NEXT_OF_ANCHOR * line_width
-    np.minimum.at(backwards, which[far], (length[which] - within[sample] - step)[far])
-    whole[which[np.minimum(by_begin, by_end) > near]] = False
-    return forwards.clip(min=0), backwards.clip(min=0), whole
+    gap_of = gap[sample]
+    blocked = by_begin > NEXT_OF_ANCHOR * line_width
+    np.minimum.at(forwards, gap_of[blocked], (within[sample] - step)[blocked])
+    blocked = by_end > NEXT_OF_ANCHOR * line_width
+    np.minimum.at(backwards, gap_of[blocked], (length[gap_of] - within[sample] - step)[blocked])
+    is_clear[gap_of[np.minimum(by_begin, by_end) > exempt]] = False
+    return forwards.clip(min=0), backwards.clip(min=0), is_clear
 
 
-def _near_itself(points: Path, ring: Numbers, place: Floats, outline: Outline, reach: float, near: float) -> Numbers:
-    """Return the points on the outline that are near another one, but not along a ring."""
+def _pinched_points(
+    points: Path, ring: Numbers, place: Floats, outline: Outline, reach: float, exempt: float
+) -> Numbers:
+    """Find points on the outline that are close to other points, but far from them along their ring."""
     from scipy.spatial import cKDTree
 
     pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
-    one, other = pairs.T
-    around = outline.around[ring[one]]
-    apart = np.abs(place[one] - place[other]) % around
-    far = (ring[one] != ring[other]) | (np.minimum(apart, around - apart) > near)
-    found: Numbers = np.unique(pairs[far])
-    return found
+    a, b = pairs.T
+    around = outline.around[ring[a]]
+    distance = np.abs(place[a] - place[b]) % around
+    is_pinch = (ring[a] != ring[b]) | (np.minimum(distance, around - distance) > exempt)
+    pinched: Numbers = np.unique(pairs[is_pinch])
+    return pinched

@@ -1,8 +1,8 @@
-"""Ends of paths joined along the outline of their region, as slicers anchor infill.
+"""Join the ends of paths along the outline of their region, as slicers anchor infill.
 
 Ends divide a ring of the outline into gaps. A gap may be walked whole, from one end to the next, or in part, as
 an anchor of a free end; never twice. Paths in a region do not cross and gaps do not overlap, so joined paths do not
-cross either. What is walked keeps clear of everything that is not next to it along the same path.
+cross either. A walked stretch keeps clear of all beads except its neighbours along the same path.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def join(
     anchor_max: float,
     ground: Ground | None = None,
 ) -> list[Path]:
-    """Return paths joined along the outline.
+    """Join paths along the outline.
 
     Parameters
     ----------
@@ -51,28 +51,28 @@ def join(
     Returns
     -------
     list of (N, 2) float64, mm
-        Joining closes a path only where its ends would overlap. Those shorter than two line widths are left out.
+        Joining closes a path only where its ends would overlap. Paths shorter than two line widths are dropped.
     """
     gaps = gaps_of(pieces, outline, line_width)
     apart = TOUCH * line_width
-    held = None if ground is None else _held(gaps, outline, ground)
-    walked = walked_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=held)
+    is_supported = None if ground is None else _supported_gaps(gaps, outline, ground)
+    walked = walked_gaps(gaps, len(pieces.paths), most=anchor_max, overlapping=CLEAR * apart, held=is_supported)
     link: dict[int, tuple[int, Path]] = {}
     for gap in np.flatnonzero(walked).tolist():
         begin, end, place = int(gaps.begin[gap]), int(gaps.end[gap]), float(gaps.place[gap])
         wall = outline.between(int(gaps.ring[gap]), place, float(gaps.length[gap]))
         link[begin], link[end] = (end, wall), (begin, wall[::-1])
-    chains = _chains(len(pieces.paths), link)
+    chains = _link_chains(len(pieces.paths), link)
     lengths = np.array([np.hypot(*np.diff(path, axis=0).T).sum() for path in pieces.paths])
-    kept = [chain for chain in chains if len(chain) > 1 or lengths[chain[0] // 2] >= SHORTEST * line_width]
-    free = [end for chain in kept for end in (chain[0], chain[-1] ^ 1) if end not in link]
+    long_chains = [chain for chain in chains if len(chain) > 1 or lengths[chain[0] // 2] >= SHORTEST * line_width]
+    free = [end for chain in long_chains for end in (chain[0], chain[-1] ^ 1) if end not in link]
     heading = {end: _heading(pieces.paths[end // 2], end) for end in free}
     anchors = _anchors(heading, gaps, walked, outline, anchor, apart, ground)
-    return [_laid(chain, pieces.paths, link, anchors) for chain in kept]
+    return [_assemble_path(chain, pieces.paths, link, anchors) for chain in long_chains]
 
 
-def _held(gaps: Gaps, outline: Outline, ground: Ground) -> NDArray[np.bool_]:
-    """Return whether the middles of gaps lie on something."""
+def _supported_gaps(gaps: Gaps, outline: Outline, ground: Ground) -> NDArray[np.bool_]:
+    """Tell which gaps have a supported middle."""
     middles = [
         outline.points_at(ring, np.array([place + length / 2]))[0]
         for ring, place, length in zip(gaps.ring.tolist(), gaps.place.tolist(), gaps.length.tolist(), strict=True)
@@ -80,10 +80,10 @@ def _held(gaps: Gaps, outline: Outline, ground: Ground) -> NDArray[np.bool_]:
     return ground.holds(np.array(middles).reshape(-1, 2))
 
 
-def _chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:
-    """Return which paths follow one another: each by the number of the end that it is entered at.
+def _link_chains(count: int, link: dict[int, tuple[int, Path]]) -> list[list[int]]:
+    """Link paths into chains: each path is given by the number of the end at which it is entered.
 
-    Open chains come first, from an end that is not linked; what they leave over is closed.
+    Open chains come first, from an end that is not linked; the remaining chains are closed.
     """
     chains: list[list[int]] = []
     seen: set[int] = set()
@@ -113,14 +113,14 @@ def _anchors(
     apart: float,
     ground: Ground | None,
 ) -> dict[int, Path]:
-    """Return the anchors of free ends, by end, from the end on.
+    """Choose the anchors of free ends, by end, from the end on.
 
-    The way that lies on something, else the longer one, or the blunter one if it is clear.
+    A supported way wins, else the longer one, or the blunter one if it is clear.
     """
     after = dict(zip(gaps.begin.tolist(), range(len(gaps.begin)), strict=True))
     before = dict(zip(gaps.end.tolist(), range(len(gaps.end)), strict=True))
     # Two anchors in a gap keep apart around a right angle too.
-    left = np.where(walked, 0.0, gaps.length - math.sqrt(2) * apart)
+    remaining = np.where(walked, 0.0, gaps.length - math.sqrt(2) * apart)
     anchors: dict[int, Path] = {}
     for end, direction in heading.items():
         if end not in after:
@@ -128,21 +128,23 @@ def _anchors(
         onwards, back = after[end], before[end]
         ways: list[tuple[float, float, int, Path]] = []
         for gap, clear, sign in ((onwards, gaps.forwards, 1.0), (back, gaps.backwards, -1.0)):
-            reach = min(anchor, float(left[gap]), float(clear[gap]))
+            reach = min(anchor, float(remaining[gap]), float(clear[gap]))
             if reach >= apart:
                 place = float(gaps.place[onwards])
                 wall = outline.stretch(int(gaps.ring[onwards]), place, sign * reach)
                 blunt = bool((_heading(wall[:2], 1) * direction).sum() >= 0)
-                held = ground is not None and bool(ground.holds(wall[1:].mean(axis=0)[None])[0])
-                ways.append((reach + (blunt + 2 * held) * anchor, reach, gap, wall[1:]))
+                is_supported = ground is not None and bool(ground.holds(wall[1:].mean(axis=0)[None])[0])
+                ways.append((reach + (blunt + 2 * is_supported) * anchor, reach, gap, wall[1:]))
         if ways:
             _, reach, gap, anchors[end] = max(ways, key=lambda way: way[0])
-            left[gap] -= reach
+            remaining[gap] -= reach
     return anchors
 
 
-def _laid(chain: list[int], paths: Sequence[Path], link: dict[int, tuple[int, Path]], anchors: dict[int, Path]) -> Path:
-    """Return the path along a chain, with the walls between its pieces and the anchors at its ends."""
+def _assemble_path(
+    chain: list[int], paths: Sequence[Path], link: dict[int, tuple[int, Path]], anchors: dict[int, Path]
+) -> Path:
+    """Assemble the path along a chain, with the walls between its pieces and the anchors at its ends."""
     parts: list[Path] = []
     if chain[0] in anchors:
         parts.append(anchors[chain[0]][::-1])

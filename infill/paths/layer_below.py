@@ -1,4 +1,4 @@
-"""What the paths of a layer lie on, so that those of the next layer run above them where they may choose."""
+"""The layer below: its beads, which the paths of the next layer follow where they may choose."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class Ground:
-    """The layer below.
+    """Beads of the layer below.
 
     Parameters
     ----------
     lines, others : Walls
         Its infill, and its other beads.
     reach : float, mm
-        How far from a centre line a point still lies on its bead.
+        Half width of a bead: points within it lie on the bead.
     """
 
     lines: Walls
@@ -32,18 +32,18 @@ class Ground:
     reach: float
 
     def holds(self, points: Floats) -> NDArray[np.bool_]:
-        """Return which points, (N, 2), mm, lie on it."""
+        """Tell which points, (N, 2), mm, lie on the layer."""
         if not len(points):
             return np.zeros(0, dtype=np.bool_)
         return self._on(self.lines, points) | self._on(self.others, points)
 
     def _on(self, beads: Walls, points: Floats) -> NDArray[np.bool_]:
-        held: NDArray[np.bool_] = foot(points, beads)[1] <= self.reach
-        return held
+        is_supported: NDArray[np.bool_] = foot(points, beads)[1] <= self.reach
+        return is_supported
 
 
 def ground_of(paths: Sequence[Floats], others: Walls, line_width: float) -> Ground:
-    """Return what a layer is to the next one.
+    """Index the beads of a layer, to support the next one.
 
     Parameters
     ----------
@@ -57,5 +57,5 @@ def ground_of(paths: Sequence[Floats], others: Walls, line_width: float) -> Grou
     >>> ground.holds(np.array([[5.0, 0.2], [5.0, 0.3], [5.0, 1.9]])).tolist()
     [True, False, True]
     """
-    some = sampled(*packed(list(paths), like=(2,)))
-    return Ground(lines=walls_of(some.points, half=some.half), others=others, reach=line_width / 2)
+    samples = sampled(*packed(list(paths), like=(2,)))
+    return Ground(lines=walls_of(samples.points, half=samples.half), others=others, reach=line_width / 2)

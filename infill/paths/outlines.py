@@ -1,4 +1,4 @@
-"""The outline of a region as edges that know their place along it: it cuts paths, and paths are joined along it."""
+"""The outline of a region as edges with their places along it: to cut paths at it, and to join paths along it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Numbers = NDArray[np.intp]
 
 @dataclass(frozen=True, kw_only=True)
 class Outline:
-    """The rings of a region, each an edge after another.
+    """The rings of a region, each a sequence of edges.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Outline:
     ring : (E,) int
         The ring of each edge.
     place : (E,) float64
-        How far along its ring an edge begins, mm.
+        Distance along its ring at which an edge begins, mm.
     around : (R,) float64
         Lengths of the rings, mm.
     first : (R + 1,) int
@@ -49,31 +49,35 @@ class Outline:
     def points_at(self, ring: int, places: Floats) -> Path:
         """Return points at places along a ring, (N, 2), mm; a place beyond its length goes round."""
         edges = slice(self.first[ring], self.first[ring + 1])
-        known = np.append(self.place[edges], self.around[ring])
+        corner_places = np.append(self.place[edges], self.around[ring])
         points = np.concatenate([self.begin[edges], self.begin[edges][:1]])
         places = places % self.around[ring]
-        return np.stack([np.interp(places, known, points[:, axis]) for axis in (0, 1)], axis=-1)
+        return np.stack([np.interp(places, corner_places, points[:, axis]) for axis in (0, 1)], axis=-1)
 
     def between(self, ring: int, begin: float, length: float) -> Path:
         """Return the corners of a ring on the `length` mm, at most once around, after the place `begin`: (N, 2), mm."""
-        first, count = int(self.first[ring]), int(self.first[ring + 1] - self.first[ring])
-        known, around = self.place[first : first + count], float(self.around[ring])
+        first_edge, count = int(self.first[ring]), int(self.first[ring + 1] - self.first[ring])
+        corner_places, around = self.place[first_edge : first_edge + count], float(self.around[ring])
         begin %= around
-        low = int(known.searchsorted(begin, side="right"))
+        low = int(corner_places.searchsorted(begin, side="right"))
         end = begin + length
-        high = int(known.searchsorted(end)) if end <= around else count + int(known.searchsorted(end - around))
-        corners: Path = self.begin[first + np.arange(low, high) % count]
+        high = (
+            int(corner_places.searchsorted(end))
+            if end <= around
+            else count + int(corner_places.searchsorted(end - around))
+        )
+        corners: Path = self.begin[first_edge + np.arange(low, high) % count]
         return corners
 
     def stretch(self, ring: int, begin: float, length: float) -> Path:
         """Return the ring from a place on, backwards if `length` is below 0: (N, 2), with both ends, mm."""
-        first, last = self.points_at(ring, np.array([begin, begin + length]))
+        begin_point, end_point = self.points_at(ring, np.array([begin, begin + length]))
         corners = self.between(ring, begin, length) if length > 0 else self.between(ring, begin + length, -length)[::-1]
-        return np.concatenate([first[None], corners, last[None]])
+        return np.concatenate([begin_point[None], corners, end_point[None]])
 
 
 def outline_of(region: Polygon | MultiPolygon) -> Outline:
-    """Return the outline of a region, or raise GeometryError if it is not a valid one with an area.
+    """Build the outline of a region, or raise GeometryError unless it is valid and has an area.
 
     >>> from shapely import box
     >>> outline_of(box(0, 0, 3, 2)).around.tolist()
@@ -84,21 +88,21 @@ def outline_of(region: Polygon | MultiPolygon) -> Outline:
     if region.geom_type not in ("Polygon", "MultiPolygon"):
         raise GeometryError(f"the region is a {region.geom_type}; give a Polygon or a MultiPolygon")
     if region.is_empty or not region.is_valid:
-        said = "empty" if region.is_empty else shapely.is_valid_reason(region)
-        raise GeometryError(f"the region is not a valid one ({said}); give one whose rings neither cross nor vanish")
-    points, number = shapely.get_coordinates(shapely.get_rings(shapely.get_parts(region)), return_index=True)
+        reason = "empty" if region.is_empty else shapely.is_valid_reason(region)
+        raise GeometryError(f"the region is not a valid one ({reason}); give one whose rings neither cross nor vanish")
+    points, ring_of = shapely.get_coordinates(shapely.get_rings(shapely.get_parts(region)), return_index=True)
     begin, end = points[:-1], points[1:]
-    edge = (number[1:] == number[:-1]) & (begin != end).any(axis=-1)
-    begin, end, ring = begin[edge], end[edge], number[:-1][edge].astype(np.intp)
-    first = np.searchsorted(ring, np.arange(number[-1] + 2))
-    reached = np.concatenate([[0.0], np.cumsum(np.hypot(*(end - begin).T))])
+    edge = (ring_of[1:] == ring_of[:-1]) & (begin != end).any(axis=-1)
+    begin, end, ring = begin[edge], end[edge], ring_of[:-1][edge].astype(np.intp)
+    first_edge = np.searchsorted(ring, np.arange(ring_of[-1] + 2))
+    distance = np.concatenate([[0.0], np.cumsum(np.hypot(*(end - begin).T))])
     shapely.prepare(region)
     return Outline(
         region=region,
         begin=begin,
         end=end,
         ring=ring,
-        place=reached[:-1] - reached[first[ring]],
-        around=np.diff(reached[first]),
-        first=first,
+        place=distance[:-1] - distance[first_edge[ring]],
+        around=np.diff(distance[first_edge]),
+        first=first_edge,
     )

@@ -1,4 +1,4 @@
-"""Paths with round corners: curves cut anew, corners as round as other beads beside them allow."""
+"""Round the corners of paths as far as the beads beside them allow, and recut their curves."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from infill.ragged import packed, parted
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-BESIDE_WALLS = 2.5  # times the deviation of others; with 3, and more, chopped parts gain no time and move farther
+BESIDE_WALLS = 2.5  # times the deviation of other corners; from 3 on, chopped parts gain no time and move farther
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rounding:
-    """How corners are rounded.
+    """Limits by which corners are rounded.
 
     Parameters
     ----------
     deviation : float, mm
-        How far a path may move at its corners. Those beside other beads hold nothing but themselves: they may move
-        `BESIDE_WALLS` times as far.
+        Limit of the move of a path at its corners. Corners beside other beads support no other infill: they may
+        move `BESIDE_WALLS` times as far.
     most : float, mm
-        How far those may move as well.
+        Upper limit for these.
     radius : float, mm
         Its largest radius.
     corner : float
@@ -50,7 +50,7 @@ class Rounding:
 
 @dataclass(frozen=True, kw_only=True)
 class Corners:
-    """Some paths with their curves cut anew, and what is known of the corners that are left.
+    """Paths with recut curves, and their remaining corners with all that limits them.
 
     Parameters
     ----------
@@ -61,17 +61,17 @@ class Corners:
     inner : (C,) int
         The points of `curves` that are corners and may change.
     beside : (B,) int
-        Those of them that lie beside other beads.
+        The corners that lie beside other beads.
     near : (B,) float64, mm
-        How near.
+        Their distances.
     layer : (B,) int
     walls : Walls
         The other beads.
     line_width : float, mm
     room : Room, optional
-        Where corners may be taken wide.
+        Corners that may move outwards.
     limit : (K,) float64, mm, optional
-        How far the path may move at each point of `curves`, whatever the rounding.
+        Limit of the move at each point of `curves`, whatever the rounding.
     """
 
     curves: Recut
@@ -88,7 +88,7 @@ class Corners:
 
     def rounded(self, rounding: Rounding) -> Rounded:
         """Return the paths with round corners."""
-        points, first = self.curves.points, self.curves.first
+        points, offsets = self.curves.points, self.curves.first
         deviation = np.zeros(len(points))
         limit = np.full(len(points), np.inf) if self.limit is None else self.limit
         deviation[self.inner] = np.minimum(rounding.deviation, limit[self.inner])
@@ -103,19 +103,21 @@ class Corners:
         )
         deviation[self.beside] = np.minimum(deviation[self.beside], limit[self.beside])
         if self.room is not None:
-            most = np.minimum(rounding.deviation, limit[self.room.corner])
-            points, wide = widened(points, self.room, deviation=most, radius=rounding.radius)
-            deviation[self.room.corner] = wide
-        done = rounded(points, first, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT)
+            room_limit = np.minimum(rounding.deviation, limit[self.room.corner])
+            points, room_deviation = widened(points, self.room, deviation=room_limit, radius=rounding.radius)
+            deviation[self.room.corner] = room_deviation
+        result = rounded(points, offsets, deviation=deviation, radius=rounding.radius, machine=self.machine, unit=UNIT)
         radius = np.full(self.old, np.inf)
-        kept = np.flatnonzero(~self.curves.curved)
-        radius[self.curves.source[kept]] = done.radius[kept]
-        return Rounded(points=done.points, first=done.first, source=self.curves.source[done.source], radius=radius)
+        corners = np.flatnonzero(~self.curves.curved)
+        radius[self.curves.source[corners]] = result.radius[corners]
+        return Rounded(
+            points=result.points, first=result.first, source=self.curves.source[result.source], radius=radius
+        )
 
 
 def corners_of(
     points: Floats,
-    first: Places,
+    offsets: Places,
     *,
     walls: Walls,
     layer: Places,
@@ -128,15 +130,15 @@ def corners_of(
     limit: Floats | None = None,
     keep_touch: bool = False,
 ) -> Corners:
-    """Cut the curves of some paths anew, and find their corners.
+    """Recut the curves of some paths, and find their corners.
 
     Parameters
     ----------
     points : (N, 2) float64, mm
-    first : (M + 1,) int
+    offsets : (M + 1,) int
         Where each path begins.
     walls : Walls
-        What corners may lie beside.
+        Other beads.
     layer : (M,) int
         Of each path.
     acceleration, speed : (M,) float64
@@ -147,36 +149,36 @@ def corners_of(
     hard : (N,) bool, optional
         Points that stay as they are.
     wide : bool
-        Take corners wide where there is room.
+        Move corners outwards where there is room.
     limit : (M,) float64, mm, optional
-        How far each path may move at most.
+        Limit of the move of each path.
     keep_touch : bool
-        Leave what touches walls beside them: see `infill.paths.touch`.
+        Keep the length that touches walls: see `infill.paths.touch`.
     """
 
     def machine(begins: Places) -> Machine:
         count = np.diff(begins)
         return Machine(acceleration=np.repeat(acceleration, count), speed=np.repeat(speed, count), corner=corner)
 
-    of = np.repeat(layer, np.diff(first))
-    near = walls.near(points, of, BESIDE * line_width)
-    bulge = np.where(np.isfinite(near), TOWARDS, MOST_BULGE)
+    layer_of = np.repeat(layer, np.diff(offsets))
+    distance = walls.near(points, layer_of, BESIDE * line_width)
+    bulge = np.where(np.isfinite(distance), TOWARDS, MOST_BULGE)
     if hard is not None:
         bulge[hard] = 0.0
-    curves = recut(points, first, machine(first), bulge)
+    curves = recut(points, offsets, machine(offsets), bulge)
     inner = ~curves.curved
     inner[curves.first[:-1]] = inner[curves.first[1:] - 1] = False
     corners = np.flatnonzero(inner)
     if hard is not None:
         corners = corners[~hard[curves.source[corners]]]
-    is_beside = np.isfinite(near[curves.source[corners]])
-    beside, room = corners[is_beside], None
-    layers = of[curves.source]
-    most = None if limit is None else np.repeat(limit, np.diff(curves.first))
+    is_beside = np.isfinite(distance[curves.source[corners]])
+    beside_walls, room = corners[is_beside], None
+    layers = layer_of[curves.source]
+    point_limit = None if limit is None else np.repeat(limit, np.diff(curves.first))
     if keep_touch:
-        most = np.full(len(curves.points), np.inf) if most is None else most
+        point_limit = np.full(len(curves.points), np.inf) if point_limit is None else point_limit
         touch = deviations_that_keep_touch(curves.points, curves.first, corners, layers, walls, line_width=line_width)
-        most[corners] = np.minimum(most[corners], touch)
+        point_limit[corners] = np.minimum(point_limit[corners], touch)
     if wide:
         room = room_of(curves.points, curves.first, corners[~is_beside], layers, walls, line_width=line_width)
     return Corners(
@@ -184,13 +186,13 @@ def corners_of(
         old=len(points),
         machine=machine(curves.first),
         inner=corners,
-        beside=beside,
-        near=near[curves.source[beside]],
-        layer=of[curves.source[beside]],
+        beside=beside_walls,
+        near=distance[curves.source[beside_walls]],
+        layer=layer_of[curves.source[beside_walls]],
         walls=walls,
         line_width=line_width,
         room=room,
-        limit=most,
+        limit=point_limit,
     )
 
 
@@ -205,13 +207,13 @@ def rounded_paths(
     hard: NDArray[np.bool_] | None = None,
     wide: bool = False,
 ) -> tuple[list[Floats], Floats]:
-    """Return paths of layer 0 with round corners, and the radii of their arcs, mm; see `corners_of`."""
+    """Round the corners of paths of layer 0; return the paths and the radii of their arcs, mm."""
     if not len(paths):
         return [], np.empty(0)
-    points, first = packed(paths)
+    points, offsets = packed(paths)
     corners = corners_of(
         points,
-        first,
+        offsets,
         walls=walls,
         layer=np.zeros(len(paths), dtype=np.intp),
         acceleration=np.full(len(paths), acceleration),
@@ -221,5 +223,5 @@ def rounded_paths(
         hard=hard,
         wide=wide,
     )
-    done = corners.rounded(rounding)
-    return parted(done.points, done.first), done.radius
+    result = corners.rounded(rounding)
+    return parted(result.points, result.first), result.radius

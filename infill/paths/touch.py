@@ -1,9 +1,10 @@
-r"""How far corners may move if infill that touches walls is to touch them along nearly as much of its length.
+r"""Limit the moves of corners so that infill that touches walls keeps touching them along nearly all of that length.
 
 An arc of turn t and setback s is shorter than the two legs that it replaces by s (2 - t / tan(t/2)), and lies up to
-s tan(t/4) from them. If that is at most half of how much farther off a wall could be and still be touched, the arc
-touches it as its legs did; else it may lose both of them, 2 s. So an arc either ends before its legs come to touch a
-wall, or it loses `MOST_LOST` of the length that touches there at most. Corners at both ends of a leg share it.
+s tan(t/4) from them. If that is at most half of the slack, the distance by which the wall could be farther away and
+still touch, the arc touches it as its legs did; else it may lose both of them, 2 s. So an arc either ends before its
+legs come to touch a wall, or it loses at most `MOST_LOST` of the length that touches there. Corners at both ends of a
+leg share it.
 """
 
 from __future__ import annotations
@@ -19,20 +20,20 @@ Places = NDArray[np.intp]
 
 REACH = 1.1  # line widths between centre lines of a wall and of infill that touches it
 MOST_LOST = 0.015  # of the length that touches walls
-STEP = 0.5  # mm between places at which the distance from walls is looked up; linear in between
-SEEN = 1.5  # mm beyond which it need not be known: more than REACH and a step
+STEP = 0.5  # mm between places at which the distance from walls is measured; linear in between
+SEEN = 1.5  # mm, the largest distance that is measured: more than REACH and a step
 
 
 def deviations_that_keep_touch(
-    points: Floats, first: Places, corner: Places, layer: Places, walls: Walls, *, line_width: float
+    points: Floats, offsets: Places, corner: Places, layer: Places, walls: Walls, *, line_width: float
 ) -> Floats:
-    """Return how far each corner may move for what touches walls beside it, (C,), mm; infinite where nothing does.
+    """Compute the move, mm, that costs each corner little touch with walls, (C,); infinite where nothing touches.
 
     Parameters
     ----------
     points : (N, 2) float64, mm
         The paths one after another.
-    first : (M + 1,) int
+    offsets : (M + 1,) int
         Where each begins, and N.
     corner : (C,) int
         Inner points of the paths.
@@ -42,54 +43,54 @@ def deviations_that_keep_touch(
     """
     turn = turns(points, corner)[0]
     reach = REACH * line_width
-    before, begins, ends, near = _touching(points, first, layer, walls, reach)
+    before, begins, ends, distance = _measure_touch(points, offsets, layer, walls, reach)
     reached = np.minimum(ends[corner - 1], begins[corner])  # along a leg, before it comes to touch
     spare = MOST_LOST * (before[corner - 1] + before[corner]) / 2
     quarter = np.maximum(np.tan(turn / 4), 1e-12)  # of a straight joint, which needs no arc
     shortened = np.maximum(2 - turn / np.maximum(np.tan(turn / 2), 1e-12), 1e-12)  # by an arc, over its setback
-    touches = np.minimum(spare / shortened, np.maximum(reach - near[corner], 0.0) / 2 / quarter)
+    touches = np.minimum(spare / shortened, np.maximum(reach - distance[corner], 0.0) / 2 / quarter)
     setback = np.maximum(reached, np.maximum(touches, spare / 2))
     return np.asarray(setback * quarter)
 
 
-def _touching(
-    points: Floats, first: Places, layer: Places, walls: Walls, reach: float
+def _measure_touch(
+    points: Floats, offsets: Places, layer: Places, walls: Walls, reach: float
 ) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return how much of each leg lies within `reach` of walls, where, and how near walls come to its beginning.
+    """Measure how much of each leg lies within `reach` of walls, where, and the distance of walls from its beginning.
 
     Returns
     -------
     amount : (N,) float64, mm
         Of the leg that begins at each point; 0 for the last of a path.
     begins, ends : (N,) float64, mm
-        How far that is from the leg's beginning, and from its end; infinite where nothing of it touches a wall.
+        Distance of that part from the leg's beginning, and from its end; infinite where the leg touches no wall.
     near : (N,) float64, mm
         Up to `SEEN`.
     """
     count = len(points)
     length = np.append(np.hypot(*np.diff(points, axis=0).T), 0.0)
-    length[first[1:] - 1] = 0.0
+    length[offsets[1:] - 1] = 0.0
     pieces = np.maximum(1, np.ceil(length / STEP)).astype(np.intp)
-    of = np.repeat(np.arange(count), pieces)
-    share = (np.arange(len(of)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[of]
-    far = np.append(points[1:], points[-1:], axis=0)
-    far[first[1:] - 1] = points[first[1:] - 1]
-    places = points[of] + share[:, None] * (far - points)[of]
-    near = np.minimum(walls.near(places, layer[of], SEEN), SEEN)
+    leg_of = np.repeat(np.arange(count), pieces)
+    share = (np.arange(len(leg_of)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[leg_of]
+    leg_ends = np.append(points[1:], points[-1:], axis=0)
+    leg_ends[offsets[1:] - 1] = points[offsets[1:] - 1]
+    places = points[leg_of] + share[:, None] * (leg_ends - points)[leg_of]
+    distance = np.minimum(walls.near(places, layer[leg_of], SEEN), SEEN)
     # Each piece goes from its place to the next; the last place of a path has none.
-    then = np.append(near[1:], SEEN)
-    span = then - near
+    next_distance = np.append(distance[1:], SEEN)
+    span = next_distance - distance
     steep = np.where(span == 0, 1.0, span)
-    crossing = np.clip((reach - near) / steep, 0.0, 1.0)
-    inside, next_inside = near <= reach, then <= reach
+    crossing = np.clip((reach - distance) / steep, 0.0, 1.0)
+    inside, next_inside = distance <= reach, next_distance <= reach
     low = np.where(inside, 0.0, np.where(next_inside, crossing, np.inf))
     high = np.where(next_inside, 1.0, np.where(inside, crossing, -np.inf))
-    touches = np.flatnonzero((inside | next_inside) & (length[of] > 0))
-    owner, piece = of[touches], (length / pieces)[of[touches]]
-    at = share[touches] * length[owner]
+    touches = np.flatnonzero((inside | next_inside) & (length[leg_of] > 0))
+    owner, piece = leg_of[touches], (length / pieces)[leg_of[touches]]
+    position = share[touches] * length[owner]
     amount = np.zeros(count)
     np.add.at(amount, owner, (high - low)[touches] * piece)
     begins, ends = np.full(count, np.inf), np.full(count, np.inf)
-    np.minimum.at(begins, owner, at + low[touches] * piece)
-    np.minimum.at(ends, owner, length[owner] - at - high[touches] * piece)
-    return amount, begins, ends, near[np.cumsum(pieces) - pieces]
+    np.minimum.at(begins, owner, position + low[touches] * piece)
+    np.minimum.at(ends, owner, length[owner] - position - high[touches] * piece)
+    return amount, begins, ends, distance[np.cumsum(pieces) - pieces]

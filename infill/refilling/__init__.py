@@ -1,1 +1,1 @@
-"""`refill`: the infill of a sliced print drawn again."""
+"""`refill`: the infill of a sliced print redrawn."""

@@ -1,4 +1,4 @@
-"""Some whole layers of a print, read: their lines, what they belong to, and the infill among them."""
+"""Batches of complete layers of a print: their lines, marks and infill."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from infill.refilling.measuring import Drawing
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-LINE_WIDTH = 0.45  # mm, where no tag tells it
+LINE_WIDTH = 0.45  # mm, where no tag gives it
 LEAST_SPEED = 1.0  # mm/s
 
 
 @dataclass(frozen=True, kw_only=True)
 class Batch:
-    """Whole layers of a print.
+    """Complete layers of a print.
 
     Parameters
     ----------
@@ -52,14 +52,14 @@ class Batch:
     @cached_property
     def sections(self) -> Places:
         """All sections of sparse infill, ascending: also those without strokes."""
-        return self._printed(self.marks.is_role(SPARSE) | self.marks.purged)
+        return self._printing_sections(self.marks.is_role(SPARSE) | self.marks.purged)
 
     @cached_property
     def purged_sections(self) -> Places:
         """The sections that take purged filament, ascending."""
-        return self._printed(self.marks.purged)
+        return self._printing_sections(self.marks.purged)
 
-    def _printed(self, lines: NDArray[np.bool_]) -> Places:
+    def _printing_sections(self, lines: NDArray[np.bool_]) -> Places:
         """Return the sections in which some lines print."""
         return np.unique(self.marks.section[lines & printing(self.table)])
 
@@ -75,29 +75,29 @@ class Batch:
 
     @cached_property
     def others(self) -> Beads:
-        """Everything but the infill."""
+        """All beads except the infill."""
         return beads(self.table, self.marks, self.infill)
 
     @cached_property
     def line_width(self) -> float:
-        """The usual one of the infill, mm."""
+        """Median width of the infill, mm."""
         width = self.marks.width[self.infill.opens]
         return float(np.median(np.where(np.isnan(width), LINE_WIDTH, width))) if len(width) else LINE_WIDTH
 
     def acceleration(self, otherwise: float) -> Floats:
-        """Return that of each stroke, (M,), mm/s²; `otherwise` where the print commands none."""
+        """Return the acceleration of each stroke, (M,), mm/s²; `otherwise` where the print commands none."""
         commanded = self.marks.acceleration[self.infill.opens]
         return np.where(np.isnan(commanded), otherwise, commanded)
 
 
 def batch_of(table: Table, tags: Tags) -> Batch:
-    """Return the batch of a table, beginning with what tags said before it."""
+    """Mark the lines of a table and find its infill; `tags` are those before it."""
     marks = marked(table, tags)
     return Batch(table=table, marks=marks, infill=strokes(table, marks))
 
 
 def read_batches(file: BinaryIO, begin: State | None = None) -> Iterator[Batch]:
-    """Yield a print in batches, from where the file stands to its end; `begin` is how its words are meant before it."""
+    """Yield a print in batches, from the position of the file to its end; `begin` is the state before."""
     state, tags = begin or State(), Tags()
     for text in batches(file):
         batch = batch_of(read(text, state), tags)
@@ -106,14 +106,14 @@ def read_batches(file: BinaryIO, begin: State | None = None) -> Iterator[Batch]:
 
 
 def beads(table: Table, marks: Marks, infill: Strokes) -> Beads:
-    """Return the beads that are not among some strokes."""
-    drawn = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
-    drawn[infill.moves] = False
-    line = np.flatnonzero(drawn)
-    back = line - 1
-    x = np.where(back >= 0, table.x[back], table.before.x)
-    y = np.where(back >= 0, table.y[back], table.before.y)
+    """Return the beads that are not among the strokes of infill."""
+    prints = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
+    prints[infill.moves] = False
+    line = np.flatnonzero(prints)
+    previous = line - 1
+    x = np.where(previous >= 0, table.x[previous], table.before.x)
+    y = np.where(previous >= 0, table.y[previous], table.before.y)
     ends = np.stack([x, y, table.x[line], table.y[line]], axis=1).reshape(-1, 2, 2)
-    known = np.isfinite(ends).all(axis=(1, 2))
+    finite = np.isfinite(ends).all(axis=(1, 2))
     skin = np.isin(marks.role, [place for place, role in enumerate(marks.roles) if role in SKINS])
-    return Beads(ends=ends[known], layer=marks.layer[line][known], skin=skin[line][known])
+    return Beads(ends=ends[finite], layer=marks.layer[line][finite], skin=skin[line][finite])

@@ -1,7 +1,7 @@
-"""A print drawn from its first layer to its last, and once more where it fell short of what was promised.
+"""Draw a print from its first layer to its last, and again if it misses its targets.
 
-Some layers told beforehand how far corners may move and how large cells are to be. All of them, drawn, have the last
-word: of support and contact, and, in a small print, of the filament.
+Sampled layers give a first estimate of the moves of corners and of the cell. The complete drawing decides on support
+and contact and, in a small print, on the filament.
 """
 
 from __future__ import annotations
@@ -27,33 +27,33 @@ from infill.refilling.support import LEAST_SHARE, kept_length, kept_shares, smal
 from infill.refilling.timing import PrintClock
 
 SHOWN = 1 << 22  # bytes between two reports of progress
-AGAIN = 3  # times that a print is drawn anew, with corners that move less
-EVENED = 6  # times that a small one is, at another cell
-EVEN = 0.005  # of the filament of all infill, that it may be off
-MOST_THREADS = 4  # more of them would only take memory: one reads what all the others draw
+AGAIN = 3  # times that a print is redrawn with smaller moves of corners
+EVENED = 6  # times that a small print is redrawn at another cell
+EVEN = 0.005  # relative tolerance of the filament of all infill
+MOST_THREADS = 4  # more threads would only take memory: a single one reads for all of them
 
 
 def drafted(
     file: BinaryIO,
     draft: BinaryIO,
-    found: Survey,
+    print_survey: Survey,
     rules: Rules,
     plan: Plan | None,
     progress: Progress | None,
     clock: PrintClock | None = None,
 ) -> tuple[Tally, Rules]:
-    """Write the new text to a draft, and return what was done, by which rules.
+    """Write the new text to a draft; return the statistics and the final rules.
 
     Parameters
     ----------
     file, draft : binary files
-    found : Survey
+    print_survey : Survey
     rules : Rules
     plan : Plan, optional
-        Of a pattern of ours; None for the slicer's own paths.
+        Of a new pattern; None for the slicer's own paths.
     progress : callable, optional
     clock : PrintClock, optional
-        Takes the lines of the file as they are read.
+        Receives the lines of the file as they are read.
 
     Raises
     ------
@@ -63,57 +63,61 @@ def drafted(
         If the draft cannot be written.
     """
 
-    def drawn(rules: Rules, plan: Plan | None, clock: PrintClock | None = None) -> Tally:
-        return _drawn(file, draft, found, rules, plan, progress, clock)
+    def draw(rules: Rules, plan: Plan | None, clock: PrintClock | None = None) -> Tally:
+        return _draw(file, draft, print_survey, rules, plan, progress, clock)
 
-    tally = drawn(rules, plan, clock)
-    if plan is not None and plan.density is None and not plan.fixed and found.small:
-        tally = _evened(tally, plan, lambda other: drawn(rules, other))
-    last = 0.0
+    tally = draw(rules, plan, clock)
+    if plan is not None and plan.density is None and not plan.fixed and print_survey.small:
+        tally = _match_filament(tally, plan, lambda new_plan: draw(rules, new_plan))
+    previous = 0.0
     for _ in range(AGAIN if rules.request.pattern == KEEP and rules.request.smooth_radius == AUTO else 0):
         length = kept_length(tally.infill.length, tally.infill_after.length)
-        kept = min(*kept_shares(tally.before, tally.after), length)
-        smaller = smaller_deviation(rules.rounding.deviation, kept, last)
+        share = min(*kept_shares(tally.before, tally.after), length)
+        smaller = smaller_deviation(rules.rounding.deviation, share, previous)
         if smaller == rules.rounding.deviation:
             break
-        last, rules = kept, rules.rounded_by(smaller)
-        tally = drawn(rules, plan)
-    else:  # drawn again as often as may be
-        if last and kept_length(tally.infill.length, tally.infill_after.length) < LEAST_SHARE:
+        previous, rules = share, rules.rounded_by(smaller)
+        tally = draw(rules, plan)
+    else:  # all redraws are used up
+        if previous and kept_length(tally.infill.length, tally.infill_after.length) < LEAST_SHARE:
             rules = rules.rounded_by(0.0)
-            tally = drawn(rules, plan)
+            tally = draw(rules, plan)
     return tally, rules
 
 
-def _evened(tally: Tally, plan: Plan, again: Callable[[Plan], Tally]) -> Tally:
-    """Draw a small print again, at other cells, until its infill takes the filament that it took; else at the best.
+def _match_filament(tally: Tally, plan: Plan, redraw: Callable[[Plan], Tally]) -> Tally:
+    """Redraw a small print at other cells until its infill takes the old amount of filament; else at the best cell.
 
-    In a large one, what a layer takes too much or too little is made up for in the next ones.
+    In a large print, later layers make up for the excess or shortage of earlier ones.
     """
 
-    def off(some: Tally) -> float:
-        return some.infill_after.filament / some.infill.filament - 1 if some.infill.filament else 0.0
+    def filament_error(tally_of_draft: Tally) -> float:
+        return (
+            tally_of_draft.infill_after.filament / tally_of_draft.infill.filament - 1
+            if tally_of_draft.infill.filament
+            else 0.0
+        )
 
-    best, least, drawn = plan, abs(off(tally)), plan
-    found: dict[float, float] = {}  # what was off, by cell
+    best, smallest_error, current = plan, abs(filament_error(tally)), plan
+    errors: dict[float, float] = {}  # relative error of the filament, by cell
     for _ in range(EVENED):
-        error = found[drawn.cell] = off(tally)
+        error = errors[current.cell] = filament_error(tally)
         if abs(error) <= EVEN:
             return tally
-        # The filament jumps with the cell: between two cells that take too much and too little, if they are known.
-        across = [cell for cell, other in found.items() if other * error < 0]
-        nearest = min(across, key=lambda cell: abs(cell - drawn.cell), default=0.0)
-        drawn = drawn.with_cell(math.sqrt(nearest * drawn.cell) if nearest else drawn.cell * (1 + error))
-        tally = again(drawn)
-        if abs(off(tally)) < least:
-            best, least = drawn, abs(off(tally))
-    return tally if drawn is best else again(best)
+        # The filament jumps with the cell: try between two cells that take too much and too little, if both exist.
+        opposite = [cell for cell, cell_error in errors.items() if cell_error * error < 0]
+        nearest = min(opposite, key=lambda cell: abs(cell - current.cell), default=0.0)
+        current = current.with_cell(math.sqrt(nearest * current.cell) if nearest else current.cell * (1 + error))
+        tally = redraw(current)
+        if abs(filament_error(tally)) < smallest_error:
+            best, smallest_error = current, abs(filament_error(tally))
+    return tally if current is best else redraw(best)
 
 
-def _drawn(
+def _draw(
     file: BinaryIO,
     draft: BinaryIO,
-    found: Survey,
+    print_survey: Survey,
     rules: Rules,
     plan: Plan | None,
     progress: Progress | None,
@@ -125,29 +129,29 @@ def _drawn(
     draft.truncate()
     tally, memory, below, tags = Tally(), Memory(), None, None
     begin = None if clock is None else clock.begin
-    done = shown = 0
+    bytes_read = shown = 0
 
-    def work(batch: Batch) -> Refilled:
+    def refill_next(batch: Batch) -> Refilled:
         return refilled(batch, rules, plan, memory)
 
-    # Our own paths continue those of the layer below, so that batches come one after another.
+    # New paths continue those of the layer below, so that batches come one after another.
     threads = min(thread_count(), MOST_THREADS) if plan is None else 1
     with told(Path("a temporary file")):
-        for batch, new in in_order(work, read_batches(file, begin), threads=threads):
+        for batch, new in in_order(refill_next, read_batches(file, begin), threads=threads):
             if clock is not None:
                 clock.add(batch.table)
             before, after, below = measured_contact(batch, new, below, rules.stride)
             tally.add(new.tally)
             tally.before += before
             tally.after += after
-            for first, last in estimates(new.text):
-                tally.lines.append((draft.tell() + first, new.text[first:last]))
+            for begin_byte, end_byte in estimates(new.text):
+                tally.lines.append((draft.tell() + begin_byte, new.text[begin_byte:end_byte]))
             draft.write(new.text)
             tags = batch.marks.after
-            done += len(batch.table.data)
-            if progress is not None and done >= shown:
-                progress("drawing infill", done / max(found.size, 1))
-                shown = done + SHOWN
+            bytes_read += len(batch.table.data)
+            if progress is not None and bytes_read >= shown:
+                progress("drawing infill", bytes_read / max(print_survey.size, 1))
+                shown = bytes_read + SHOWN
         draft.flush()
     if tags is None or not tags.layer:
         raise FormatError(

@@ -1,4 +1,4 @@
-"""Paths in one area of a layer, at a cell that gives them the length they should have, and smooth."""
+"""Fit smooth paths into one area of a layer, at a cell that gives them the target length."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ Floats = NDArray[np.float64]
 Paths = list[Floats]
 
 INSIDE = 0.01  # mm that a path may leave its region
-AGAIN = 3  # times that paths are rounded, until all of them stay inside
-REACHED = 1.5  # mm from where a path leaves its region to the corners that made it leave
-OFF = 0.08  # of the length that an area should have, which beads cannot make up for, before it gets a cell of its own
-FAR_OFF = 0.25  # of it, before a column changes its cell, so that its layers no longer lie on one another
+AGAIN = 3  # rounds of rounding until all paths stay inside
+REACHED = 1.5  # mm from the place where a path leaves its region to the corners that cause it
+OFF = 0.08  # relative error of the length in an area, more than beads can make up for, before it gets its own cell
+FAR_OFF = 0.25  # the same before a column changes its cell, so that its layers no longer lie on one another
 TRIES = 4
-NEAR = 0.02  # of the length: near enough
-SMALL = 300.0  # mm of lines, below which cells around are always tried too: the length jumps there
+NEAR = 0.02  # relative error of the length that ends the search
+SMALL = 300.0  # mm of lines, below which the search always scans cells around too: the length jumps there
 SPREAD, SCANNED = 0.35, 30
 LEAST_LENGTH = 5.0  # mm: areas with less keep the cell of their column
-NEWEST = 0.2  # how much the last layer counts in the density of a column
+NEWEST = 0.2  # weight of the last layer in the density of a column
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,9 +46,9 @@ class Column:
         The topmost.
     cell : float, mm
     density : float
-        mm of the slicer's infill per mm², over the last layers: it varies from layer to layer.
+        mm of the slicer's infill per mm², averaged over the last layers: it varies from layer to layer.
     fresh : bool
-        Nothing stands below the area, so that its cell is still free.
+        True if no area stands below, so that its cell is still free.
     """
 
     area: Polygon
@@ -58,12 +58,12 @@ class Column:
 
     @property
     def length(self) -> float:
-        """What its paths should have, mm."""
+        """Target length of its paths, mm."""
         return self.density * float(self.area.area)
 
 
 def column(area: Polygon, length: float, plan: Plan, below: Sequence[Column]) -> Column:
-    """Return the column that an area continues, or begins.
+    """Continue the column below an area, or begin a new one.
 
     Parameters
     ----------
@@ -75,15 +75,15 @@ def column(area: Polygon, length: float, plan: Plan, below: Sequence[Column]) ->
         Of the layer below.
     """
     density = length / area.area if plan.density is None else plan.density
-    best, most = None, 0.0
-    for each in below:
-        if each.area is area:
-            best = each
+    best, largest_overlap = None, 0.0
+    for candidate in below:
+        if candidate.area is area:
+            best = candidate
             break
-        if each.area.envelope.intersects(area):
-            shared = each.area.intersection(area).area
-            if shared > max(most, area.area / 2):
-                best, most = each, shared
+        if candidate.area.envelope.intersects(area):
+            overlap = candidate.area.intersection(area).area
+            if overlap > max(largest_overlap, area.area / 2):
+                best, largest_overlap = candidate, overlap
     if best is None:
         return Column(area=area, cell=plan.cell, density=density, fresh=True)
     return Column(area=area, cell=best.cell, density=(1 - NEWEST) * best.density + NEWEST * density, fresh=False)
@@ -91,7 +91,7 @@ def column(area: Polygon, length: float, plan: Plan, below: Sequence[Column]) ->
 
 @dataclass(frozen=True, kw_only=True)
 class Place:
-    """Where and how paths are drawn.
+    """Plan, neighbours and motion for the paths of an area.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ class Fitted:
     ----------
     paths : list of (N, 2) float64, mm
     radii : (C,) float64, mm
-        Of the arcs; 0 or infinite where there is none.
+        Of the arcs; 0 or infinite at corners without an arc.
     cell : float, mm
     """
 
@@ -133,40 +133,40 @@ class Fitted:
 
     @property
     def length(self) -> float:
-        """Mm."""
+        """Total length, mm."""
         return total_length(self.paths)
 
 
 def fitted(stack: Column, place: Place) -> Fitted:
-    """Return paths in the area of a column, at its cell, or at one that gives them the length they should have.
+    """Draw paths in the area of a column, at its cell or at one that gives them the target length.
 
-    The length jumps with the cell in small areas: the nearest of a few is taken. A cell that was asked for stays.
+    The length jumps with the cell in small areas: the closest of a few is the result. A requested cell stays.
     """
-    wanted = stack.length
-    best = _covered(stack.area, stack.cell, place)
-    # What varies with the height has one cell everywhere, or its layers would not fit one another.
-    if place.plan.fixed or not place.plan.family.prismatic or wanted <= LEAST_LENGTH:
+    target = stack.length
+    best = _cover_smoothly(stack.area, stack.cell, place)
+    # A pattern that varies with the height has one cell everywhere, or its layers would not fit one another.
+    if place.plan.fixed or not place.plan.family.prismatic or target <= LEAST_LENGTH:
         return best
-    error = best.length / wanted - 1
+    error = best.length / target - 1
     if abs(error) <= (OFF if stack.fresh else FAR_OFF):
         return best
-    around, cell = _around(stack, place.plan) if wanted < SMALL or stack.fresh else np.empty(0), stack.cell
-    for tried in range(TRIES + len(around)):
-        if tried >= TRIES and wanted >= SMALL and abs(best.length / wanted - 1) <= OFF:
+    nearby_cells, cell = _nearby_cells(stack, place.plan) if target < SMALL or stack.fresh else np.empty(0), stack.cell
+    for attempt in range(TRIES + len(nearby_cells)):
+        if attempt >= TRIES and target >= SMALL and abs(best.length / target - 1) <= OFF:
             break
-        cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if tried < TRIES else float(around[tried - TRIES])
+        cell = cell * float(np.clip(1 + error, 0.6, 1.6)) if attempt < TRIES else float(nearby_cells[attempt - TRIES])
         cell = max(cell, TOUCH * place.plan.line_width)
-        other = _covered(stack.area, cell, place)
-        error = other.length / wanted - 1
-        if abs(error) < abs(best.length / wanted - 1):
-            best = other
+        candidate = _cover_smoothly(stack.area, cell, place)
+        error = candidate.length / target - 1
+        if abs(error) < abs(best.length / target - 1):
+            best = candidate
         if abs(error) < NEAR:
             break
     return best
 
 
-def _around(stack: Column, plan: Plan) -> Floats:
-    """Return cells around that of a column, mm; of one whose cell is free, those around that of the plan first."""
+def _nearby_cells(stack: Column, plan: Plan) -> Floats:
+    """Return cells around that of a column, mm; for a column with a free cell, those around that of the plan first."""
     steps = np.exp(np.linspace(-SPREAD, SPREAD, SCANNED))
     nearest = steps[np.argsort(np.abs(np.log(steps)), kind="stable")]
     if not stack.fresh or stack.cell == plan.cell:
@@ -174,8 +174,8 @@ def _around(stack: Column, plan: Plan) -> Floats:
     return np.concatenate([plan.cell * nearest, stack.cell * nearest])
 
 
-def _covered(area: Polygon, cell: float, place: Place) -> Fitted:
-    """Return rounded paths in an area; where one would leave it, its corners stay."""
+def _cover_smoothly(area: Polygon, cell: float, place: Place) -> Fitted:
+    """Cover an area with rounded paths; where one would leave it, its corners stay sharp."""
     import shapely
 
     plan = place.plan
@@ -192,12 +192,12 @@ def _covered(area: Polygon, cell: float, place: Place) -> Fitted:
     strands = [path for path in strands if len(path) > 1]
     if not strands:
         return Fitted(paths=[], radii=np.empty(0), cell=cell)
-    near = shapely.buffer(area, INSIDE)
-    shapely.prepare(near)
+    tolerance_area = shapely.buffer(area, INSIDE)
+    shapely.prepare(tolerance_area)
     corners = shapely.points(np.concatenate(strands))
     hard = np.zeros(len(corners), dtype=bool)
     for _ in range(AGAIN):
-        done, radii = rounded_paths(
+        smooth_paths, radii = rounded_paths(
             strands,
             walls=place.walls,
             acceleration=place.acceleration,
@@ -207,11 +207,13 @@ def _covered(area: Polygon, cell: float, place: Place) -> Fitted:
             hard=hard,
             wide=plan.family.wide,
         )
-        lines = np.array([shapely.linestrings(path) for path in done])
-        inside = shapely.covers(near, lines)
+        lines = np.array([shapely.linestrings(path) for path in smooth_paths])
+        inside = shapely.covers(tolerance_area, lines)
         if inside.all():
             break
-        hard |= shapely.dwithin(corners, shapely.union_all(shapely.difference(lines[~inside], near)), REACHED)
+        hard |= shapely.dwithin(corners, shapely.union_all(shapely.difference(lines[~inside], tolerance_area)), REACHED)
     plain = [np.rint(path / UNIT) * UNIT for path in strands]
-    paths = [one if fits else other for one, other, fits in zip(done, plain, inside.tolist(), strict=True)]
+    paths = [
+        smooth if fits else sharp for smooth, sharp, fits in zip(smooth_paths, plain, inside.tolist(), strict=True)
+    ]
     return Fitted(paths=paths, radii=radii, cell=cell)

@@ -1,9 +1,9 @@
 """refill: the sparse infill of a sliced print, smooth, in its G-code.
 
-Step 1. Look at the print: what sliced it, its settings, and some of its layers.
+Step 1. Survey the print: its slicer, its settings, and some of its layers.
 Step 2. Choose how far corners may move, so that layers still lie on one another.
-Step 3. Read it through, layers at a time; draw its strokes anew; prove that nothing else changed.
-Step 4. Tell time and filament anew, and put the new file in the place of the old one.
+Step 3. Read all layers, batch by batch; redraw their strokes; prove that nothing else changed.
+Step 4. Update time and filament in the text, and replace the old file by the new one.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ HEAD = 1 << 16  # bytes in which the header ends
 
 @dataclass(frozen=True, kw_only=True)
 class RefillResult:
-    """What a refill did.
+    """Report and output of a refill.
 
     Parameters
     ----------
     report : dict
         Plain numbers and strings: what ``--json`` prints. docs/report.md lists every key.
     path : Path or None
-        The file written; None if nothing was to change, for a dry run, or for lines.
+        The file written; None if nothing changes, for a dry run, or for lines.
     lines : tuple of str, optional
-        The new lines with their line ends, if lines were given.
+        The new lines with their line ends, if the input was lines.
     """
 
     report: dict[str, Any]
@@ -69,28 +69,28 @@ def refill(
     progress: Progress | None = None,
     **parameters: Any,  # noqa: ANN401 - of the kind that each has
 ) -> RefillResult:
-    """Fill a sliced print anew, in its G-code: its own infill with round corners, or a pattern of ours in its place.
+    """Refill a sliced print, in its G-code: with its own infill and round corners, or with another pattern.
 
-    Everything else in the file stays as it is, byte for byte, but for what it says of its own time and filament.
+    Everything else in the file stays as it is, byte for byte, except its statements of time and filament.
 
     Parameters
     ----------
     gcode : path, or iterable of str
-        What PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio or Cura wrote: text, binary G-code, or an archive
+        A file by PrusaSlicer, SuperSlicer, OrcaSlicer, Bambu Studio or Cura: text, binary G-code, or an archive
         (.gcode.3mf), of which every plate is refilled; or its lines, with or without line ends.
     output : path, optional
-        Where to write; without it, the file itself is replaced.
+        File to write; without it, the input is replaced.
     pattern : str
         "keep": the slicer's own paths with round corners. Or the name of a pattern, see
         `infill.paths.families.catalogue`, or the path of a drawing: .svg .dxf .wkt .png.
     density : "same" or float, optional
-        With "keep", "same" widens beads by up to 8 % to make up for shorter paths; without it, the filament per mm is
-        kept. With a pattern, a number above 0 and up to 1 is the share of the volume; else every section takes the
-        filament that it took.
+        With "keep", "same" widens beads by up to 8 % to make up for shorter paths; without it, the filament per mm
+        stays. With a pattern, a number above 0 and up to 1 is the share of the volume; else every section keeps its
+        amount of filament.
     smooth_radius : "auto" or float
         Largest radius of a corner, mm. "auto": as large as support and contact allow. 0 leaves corners.
     max_deviation : float, optional
-        How far a path may move, mm.
+        Largest move of a path, mm.
     layers : tuple of int, optional
         The first and the last layer to refill, counted from 1.
     part : str, optional
@@ -100,7 +100,7 @@ def refill(
     overwrite : bool
         Replace `output` if it exists.
     progress : callable, optional
-        Told what is being done, and how much of it is done, 0 to 1.
+        Called with the current stage and the share done, 0 to 1.
     **parameters
         Parameters of the pattern: angle=30 (degrees), phase=(1, 2) … docs/refill.md lists them.
 
@@ -113,7 +113,7 @@ def refill(
     ParameterError
         If an option is out of range.
     FormatError
-        If the file is no G-code, or has no marked layers.
+        If the file is not G-code, or has no marked layers.
     GeometryError
         If a check of the whole file fails; it is left as it was.
     OutputError
@@ -129,25 +129,29 @@ def refill(
         parameters=parameters,
     )
     if not isinstance(gcode, str | os.PathLike):
-        return _refilled_lines(gcode, request, progress)
+        return _refill_lines(gcode, request, progress)
     source = Path(gcode)
     target = Path(os.path.realpath(source)) if output is None else Path(output)
     if not dry_run:
         check_target(target, overwrite=overwrite or output is None)
     folder = None if dry_run else target.parent
-    with opened(source) as given, contextlib.ExitStack() as drafts:
-        done: dict[int | None, _Done] = {}
-        for number, plate in enumerate(given.parts):
+    with opened(source) as sliced, contextlib.ExitStack() as drafts:
+        drafted: dict[int | None, _Draft] = {}
+        for number, plate in enumerate(sliced.parts):
             draft = drafts.enter_context(scratch(folder))
-            shown = _shared(progress, number, len(given.parts))
-            with given.text(plate, folder) as text:
-                done[plate] = _refilled(text, draft, request, shown)
-        report = _report(request, list(done.values()), given.plates)
-        new = {name: each for name, each in done.items() if each.tally is not None and each.tally.replaced}
-        if dry_run or (not new and output is None):
+            plate_progress = _scale_progress(progress, number, len(sliced.parts))
+            with sliced.text(plate, folder) as text:
+                drafted[plate] = _refill_text(text, draft, request, plate_progress)
+        report = _joint_report(request, list(drafted.values()), sliced.plates)
+        changed = {
+            name: part_draft
+            for name, part_draft in drafted.items()
+            if part_draft.tally is not None and part_draft.tally.replaced
+        }
+        if dry_run or (not changed and output is None):
             return RefillResult(report=report, path=None)
-        if not new:  # a copy
-            if not _same(source, target):
+        if not changed:  # a copy
+            if not _is_same_file(source, target):
                 with whole_file(target) as file, source.open("rb") as old:
                     copy_mode(source, file)
                     shutil.copyfileobj(old, file)
@@ -156,50 +160,50 @@ def refill(
             progress("writing", 0.95)
         with whole_file(target) as file:
             copy_mode(source, file)
-            metadata = {name: value for each in new.values() for name, value in each.metadata.items()}
-            write_print(given, file, {name: each.text() for name, each in new.items()}, metadata)
+            metadata = {name: value for part_draft in changed.values() for name, value in part_draft.metadata.items()}
+            write_print(sliced, file, {name: part_draft.text() for name, part_draft in changed.items()}, metadata)
     return RefillResult(report=report, path=target)
 
 
-def _shared(progress: Progress | None, number: int, count: int) -> Progress | None:
-    """Return what to tell of the progress of one of several prints."""
+def _scale_progress(progress: Progress | None, number: int, count: int) -> Progress | None:
+    """Scale the progress of one of several prints to that of all."""
     if progress is None or count == 1:
         return progress
     return lambda stage, share: progress(stage, (number + share) / count)
 
 
-def _same(source: Path, target: Path) -> bool:
+def _is_same_file(source: Path, target: Path) -> bool:
     return target.exists() and target.samefile(source)
 
 
-def _refilled_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
+def _refill_lines(lines: Iterable[str], request: Request, progress: Progress | None) -> RefillResult:
     """Refill lines of text."""
     text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines)
-    given = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
-    done = _refilled(given, io.BytesIO(), request, progress)
-    if done.tally is not None and done.tally.replaced:
-        text = b"".join(done.text()).decode("utf-8", "surrogateescape")
-    # Not splitlines: comments may hold what it takes for the end of a line.
-    report = _report(request, [done])
+    sliced = SlicedText(text=io.BytesIO(text.encode("utf-8", "surrogateescape")))
+    drafted = _refill_text(sliced, io.BytesIO(), request, progress)
+    if drafted.tally is not None and drafted.tally.replaced:
+        text = b"".join(drafted.text()).decode("utf-8", "surrogateescape")
+    # Not splitlines: comments may hold characters that it treats as line ends.
+    report = _joint_report(request, [drafted])
     return RefillResult(report=report, path=None, lines=tuple(f"{line}\n" for line in text.split("\n")[:-1]))
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Done:
-    """A draft, and what is still to be changed in it.
+class _Draft:
+    """A draft, and the edits that it still needs.
 
     Parameters
     ----------
     found : Survey
     draft : binary file
     tally, rules : Tally and Rules, optional
-        None if nothing was done.
+        None if the print was refilled before.
     remedy : Tally, optional
-        Of the remedy for infill that lost too much filament: drawn, and thrown away.
+        Of the remedy for infill that lost too much filament: a trial drawing that is discarded.
     edits : tuple of (place, length, text)
-        What to exchange in the draft, in order.
+        Replacements in the draft, in order.
     metadata : dict
-        New values of what stands outside the text.
+        New values outside the text.
     """
 
     found: Survey
@@ -212,36 +216,38 @@ class _Done:
 
     def text(self) -> Iterator[bytes]:
         """Yield the draft with its edits, in pieces."""
-        done = 0
-        for where, length, text in self.edits:
-            yield from pieces(self.draft, done, where)
+        position = 0
+        for edit_place, length, text in self.edits:
+            yield from pieces(self.draft, position, edit_place)
             yield text
-            done = where + length
-        yield from pieces(self.draft, done, self.draft.seek(0, os.SEEK_END))
+            position = edit_place + length
+        yield from pieces(self.draft, position, self.draft.seek(0, os.SEEK_END))
 
 
-def _report(request: Request, parts: Sequence[_Done], plates: Sequence[int] = ()) -> dict[str, Any]:
-    """Return one report of all prints of a file; those that were refilled before count only where all of them were."""
+def _joint_report(request: Request, parts: Sequence[_Draft], plates: Sequence[int] = ()) -> dict[str, Any]:
+    """Report on all prints of a file; those that were refilled before count only if all of them were."""
     from infill.gcode.survey import joined
     from infill.refilling.report import report_of_refill
     from infill.refilling.stats import Tally
 
-    found = joined([each.found for each in parts])
-    tallies = [each.tally for each in parts if each.tally is not None]
-    rules = max((each.rules for each in parts if each.rules), key=lambda rules: rules.rounding.deviation, default=None)
-    whole = Tally()
+    joint_survey = joined([part.found for part in parts])
+    tallies = [part.tally for part in parts if part.tally is not None]
+    rules = max((part.rules for part in parts if part.rules), key=lambda rules: rules.rounding.deviation, default=None)
+    total = Tally()
     for tally in tallies:
-        whole.add(tally)
-    done = whole if tallies else None
+        total.add(tally)
+    total_or_none = total if tallies else None
     remedied = Tally()
-    for each in parts:
-        if each.tally is not None:
-            remedied.add(each.remedy or each.tally)
-    remedy = remedied if any(each.remedy is not None for each in parts) else None
-    return report_of_refill(request, found, done, already=found.stamped, rules=rules, plates=plates, remedy=remedy)
+    for part in parts:
+        if part.tally is not None:
+            remedied.add(part.remedy or part.tally)
+    remedy = remedied if any(part.remedy is not None for part in parts) else None
+    return report_of_refill(
+        request, joint_survey, total_or_none, already=joint_survey.stamped, rules=rules, plates=plates, remedy=remedy
+    )
 
 
-def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Done:
+def _refill_text(sliced: SlicedText, draft: BinaryIO, request: Request, progress: Progress | None) -> _Draft:
     """Write the new text to a draft."""
     from infill.gcode.survey import survey
     from infill.refilling.drafting import drafted
@@ -253,49 +259,57 @@ def _refilled(given: SlicedText, draft: BinaryIO, request: Request, progress: Pr
     from infill.refilling.timing import PrintClock
 
     family = None if request.pattern == KEEP else family_of(request.pattern, request.parameters)
-    found = survey(given.text, more=family is not None and not family.prismatic, settings=given.settings)
-    found = replace(found, slicer=found.slicer or given.slicer)
-    if found.stamped:
-        return _Done(found=found, draft=draft)
+    print_survey = survey(sliced.text, more=family is not None and not family.prismatic, settings=sliced.settings)
+    print_survey = replace(print_survey, slicer=print_survey.slicer or sliced.slicer)
+    if print_survey.stamped:
+        return _Draft(found=print_survey, draft=draft)
     if progress is not None:
         progress("looking at layers", 0.0)
-    some = samples(found)
-    rules = rules_of(request, found, some)
+    batches = samples(print_survey)
+    rules = rules_of(request, print_survey, batches)
     plan = None
     if family is not None:
         share = None if isinstance(request.density, str | None) else float(request.density)
-        plan = planned(family, some, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell)
+        plan = planned(
+            family, batches, rules.rounding, density=share, acceleration=rules.acceleration, cell=request.cell
+        )
         rules = rules if plan is not None else rules.rounded_by(0.0)
-    elif request.smooth_radius == AUTO and some:
-        rules = rules.rounded_by(largest_deviation(some, rules.rounding, rules.acceleration))
-    clock = PrintClock(given)
-    tally, rules = drafted(given.text, draft, found, rules, plan, progress, clock)
+    elif request.smooth_radius == AUTO and batches:
+        rules = rules.rounded_by(largest_deviation(batches, rules.rounding, rules.acceleration))
+    clock = PrintClock(sliced)
+    tally, rules = drafted(sliced.text, draft, print_survey, rules, plan, progress, clock)
     remedy = None
     if request.pattern == KEEP and loses_filament(tally) and request.smooth_radius != AUTO:
         by_itself = replace(rules, request=replace(request, smooth_radius=AUTO)).with_radius(math.inf)
-        by_itself = by_itself.rounded_by(largest_deviation(some, by_itself.rounding, rules.acceleration))
+        by_itself = by_itself.rounded_by(largest_deviation(batches, by_itself.rounding, rules.acceleration))
         with tempfile.TemporaryFile() as trial:
-            remedy, _ = drafted(given.text, trial, found, by_itself, None, progress)
-    if found.begin.volumetric:
-        for each in [tally] if remedy is None else [tally, remedy]:
-            each.count_millimetres([math.pi / 4 * diameter**2 for diameter in found.begin.diameters])
+            remedy, _ = drafted(sliced.text, trial, print_survey, by_itself, None, progress)
+    if print_survey.begin.volumetric:
+        for stats in [tally] if remedy is None else [tally, remedy]:
+            stats.count_millimetres([math.pi / 4 * diameter**2 for diameter in print_survey.begin.diameters])
     before = clock.finish()
     places = [place for place, _ in tally.lines]
-    after = PrintClock(given, draft, places, like=clock).read() if tally.replaced else before
-    change, edits = _told(given, found, tally, before, after)
-    edits = [*edits, _stamp(draft, tally)] if tally.replaced else []
-    metadata = retold(given.metadata, change)
-    return _Done(
-        found=found, draft=draft, tally=tally, rules=rules, remedy=remedy, edits=tuple(sorted(edits)), metadata=metadata
+    after = PrintClock(sliced, draft, places, like=clock).read() if tally.replaced else before
+    change, edits = _update_estimates(sliced, print_survey, tally, before, after)
+    edits = [*edits, _stamp_edit(draft, tally)] if tally.replaced else []
+    metadata = retold(sliced.metadata, change)
+    return _Draft(
+        found=print_survey,
+        draft=draft,
+        tally=tally,
+        rules=rules,
+        remedy=remedy,
+        edits=tuple(sorted(edits)),
+        metadata=metadata,
     )
 
 
-def _told(
-    given: SlicedText, found: Survey, tally: Tally, before: PrintTime, after: PrintTime
+def _update_estimates(
+    sliced: SlicedText, print_survey: Survey, tally: Tally, before: PrintTime, after: PrintTime
 ) -> tuple[Change, list[tuple[int, int, bytes]]]:
-    """Put what the print takes into the tally, and return by how much that changed, and the lines that tell of it."""
+    """Add the totals of the print to the tally; return their change, and the edits of the lines that state them."""
     lines = [line for _, line in tally.lines]
-    outside = [b"; %s = %s" % item for item in given.metadata]
+    outside = [b"; %s = %s" % item for item in sliced.metadata]
     change = Change(
         seconds=after.seconds,
         first_layer=after.first_layer,
@@ -305,48 +319,50 @@ def _told(
         tools=tally.tool_ratios,
     )
     change = change.told_by([*lines, *outside]).as_told(lines, tally.change)
-    new = lines
+    new_lines = lines
     if tally.replaced:
         times = zip(lines, after.elapsed.tolist(), finished(lines), strict=True)
-        new = [told_anew(line, elapsed, change, done) for line, elapsed, done in times]
-    told = [told_anew(line, 0.0, change) for line in outside] if tally.replaced else outside
+        new_lines = [told_anew(line, elapsed, change, is_finished) for line, elapsed, is_finished in times]
+    new_outside = [told_anew(line, 0.0, change) for line in outside] if tally.replaced else outside
     used = sum(tally.filament.values())
-    tally.print_before = _whole(before, [*lines, *outside], used, found)
-    tally.print_after = _whole(after, [*new, *told], used + sum(tally.change.values()), found)
+    tally.print_before = _print_amounts(before, [*lines, *outside], used, print_survey)
+    tally.print_after = _print_amounts(
+        after, [*new_lines, *new_outside], used + sum(tally.change.values()), print_survey
+    )
     tally.slicer_seconds = max(
         (said_seconds(line) for line in (*lines, *outside) if b"silent" not in line), default=0.0
     )
     tally.unread, tally.first_unread = before.unread, before.first_unread
-    edits = [(place, len(line), text) for (place, line), text in zip(tally.lines, new, strict=True)]
+    edits = [(place, len(line), text) for (place, line), text in zip(tally.lines, new_lines, strict=True)]
     return change, edits
 
 
-def _whole(time: PrintTime, lines: Sequence[bytes], used: float, found: Survey) -> Whole:
-    """Return what a print takes: filament as its lines tell it, or else as it was counted."""
+def _print_amounts(time: PrintTime, lines: Sequence[bytes], used: float, print_survey: Survey) -> Whole:
+    """Sum up a print: the filament that its lines state, or else the counted amount."""
     from infill.refilling.stats import Whole
 
     filament = said_millimetres(lines)
     filament = used if filament is None else filament
-    grams, density = said_grams(lines), found.number("filament_density")
+    grams, density = said_grams(lines), print_survey.number("filament_density")
     if grams is None and density:
-        grams = filament * math.pi / 4 * found.begin.diameter**2 / 1000 * density
+        grams = filament * math.pi / 4 * print_survey.begin.diameter**2 / 1000 * density
     return Whole(seconds=time.seconds, infill_seconds=time.infill, filament=filament, grams=grams)
 
 
-def _stamp(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
-    """Return the edit that puts the stamp in: after the header block, or after a first line that is a comment."""
+def _stamp_edit(draft: BinaryIO, tally: Tally) -> tuple[int, int, bytes]:
+    """Return the edit that inserts the stamp: after the header block, or after a first line that is a comment."""
     from infill.gcode.survey import STAMP
 
     draft.seek(0)
     head = draft.read(HEAD)
     place = 0
-    for last in (b"; HEADER_BLOCK_END", b";END_OF_HEADER"):
-        found = head.find(last)
-        if found >= 0 and (end := head.find(b"\n", found)) >= 0:
+    for marker in (b"; HEADER_BLOCK_END", b";END_OF_HEADER"):
+        marker_place = head.find(marker)
+        if marker_place >= 0 and (end := head.find(b"\n", marker_place)) >= 0:
             place = end + 1
     if not place and head.startswith(b";") and b"\n" in head:
         place = head.index(b"\n") + 1
     line = head[:place] or head[: head.find(b"\n") + 1]
-    ends = b"\r\n" if line.endswith(b"\r\n") else b"\n"
-    text = b"%s %s: %d of %d sections%s" % (STAMP, __version__.encode(), tally.replaced, tally.sections, ends)
+    line_end = b"\r\n" if line.endswith(b"\r\n") else b"\n"
+    text = b"%s %s: %d of %d sections%s" % (STAMP, __version__.encode(), tally.replaced, tally.sections, line_end)
     return place, 0, text

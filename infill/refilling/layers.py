@@ -1,4 +1,4 @@
-"""A batch of layers refilled: which strokes change, what that saves, and the proof that nothing else did."""
+"""Refill a batch of layers: change its strokes, count the savings, and prove that nothing else changed."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 
-PURGED, UNREAD = "purged filament", "no plain moves"  # why a section has no strokes
+PURGED, UNREAD = "purged filament", "no plain moves"  # reasons for a section without strokes
 NO_CORNER = "no corner to round"
 SLOWER = 1.01  # a stroke that takes longer than this share of its old time keeps its corners
 
@@ -41,7 +41,7 @@ class Refilled:
     ----------
     text : bytes
     tally : Tally
-        What was done in this batch; nothing of what holds its infill up.
+        Statistics of this batch, without the contact of its infill.
     infill : Drawing
         Its infill now.
     """
@@ -59,9 +59,9 @@ def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> R
     batch : Batch
     rules : Rules
     plan : Plan, optional
-        Paths of our own; without it, the slicer's are kept, and batches may come in any order.
+        New paths; without it, the slicer's own are rounded, and batches may come in any order.
     memory : Memory
-        What the batch before left for this one, if there is a plan.
+        State after the previous batch, if there is a plan.
     """
     table, marks = batch.table, batch.marks
     tools = _tools(table)
@@ -71,32 +71,32 @@ def refilled(batch: Batch, rules: Rules, plan: Plan | None, memory: Memory) -> R
     if plan is not None:
         memory.ways = ways_of(table, memory.ways)
     if not len(batch.infill):
-        _tell(tally, batch, {})
-        return _as_it_was(batch, tally, np.empty(0))
+        _count_reasons(tally, batch, {})
+        return _keep_batch(batch, tally, np.empty(0))
     acceleration = batch.acceleration(rules.acceleration)
-    before = path_seconds(batch.infill.points, batch.infill.first, batch.speed, acceleration, rules.limits)
+    old_seconds = path_seconds(batch.infill.points, batch.infill.first, batch.speed, acceleration, rules.limits)
     if plan is not None:
-        return _replaced(batch, rules, plan, memory, tally, before, tools)
-    return _kept(batch, rules, tally, before, tools)
+        return _replace_sections(batch, rules, plan, memory, tally, old_seconds, tools)
+    return _round_strokes(batch, rules, tally, old_seconds, tools)
 
 
 def measured_contact(
-    batch: Batch, done: Refilled, last: Below | None, stride: int
+    batch: Batch, refilled_batch: Refilled, last: Below | None, stride: int
 ) -> tuple[Contact, Contact, Below | None]:
-    """Return what holds the infill of a batch up, before and after, and what the next batch needs of it.
+    """Measure the contact of the infill of a batch, before and after; return also the state for the next batch.
 
     Parameters
     ----------
     batch : Batch
-    done : Refilled
+    refilled_batch : Refilled
     last : Below, optional
-        What this function returned for the batch before.
+        Third result of this function for the previous batch.
     stride : int
-        Every so-many-th layer is measured.
+        Sampling stride, in layers.
     """
     return measured(
         batch.drawing,
-        done.infill,
+        refilled_batch.infill,
         batch.others,
         np.unique(batch.marks.layer),
         line_width=batch.line_width,
@@ -105,25 +105,27 @@ def measured_contact(
     )
 
 
-def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Places) -> Refilled:
-    """Return a batch with the slicer's paths, rounded."""
+def _round_strokes(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Places) -> Refilled:
+    """Round the slicer's paths of a batch."""
     infill, acceleration = batch.infill, batch.acceleration(rules.acceleration)
-    new = stroke_corners(batch, rules.rounding.corner, acceleration=rules.acceleration).rounded(rules.rounding)
-    after = path_seconds(new.points, new.first, batch.speed, acceleration, rules.limits)
+    rounded_paths = stroke_corners(batch, rules.rounding.corner, acceleration=rules.acceleration).rounded(
+        rules.rounding
+    )
+    after = path_seconds(rounded_paths.points, rounded_paths.first, batch.speed, acceleration, rules.limits)
     reasons = {**unchanged(batch, rules), "no faster": after > before * SLOWER}
-    anew = redrawn(infill, new, ~_any_of(reasons, len(infill)), rules.rounding)
-    done = spliced(batch.table, infill, anew)
-    wrong = unlike(batch.table, infill, anew, done)
-    if wrong:
-        _tell(tally, batch, {f"a check failed: {wrong}": batch.section})
-        return _as_it_was(batch, tally, before)
+    redrawn_strokes = redrawn(infill, rounded_paths, ~_union(reasons, len(infill)), rules.rounding)
+    new_text = spliced(batch.table, infill, redrawn_strokes)
+    fault = unlike(batch.table, infill, redrawn_strokes, new_text)
+    if fault:
+        _count_reasons(tally, batch, {f"a check failed: {fault}": batch.section})
+        return _keep_batch(batch, tally, before)
     changed = np.zeros(len(infill), dtype=bool)
-    changed[anew.which] = True
-    kept = {reason: batch.section[which] for reason, which in reasons.items()}
-    if rules.request.pattern != KEEP:  # a pattern of ours that found no room anywhere
-        kept[NO_REGION] = batch.section
-    _tell(tally, batch, kept, batch.section[changed])
-    length = lengths(new.points, new.first)
+    changed[redrawn_strokes.which] = True
+    kept_sections = {reason: batch.section[strokes] for reason, strokes in reasons.items()}
+    if rules.request.pattern != KEEP:  # a new pattern that fits nowhere
+        kept_sections[NO_REGION] = batch.section
+    _count_reasons(tally, batch, kept_sections, batch.section[changed])
+    length = lengths(rounded_paths.points, rounded_paths.first)
     _count(
         tally,
         batch,
@@ -132,107 +134,111 @@ def _kept(batch: Batch, rules: Rules, tally: Tally, before: Floats, tools: Place
         Amounts(
             seconds=float(after[changed].sum()),
             length=float(length[changed].sum()),
-            filament=float(anew.filament.sum()),
+            filament=float(redrawn_strokes.filament.sum()),
         ),
     )
-    tally.widened += float((same_filament(infill, anew) - anew.filament).sum())
-    tally.save(tools[infill.opens[anew.which]], infill.filament[anew.which], anew.filament)
-    tally.round(new.radius[np.repeat(changed, np.diff(infill.first))])
-    old_paths, new_paths = parted(infill.points, infill.first), parted(new.points, new.first)
+    tally.widened += float((same_filament(infill, redrawn_strokes) - redrawn_strokes.filament).sum())
+    tally.save(
+        tools[infill.opens[redrawn_strokes.which]], infill.filament[redrawn_strokes.which], redrawn_strokes.filament
+    )
+    tally.round(rounded_paths.radius[np.repeat(changed, np.diff(infill.first))])
+    old_paths, new_paths = parted(infill.points, infill.first), parted(rounded_paths.points, rounded_paths.first)
     points, first = packed([new_paths[k] if changed[k] else old_paths[k] for k in range(len(infill))], like=(2,))
-    return Refilled(text=done.text, tally=tally, infill=Drawing(points=points, first=first, layer=batch.layer))
+    return Refilled(text=new_text.text, tally=tally, infill=Drawing(points=points, first=first, layer=batch.layer))
 
 
-def _replaced(
+def _replace_sections(
     batch: Batch, rules: Rules, plan: Plan, memory: Memory, tally: Tally, before: Floats, tools: Places
 ) -> Refilled:
-    """Return a batch with paths of our own."""
+    """Replace the paths of a batch by new ones."""
     table, infill = batch.table, batch.infill
-    found, odd = fresh_sections(batch, plan, memory, rules.acceleration)
+    candidates, unfit = fresh_sections(batch, plan, memory, rules.acceleration)
     reasons = unchanged(batch, rules)
-    fixed = _any_of(reasons, len(infill))
-    kept = {reason: batch.section[which] for reason, which in reasons.items()} | odd
-    wanted = [each for each in found if not fixed[each.body.strokes].any()]
-    fresh = _unhurried(batch, rules, [each for each in wanted if not outside(each)])
-    drawn = np.array([each.body.section for each in fresh], dtype=np.intp)
-    kept["a path would leave its region"] = np.setdiff1d([each.body.section for each in wanted], drawn)
+    fixed = _union(reasons, len(infill))
+    kept_sections = {reason: batch.section[strokes] for reason, strokes in reasons.items()} | unfit
+    allowed = [section for section in candidates if not fixed[section.body.strokes].any()]
+    fresh = _slow_down(batch, rules, [section for section in allowed if not outside(section)])
+    drawn = np.array([section.body.section for section in fresh], dtype=np.intp)
+    kept_sections["a path would leave its region"] = np.setdiff1d([section.body.section for section in allowed], drawn)
     if not fresh:
-        _tell(tally, batch, kept)
-        return _as_it_was(batch, tally, before)
+        _count_reasons(tally, batch, kept_sections)
+        return _keep_batch(batch, tally, before)
     texts, filament = [], []
-    for each in fresh:
-        text, pushed = composed(table, each.body, each.paths, each.rate, memory.ways, retractions(each))
+    for section in fresh:
+        text, pushed = composed(table, section.body, section.paths, section.rate, memory.ways, retractions(section))
         texts.append(text)
         filament.append(pushed)
-    done = exchanged(table, [each.body for each in fresh], texts)
-    other = read(done.text, table.before)
-    wrong = differing(table, other, done) or unlawful(other, done, [each.body for each in fresh], texts)
-    if wrong:
-        _tell(tally, batch, kept | {f"a check failed: {wrong}": drawn})
-        return _as_it_was(batch, tally, before)
-    _tell(tally, batch, kept, drawn)
+    new_text = exchanged(table, [section.body for section in fresh], texts)
+    new_table = read(new_text.text, table.before)
+    fault = differing(table, new_table, new_text) or unlawful(
+        new_table, new_text, [section.body for section in fresh], texts
+    )
+    if fault:
+        _count_reasons(tally, batch, kept_sections | {f"a check failed: {fault}": drawn})
+        return _keep_batch(batch, tally, before)
+    _count_reasons(tally, batch, kept_sections, drawn)
     changed = np.zeros(len(infill), dtype=bool)
-    for each in fresh:
-        changed[each.body.strokes] = True
-        tally.round(each.radii)
+    for section in fresh:
+        changed[section.body.strokes] = True
+        tally.round(section.radii)
     _count(
         tally,
         batch,
         before,
         changed,
         Amounts(
-            seconds=sum(_seconds(each, rules) for each in fresh),
-            length=sum(total_length(each.paths) for each in fresh),
+            seconds=sum(_new_seconds(section, rules) for section in fresh),
+            length=sum(total_length(section.paths) for section in fresh),
             filament=sum(filament),
         ),
     )
-    opens = np.array([each.body.first for each in fresh])
-    tally.save(tools[opens], np.array([each.body.filament for each in fresh]), np.array(filament))
-    old_paths, same = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
-    paths = [old_paths[k] for k in same] + [path for each in fresh for path in each.paths]
-    layer = [batch.layer[same], *(np.full(len(each.paths), each.body.layer) for each in fresh)]
+    opens = np.array([section.body.first for section in fresh])
+    tally.save(tools[opens], np.array([section.body.filament for section in fresh]), np.array(filament))
+    old_paths, unchanged_strokes = parted(infill.points, infill.first), np.flatnonzero(~changed).tolist()
+    paths = [old_paths[k] for k in unchanged_strokes] + [path for section in fresh for path in section.paths]
+    layer = [batch.layer[unchanged_strokes], *(np.full(len(section.paths), section.body.layer) for section in fresh)]
     points, first = packed(paths, like=(2,))
     drawing = Drawing(points=points, first=first, layer=np.concatenate(layer))
-    return Refilled(text=done.text, tally=tally, infill=drawing)
+    return Refilled(text=new_text.text, tally=tally, infill=drawing)
 
 
-def _tell(tally: Tally, batch: Batch, reasons: Mapping[str, Places], changed: Places | None = None) -> None:
-    """Count every section of a batch once: as replaced, or as kept for the first reason that it has.
+def _count_reasons(tally: Tally, batch: Batch, reasons: Mapping[str, Places], changed: Places | None = None) -> None:
+    """Count every section of a batch once: as replaced, or as kept for its first reason.
 
     Parameters
     ----------
     tally : Tally
     batch : Batch
     reasons : mapping of str to array of int
-        Sections that have each reason.
+        Sections by reason.
     changed : array of int, optional
-        Sections of which something was drawn anew.
+        Sections with new paths.
     """
     changed = np.unique(changed) if changed is not None else np.empty(0, dtype=np.intp)
     tally.replaced = len(changed)
-    left = np.setdiff1d(batch.sections, changed)
-    unread = np.setdiff1d(left, batch.section)
+    remaining = np.setdiff1d(batch.sections, changed)
+    unread = np.setdiff1d(remaining, batch.section)
     purged = np.intersect1d(unread, batch.purged_sections)
-    for reason, some in {PURGED: purged, UNREAD: unread, **reasons, NO_CORNER: left}.items():
-        tally.keep(reason, len(np.intersect1d(left, some)))
-        left = np.setdiff1d(left, some)
+    for reason, sections in {PURGED: purged, UNREAD: unread, **reasons, NO_CORNER: remaining}.items():
+        tally.keep(reason, len(np.intersect1d(remaining, sections)))
+        remaining = np.setdiff1d(remaining, sections)
 
 
-def _as_it_was(batch: Batch, tally: Tally, before: Floats) -> Refilled:
-    """Return a batch as it was."""
+def _keep_batch(batch: Batch, tally: Tally, before: Floats) -> Refilled:
+    """Return a batch unchanged."""
     _count(tally, batch, before, np.zeros(len(batch.infill), dtype=bool), Amounts())
     return Refilled(text=batch.table.data, tally=tally, infill=batch.drawing)
 
 
 def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amounts) -> None:
-    """Say what the infill of a batch took, and what it takes now that some strokes were changed for new paths."""
+    """Count the infill of a batch before the refill, and after it, with `new` in place of the changed strokes."""
     infill = batch.infill
 
-    def amounts(some: Flags) -> Amounts:
+    def amounts(chosen: Flags) -> Amounts:
         return Amounts(
-            seconds=float(before[some].sum()),
-            length=float(infill.length[some].sum()),
-            filament=float(infill.filament[some].sum()),
+            seconds=float(before[chosen].sum()),
+            length=float(infill.length[chosen].sum()),
+            filament=float(infill.filament[chosen].sum()),
         )
 
     tally.infill = amounts(np.ones(len(infill), dtype=bool))
@@ -240,63 +246,63 @@ def _count(tally: Tally, batch: Batch, before: Floats, changed: Flags, new: Amou
     tally.widened = tally.infill_after.filament
 
 
-def _seconds(fresh: Fresh, rules: Rules) -> float:
-    """Return how long new paths take."""
+def _new_seconds(fresh: Fresh, rules: Rules) -> float:
+    """Return the time of new paths, s."""
     points, first = packed(fresh.paths, like=(2,))
     speed, acceleration = max(fresh.body.feed / 60, LEAST_SPEED), fresh.acceleration
     number = len(fresh.paths)
     return float(path_seconds(points, first, np.full(number, speed), np.full(number, acceleration), rules.limits).sum())
 
 
-def _unhurried(batch: Batch, rules: Rules, fresh: list[Fresh]) -> list[Fresh]:
+def _slow_down(batch: Batch, rules: Rules, fresh: list[Fresh]) -> list[Fresh]:
     """Slow down new paths that would take less time than the old ones, in layers as short as cooling allows.
 
-    Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers reckon it, and
-    retractions among the old moves: how many the new ones have is known when they are written.
+    Travel counts on both sides, at the feed rates of the section and without acceleration, as slicers count it.
+    Retractions count among the old moves only: those of the new ones are not yet known.
     """
     short = short_layers(batch, rules)
     slowed = []
-    for each in fresh:
-        body = each.body
-        length = total_length(each.paths)
+    for section in fresh:
+        body = section.body
+        length = total_length(section.paths)
         if short[body.layer - int(batch.marks.layer[0])] and length > 0:
-            left = _section_seconds(batch.table, body) - _travel_seconds(batch.table, each)
-            if 0 < 60 * length / body.feed < left:
-                body = replace(body, feed=60 * length / left)
-        slowed.append(replace(each, body=body))
+            available = _section_seconds(batch.table, body) - _travel_seconds(batch.table, section)
+            if 0 < 60 * length / body.feed < available:
+                body = replace(body, feed=60 * length / available)
+        slowed.append(replace(section, body=body))
     return slowed
 
 
-def _lead(table: Table, body: Body) -> int:
-    """Return the line after which a section begins, travel included: the last that prints, or the one before."""
+def _lead_line(table: Table, body: Body) -> int:
+    """Return the line after which a section begins, with its travel: the last printing one, or the one before."""
     printing = np.flatnonzero(table.extruded[: body.first] > 0)
     return int(printing[-1]) if len(printing) else max(body.first - 1, 0)
 
 
 def _section_seconds(table: Table, body: Body) -> float:
-    """Return how long the old moves of a section take, travel to it and in it and its retractions too."""
-    lines = slice(_lead(table, body), body.last + 1)
-    away = np.hypot(np.diff(table.x[lines]), np.diff(table.y[lines]))
-    away = np.where(away > 0, away, np.abs(table.extruded[lines][1:]))
-    return float(np.nan_to_num(60 * away / table.f[lines][1:]).sum())
+    """Return the time of the old moves of a section, with the travel to it and in it and its retractions, s."""
+    lines = slice(_lead_line(table, body), body.last + 1)
+    distance = np.hypot(np.diff(table.x[lines]), np.diff(table.y[lines]))
+    distance = np.where(distance > 0, distance, np.abs(table.extruded[lines][1:]))
+    return float(np.nan_to_num(60 * distance / table.f[lines][1:]).sum())
 
 
 def _travel_seconds(table: Table, fresh: Fresh) -> float:
-    """Return how long travel to, between and from new paths takes, at the highest feed rate of their section."""
+    """Return the time of travel to, between and from new paths, at the highest feed rate of their section, s."""
     body = fresh.body
-    lead = _lead(table, body)
+    lead = _lead_line(table, body)
     start = np.array([table.x[lead], table.y[lead]])
     ends = np.array([start, *(place for path in fresh.paths for place in (path[0], path[-1])), body.end])
-    away = np.linalg.norm(ends[1::2] - ends[::2], axis=1).sum()
-    return float(60 * away / max(table.f[lead + 1 : body.last + 1].max(), body.feed))
+    distance = np.linalg.norm(ends[1::2] - ends[::2], axis=1).sum()
+    return float(60 * distance / max(table.f[lead + 1 : body.last + 1].max(), body.feed))
 
 
-def _any_of(reasons: dict[str, Flags], strokes: int) -> Flags:
-    """Return which strokes have a reason."""
-    found = np.zeros(strokes, dtype=bool)
-    for which in reasons.values():
-        found |= which
-    return found
+def _union(reasons: dict[str, Flags], strokes: int) -> Flags:
+    """Unite the strokes of all reasons."""
+    union = np.zeros(strokes, dtype=bool)
+    for flags in reasons.values():
+        union |= flags
+    return union
 
 
 def _tools(table: Table) -> Places:

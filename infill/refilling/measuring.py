@@ -1,4 +1,4 @@
-"""What holds the infill up, before and after, measured on layers here and there as they are drawn."""
+"""Measure the support and contact of the infill, before and after, on a sample of the layers as they are drawn."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from infill.ragged import picked
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-MEASURED = 16  # layers of a print, about; of small layers more, so that about as many points are looked at
+MEASURED = 16  # layers of a print, about; more of small layers, so that the number of points is about the same
 MOST_MEASURED = 128
-LARGE = MOST_POINTS * STEP  # mm of infill in a layer: of more, a sample is looked at
+LARGE = MOST_POINTS * STEP  # mm of infill in a layer: larger layers are sampled
 
 
 def stride_of(layers: float, length: float) -> int:
-    """Return every how-many-th layer of a print is measured.
+    """Return the sampling stride, in layers, of a print.
 
     Parameters
     ----------
     layers : float
-        How many there are.
+        Number of layers.
     length : float
-        mm of infill in a layer, usually.
+        mm of infill in a typical layer.
 
     >>> stride_of(320, 5000.0), stride_of(320, 500.0), stride_of(320, 0.0)
     (20, 5, 2)
@@ -60,13 +60,13 @@ class Drawing:
 
 @dataclass(frozen=True, kw_only=True)
 class Below:
-    """A layer that was drawn: what the next one lies on.
+    """A drawn layer that supports the next one.
 
     Parameters
     ----------
     number : int
     before, after : Samples
-        Everything it prints, old and new.
+        All its beads, old and new.
     """
 
     number: int
@@ -84,13 +84,13 @@ def measured(
     old, new : Drawing
         The infill.
     others : Beads
-        Everything else.
+        All other beads.
     layers : (L,) int, ascending
         Of the batch.
     line_width : float, mm
     stride : int
     last : Below, optional
-        The last layer of the batch before, if it is needed.
+        The last layer of the previous batch, if needed.
 
     Returns
     -------
@@ -101,26 +101,26 @@ def measured(
     before, after = Contact(), Contact()
 
     @lru_cache(maxsize=2)  # a layer is measured, and then the next one lies on it
-    def drawn(number: int) -> tuple[Samples, Samples]:
+    def layer_samples(number: int) -> tuple[Samples, Samples]:
         return old.of(number), new.of(number)
 
     def below(number: int) -> Below:
         walls = others.samples_of(number)
-        then, now = drawn(number)
-        return Below(number=number, before=merged(then, walls), after=merged(now, walls))
+        old_samples, new_samples = layer_samples(number)
+        return Below(number=number, before=merged(old_samples, walls), after=merged(new_samples, walls))
 
-    there = set(layers.tolist())
+    layer_set = set(layers.tolist())
     for number in np.unique(old.layer).tolist():
         if number % stride:
             continue
-        if number - 1 in there:
-            under = below(number - 1)
+        if number - 1 in layer_set:
+            lower = below(number - 1)
         elif last is not None and last.number == number - 1:
-            under = last
+            lower = last
         else:
             continue
-        then, now = drawn(number)
-        before += contact(then, under.before, line_width)
-        after += contact(now, under.after, line_width)
+        old_samples, new_samples = layer_samples(number)
+        before += contact(old_samples, lower.before, line_width)
+        after += contact(new_samples, lower.after, line_width)
     final = int(layers[-1]) if len(layers) else 0
     return before, after, below(final) if len(layers) and (final + 1) % stride == 0 else None

@@ -1,4 +1,4 @@
-"""The parameters of the patterns of a refill, and the family of lines that a pattern with its parameters is."""
+"""The parameters of the patterns of a refill, and the family of lines of a pattern with its parameters."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Plain:
 
 @dataclass(frozen=True, kw_only=True)
 class Sized(Plain):
-    """A pattern that follows the region: how large its cells are, which is all that can be asked for."""
+    """A pattern that follows the region: only the size of its cells can be set."""
 
     cell: float | None = parameter(
         None, "distance between lines, period, or width of a drawing, in place of a density", low=0.1, high=1000
@@ -139,10 +139,10 @@ def placement(pattern: str, parameters: Mapping[str, Any]) -> Plain:
         If one is unknown or out of range.
     """
     kind = unplaced(pattern)
-    known = declared(kind)
+    names = declared(kind)
     for name in parameters:
-        if name not in known:
-            raise PatternError(f"{kind.name} has no parameter {name!r}; {nearest(name, known)}")
+        if name not in names:
+            raise PatternError(f"{kind.name} has no parameter {name!r}; {nearest(name, names)}")
     return replace(kind, **parameters)
 
 

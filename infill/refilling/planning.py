@@ -1,4 +1,4 @@
-"""Which pattern fills the regions of a print, and how large its cells are."""
+"""Plan a refill: the pattern for the regions of a print, and the size of its cells."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 USUAL_SPEED = 80.0  # mm/s, for lengths: it only decides how finely arcs are cut
-LARGEST_RADIUS = 1000.0  # mm: as large as it gets
-USUAL_HEIGHT = 0.2  # mm of a layer, where no tag tells it
+LARGEST_RADIUS = 1000.0  # mm, for an unlimited radius
+USUAL_HEIGHT = 0.2  # mm of a layer, where no tag gives it
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """What fills the regions.
+    """Pattern for the regions, with its cell and rounding.
 
     Parameters
     ----------
@@ -42,9 +42,9 @@ class Plan:
     line_width : float, mm
     rounding : Rounding
     density : float, optional
-        mm of line per mm², if it was asked for; else every section keeps its filament.
+        Requested mm of line per mm²; else every section keeps its filament.
     fixed : bool
-        The cell was asked for: it is the same everywhere, and decides the filament.
+        True for a requested cell: it is the same everywhere, and decides the filament.
     """
 
     family: Family
@@ -60,66 +60,66 @@ class Plan:
 
     @property
     def radius(self) -> float:
-        """The largest radius that was asked for, mm."""
+        """The largest radius requested, mm."""
         return min(self.rounding.radius, LARGEST_RADIUS)
 
     def rounding_of(self, cell: float) -> Rounding:
-        """Return how the corners of a cell, mm, are rounded."""
+        """Return the rounding of corners for a cell, mm."""
         return replace(self.rounding, radius=min(self.radius, self.family.largest_radius(cell, self.line_width)))
 
 
 def planned(
     family: Family,
-    some: Sequence[Batch],
+    batches: Sequence[Batch],
     rounding: Rounding,
     *,
     density: float | None,
     acceleration: float,
     cell: float | None = None,
 ) -> Plan | None:
-    """Choose the cell, so that the layers that were looked at take the filament that they should; None without infill.
+    """Choose the cell so that the sampled layers take the requested filament; None without infill.
 
     Parameters
     ----------
     family : Family
-    some : sequence of Batch
+    batches : sequence of Batch
     rounding : Rounding
     density : float, optional
         Share of the volume; without it, the filament of the slicer's own infill.
     acceleration : float, mm/s²
         Where the print commands none.
     cell : float, optional
-        mm; with it, whatever filament it takes.
+        mm; overrides the filament.
     """
     import shapely
 
     regions: list[tuple[MultiPolygon, float, int]] = []
     walls, length, width, spacing = [], 0.0, 0.0, 1.0
     region: Region | None = None
-    seen: set[tuple[float, bytes]] = set()
+    visited: set[tuple[float, bytes]] = set()
     area = shapely.MultiPolygon()
-    for batch in some:
+    for batch in batches:
         width = batch.line_width
         for number in filled(batch):
-            chosen = np.flatnonzero(batch.layer == number)
-            opens = batch.infill.opens[chosen]
-            which = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[chosen[0]]].tobytes()
-            if which in seen:  # places that were looked at overlap in small prints
+            strokes = np.flatnonzero(batch.layer == number)
+            opens = batch.infill.opens[strokes]
+            fingerprint = float(batch.table.z[opens[0]]), batch.infill.points[batch.infill.first[strokes[0]]].tobytes()
+            if fingerprint in visited:  # samples overlap in small prints
                 continue
-            seen.add(which)
-            around = batch.others.around(number, STEP)
-            places, first = picked(batch.infill.first, chosen)
-            drawn = sampled(batch.infill.points[places], first, INFILL_STEP).points
-            before = region
-            region = region_of(around, drawn, before)
+            visited.add(fingerprint)
+            layer_beads = batch.others.around(number, STEP)
+            places, offsets = picked(batch.infill.first, strokes)
+            infill_points = sampled(batch.infill.points[places], offsets, INFILL_STEP).points
+            previous = region
+            region = region_of(layer_beads, infill_points, previous)
             if not region.polygons:
                 continue
-            if region is not before:
-                walls.append(around.points)
+            if region is not previous:
+                walls.append(layer_beads.points)
                 area = shapely.MultiPolygon(list(region.polygons))
             regions.append((area, float(batch.table.z[opens[0]]), number))
             spacing = _spacing(width, float(np.median(batch.marks.height[opens])))
-            length += float(batch.infill.length[chosen].sum()) if density is None else density * area.area / spacing
+            length += float(batch.infill.length[strokes].sum()) if density is None else density * area.area / spacing
     if not regions:
         return None
     if isinstance(family, ConcentricHeart | Spirals) and family.middle is None:  # one centre for the whole print
@@ -140,7 +140,7 @@ def planned(
     everywhere = walls_of(np.concatenate(walls))
 
     def measure(paths: Sequence[Floats], cell: float) -> float:
-        done, _ = rounded_paths(
+        smooth_paths, _ = rounded_paths(
             [path for path in paths if len(path) > 1],
             walls=everywhere,
             acceleration=acceleration,
@@ -149,7 +149,7 @@ def planned(
             line_width=width,
             wide=family.wide,
         )
-        return total_length(done)
+        return total_length(smooth_paths)
 
     solved = solve_cell(regions, family, length, line_width=width, radius=plan.radius, measure=measure)
     return replace(plan, cell=solved.cell)

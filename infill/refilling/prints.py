@@ -1,4 +1,4 @@
-"""Writing a print: in the form in which it was given."""
+"""Write a print in the form of its input: text, binary or archive."""
 
 from __future__ import annotations
 
@@ -16,59 +16,59 @@ AT_ONCE = 1 << 20  # bytes
 
 
 def write_print(
-    given: SlicedFile, file: BinaryIO, texts: Mapping[int | None, Iterable[bytes]], metadata: Mapping[str, str]
+    sliced: SlicedFile, file: BinaryIO, texts: Mapping[int | None, Iterable[bytes]], metadata: Mapping[str, str]
 ) -> None:
-    """Write a print anew.
+    """Write a print with new text.
 
     Parameters
     ----------
-    given : SlicedFile
+    sliced : SlicedFile
     file : binary file
         To write to.
     texts : mapping from part to iterable of bytes
         The new text of each part that changes, in pieces.
     metadata : mapping
-        New values of what binary G-code tells outside its text.
+        New values of the metadata outside the text of binary G-code.
     """
-    given.file.seek(0)
-    if given.form == "archive":
+    sliced.file.seek(0)
+    if sliced.form == "archive":
         from infill.gcode.bambu_archive import rewritten_archive
 
-        rewritten_archive(given.file, file, {plate: text for plate, text in texts.items() if plate is not None})
-    elif given.form == "binary":
+        rewritten_archive(sliced.file, file, {plate: text for plate, text in texts.items() if plate is not None})
+    elif sliced.form == "binary":
         from infill.gcode.binary import rewritten
 
-        rewritten(given.file, file, texts[None], metadata)
+        rewritten(sliced.file, file, texts[None], metadata)
     else:
         file.writelines(texts[None])
 
 
 def retold(metadata: Iterable[tuple[bytes, bytes]], change: Change) -> dict[str, str]:
-    """Return the values of metadata that tell time or filament as they hold after a change.
+    """Update the metadata that state time or filament; return the new values by name.
 
     Parameters
     ----------
     metadata : iterable of (name, value)
     change : Change
     """
-    anew = {}
+    updated = {}
     for name, value in metadata:
         line = b"; %s = %s" % (name, value)
         if any(estimates(line)):
             new = told_anew(line, 0.0, change).partition(b" = ")[2]
-            anew[name.decode("utf-8", "surrogateescape")] = new.decode("utf-8", "surrogateescape")
-    return anew
+            updated[name.decode("utf-8", "surrogateescape")] = new.decode("utf-8", "surrogateescape")
+    return updated
 
 
-def pieces(draft: BinaryIO, first: int, last: int) -> Iterator[bytes]:
-    """Yield what stands between two places of a file."""
-    draft.seek(first)
-    while first < last:
-        text = draft.read(min(AT_ONCE, last - first))
+def pieces(draft: BinaryIO, begin: int, end: int) -> Iterator[bytes]:
+    """Yield the bytes of a file between two places, in pieces."""
+    draft.seek(begin)
+    while begin < end:
+        text = draft.read(min(AT_ONCE, end - begin))
         if not text:
             raise GeometryError("a temporary file ended early; free some space on the disk and try again")
         yield text
-        first += len(text)
+        begin += len(text)
 
 
 def copy_mode(source: Path, file: BinaryIO) -> None:

@@ -1,4 +1,4 @@
-"""Paths of our own in the place of the slicer's infill: in its regions, with its filament, section by section."""
+"""Replace the slicer's infill by new paths: in its regions, with its filament, section by section."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ Places = NDArray[np.intp]
 Paths = list[Floats]
 
 LEAST_WIDTH, MOST_WIDTH = 0.92, 1.08  # of the slicer's filament per mm, to meet the filament of a region
-LEAST_TRAVEL = 1.0  # mm; shorter ways are never retracted
-DEBT = 0.1  # of the filament of a layer that may be owed before columns choose their cells anew
-AGAIN_AFTER = 8  # layers, before they do so again
+LEAST_TRAVEL = 1.0  # mm; shorter travel never retracts
+DEBT = 0.1  # of the filament of a layer: the error at which columns choose new cells
+AGAIN_AFTER = 8  # layers until columns may choose new cells again
 NO_REGION = "no sure region"
-ACROSS = 0.1  # mm that a way may leave its areas without a retraction
+ACROSS = 0.1  # mm that travel may leave its areas without a retraction
 
 
 @dataclass(kw_only=True)
 class Memory:
-    """What one layer leaves for the next.
+    """State that one layer leaves for the next.
 
     Parameters
     ----------
@@ -55,9 +55,9 @@ class Memory:
     ground : Ground, optional
         The layer below the one in which the region began, for a pattern that repeats in every layer.
     owed : float
-        mm of filament that beads could not be widened enough to take.
+        mm of filament still missing after beads are widened as far as allowed.
     fitted : int
-        The last layer in which columns chose their cells anew, to pay what is owed.
+        The last layer in which columns chose new cells, to make up for `owed`.
     """
 
     region: Region | None = None
@@ -82,7 +82,7 @@ class Fresh:
         mm of filament per mm.
     areas : tuple of Polygon
     radii : (C,) float64, mm
-        Of the arcs; 0 or infinite where there is none.
+        Of the arcs; 0 or infinite at corners without an arc.
     acceleration : float, mm/s²
     """
 
@@ -97,79 +97,82 @@ class Fresh:
 def fresh_sections(
     batch: Batch, plan: Plan, memory: Memory, acceleration: float
 ) -> tuple[list[Fresh], dict[str, Places]]:
-    """Return new paths for the sections of a batch, and which sections keep theirs, by reason.
+    """Draw new paths for the sections of a batch; return them, and the sections that keep theirs, by reason.
 
     Parameters
     ----------
     batch : Batch
     plan : Plan
     memory : Memory
-        Of the layer before; of the last layer afterwards.
+        State after the previous layer; updated to the last layer.
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    found, reasons = bodies(batch.table, batch.marks, batch.infill)
+    section_bodies, reasons = bodies(batch.table, batch.marks, batch.infill)
     commanded = batch.acceleration(acceleration)
     fresh: list[Fresh] = []
-    # Regions need nothing of what is drawn: the next one is looked for meanwhile.
-    for number, (region, around) in in_order(_looker(batch, memory.region), np.unique(batch.layer).tolist(), threads=1):
-        some = np.flatnonzero(batch.layer == number)
+    # Regions do not depend on the drawing: another thread searches the next one meanwhile.
+    for number, (region, layer_beads) in in_order(
+        _region_finder(batch, memory.region), np.unique(batch.layer).tolist(), threads=1
+    ):
+        strokes = np.flatnonzero(batch.layer == number)
         if region is not memory.region:
-            below = [path for each in memory.drawn.values() for path in each.paths]
+            below = [path for member in memory.drawn.values() for path in member.paths]
             memory.ground = None
             if memory.others is not None and plan.family.prismatic:
                 memory.ground = ground_of(below, memory.others, plan.line_width)
             memory.drawn.clear()
         elif not plan.family.prismatic:
             memory.drawn.clear()
-        memory.region, memory.others = region, around.all
-        groups = grouped(region, batch.infill, some, batch.section)
-        here = {body.section: body for body in found if body.layer == number}
-        held = lengths_of(groups)
+        memory.region, memory.others = region, layer_beads.all
+        groups = grouped(region, batch.infill, strokes, batch.section)
+        layer_bodies = {body.section: body for body in section_bodies if body.layer == number}
+        area_lengths_mm = lengths_of(groups)
         memory.columns = [
-            column(polygon, held.get(area, 0.0), plan, memory.columns) for area, polygon in enumerate(region.polygons)
+            column(polygon, area_lengths_mm.get(area, 0.0), plan, memory.columns)
+            for area, polygon in enumerate(region.polygons)
         ]
-        _pay(memory, number, sum(body.filament for body in here.values()))
+        _settle_debt(memory, number, sum(body.filament for body in layer_bodies.values()))
         for group in groups:
-            members = [here[each] for each in group.areas if each in here]
+            members = [layer_bodies[member] for member in group.areas if member in layer_bodies]
             reason = unsure(group, members)
             if not reason:
-                done = _filled(group, members, region, around.all, plan, memory, commanded)
-                fresh += done
-                reason = "" if done else "no path fits"
+                filled = _fill_group(group, members, region, layer_beads.all, plan, memory, commanded)
+                fresh += filled
+                reason = "" if filled else "no path fits"
             if reason:
                 reasons.setdefault(reason, []).extend(body.section for body in members)
-    kept = {reason: np.array(sections, dtype=np.intp) for reason, sections in reasons.items()}
-    return sorted(fresh, key=lambda each: each.body.first), {**kept, NO_REGION: batch.section}
+    kept_sections = {reason: np.array(sections, dtype=np.intp) for reason, sections in reasons.items()}
+    return sorted(fresh, key=lambda member: member.body.first), {**kept_sections, NO_REGION: batch.section}
 
 
-def _pay(memory: Memory, layer: int, filament: float) -> None:
-    """Let columns choose their cells anew if much is owed, mm, of the filament of a layer: those that are far off."""
+def _settle_debt(memory: Memory, layer: int, filament: float) -> None:
+    """Let the columns that are far off choose new cells, if much filament of a layer is owed, mm."""
     if abs(memory.owed) <= DEBT * filament or layer < memory.fitted + AGAIN_AFTER:
         return
     memory.fitted = layer
-    memory.columns = [replace(each, fresh=True) for each in memory.columns]
-    for key, drawn in list(memory.drawn.items()):
-        wanted = memory.columns[key[0]].length
-        if abs(drawn.length - wanted) > OFF * wanted:
+    memory.columns = [replace(stack, fresh=True) for stack in memory.columns]
+    for key, fitted_paths in list(memory.drawn.items()):
+        target = memory.columns[key[0]].length
+        if abs(fitted_paths.length - target) > OFF * target:
             del memory.drawn[key]
 
 
-def _looker(batch: Batch, before: Region | None) -> Callable[[int], tuple[Region, Around]]:
-    """Return what tells the region of a layer and its other beads, of one layer after another."""
-    last = before
+def _region_finder(batch: Batch, initial: Region | None) -> Callable[[int], tuple[Region, Around]]:
+    """Return a function that finds the region of a layer and its other beads, one layer after another."""
+    region = initial
 
-    def looked(number: int) -> tuple[Region, Around]:
-        nonlocal last
-        around = batch.others.around(number, STEP)
-        places, first = picked(batch.infill.first, np.flatnonzero(batch.layer == number))
-        last = region_of(around, sampled(batch.infill.points[places], first, INFILL_STEP).points, last)
-        return last, around
+    def find_next(number: int) -> tuple[Region, Around]:
+        nonlocal region
+        layer_beads = batch.others.around(number, STEP)
+        places, offsets = picked(batch.infill.first, np.flatnonzero(batch.layer == number))
+        region = region_of(layer_beads, sampled(batch.infill.points[places], offsets, INFILL_STEP).points, region)
+        return region, layer_beads
 
-    return looked
+    return find_next
 
 
-def _filled(
+def _fill_group(
     group: Group,
     members: Sequence[Body],
     region: Region,
@@ -178,9 +181,9 @@ def _filled(
     memory: Memory,
     acceleration: Floats,
 ) -> list[Fresh]:
-    """Return new paths for sections that share areas, with the filament that they should take; none if none fits."""
-    areas = tuple(region.polygons[area] for each in group.areas.values() for area in each)
-    fresh = []
+    """Draw new paths for sections that share areas, with their filament; return none if no path fits."""
+    areas = tuple(region.polygons[area] for item in group.areas.values() for area in item)
+    sections = []
     for body in members:
         place = Place(
             plan=plan,
@@ -191,71 +194,71 @@ def _filled(
             acceleration=float(acceleration[body.strokes[0]]),
             ground=memory.ground,
         )
-        drawn = [_drawn(area, place, memory) for area in group.areas[body.section]]
-        fresh.append(
+        fitted_areas = [_paths_in_area(area, place, memory) for area in group.areas[body.section]]
+        sections.append(
             Fresh(
                 body=body,
-                paths=_nearest([path for each in drawn for path in each.paths], body),
+                paths=_shorter_direction([path for item in fitted_areas for path in item.paths], body),
                 rate=body.rate,
                 areas=areas,
-                radii=np.concatenate([np.empty(0), *(each.radii for each in drawn)]),
+                radii=np.concatenate([np.empty(0), *(item.radii for item in fitted_areas)]),
                 acceleration=place.acceleration,
             )
         )
-    pushed = sum(each.rate * total_length(each.paths) for each in fresh)
-    if not pushed:
+    filament = sum(item.rate * total_length(item.paths) for item in sections)
+    if not filament:
         return []
     if plan.fixed:
-        wanted = pushed
+        target = filament
     elif plan.density is None:
-        wanted = sum(body.filament for body in members)
+        target = sum(body.filament for body in members)
     else:
-        wanted = members[0].rate * plan.density * sum(area.area for area in areas)
-    wanted += memory.owed
-    factor = float(np.clip(wanted / pushed, LEAST_WIDTH, MOST_WIDTH))
-    memory.owed = wanted - factor * pushed
-    return [replace(each, rate=each.rate * factor) for each in fresh]
+        target = members[0].rate * plan.density * sum(area.area for area in areas)
+    target += memory.owed
+    factor = float(np.clip(target / filament, LEAST_WIDTH, MOST_WIDTH))
+    memory.owed = target - factor * filament
+    return [replace(item, rate=item.rate * factor) for item in sections]
 
 
-def _drawn(area: int, place: Place, memory: Memory) -> Fitted:
+def _paths_in_area(area: int, place: Place, memory: Memory) -> Fitted:
     """Return the paths of an area, drawn once for all layers that have them in common."""
     key = (area, 0 if place.plan.family.prismatic else place.layer)
     if key not in memory.drawn:
-        memory.drawn[key] = done = fitted(memory.columns[area], place)
-        memory.columns[area] = replace(memory.columns[area], cell=done.cell)
+        memory.drawn[key] = result = fitted(memory.columns[area], place)
+        memory.columns[area] = replace(memory.columns[area], cell=result.cell)
     return memory.drawn[key]
 
 
-def _nearest(paths: Paths, body: Body) -> Paths:
-    """Return paths in the order of printing: the same either way round, whichever begins and ends nearer."""
+def _shorter_direction(paths: Paths, body: Body) -> Paths:
+    """Order paths forwards or backwards, whichever begins and ends nearer to the section's ends."""
     if not paths:
         return paths
 
-    def way(there: Paths) -> float:
-        return float(np.hypot(*(there[0][0] - body.start)) + np.hypot(*(there[-1][-1] - body.end)))
+    def travel_of(ordered: Paths) -> float:
+        return float(np.hypot(*(ordered[0][0] - body.start)) + np.hypot(*(ordered[-1][-1] - body.end)))
 
-    return min(paths, [path[::-1] for path in paths[::-1]], key=way)
+    return min(paths, [path[::-1] for path in paths[::-1]], key=travel_of)
 
 
 def retractions(fresh: Fresh) -> list[bool]:
-    """Return whether to retract on the way to each path and to the end: where the way leaves the region."""
+    """Tell for each travel, to each path and to the end, whether to retract: where it leaves the region."""
     import shapely
 
     begins = [fresh.body.start, *(path[-1] for path in fresh.paths)]
     ends = [*(path[0] for path in fresh.paths), fresh.body.end]
-    ways = shapely.linestrings(np.stack([np.array(begins), np.array(ends)], axis=1))
-    whole = shapely.buffer(shapely.union_all(list(fresh.areas)), ACROSS)
-    shapely.prepare(whole)
-    long = shapely.length(ways) > LEAST_TRAVEL
-    return [bool(each) for each in long & ~shapely.covers(whole, ways)]
+    travels = shapely.linestrings(np.stack([np.array(begins), np.array(ends)], axis=1))
+    allowed = shapely.buffer(shapely.union_all(list(fresh.areas)), ACROSS)
+    shapely.prepare(allowed)
+    is_long = shapely.length(travels) > LEAST_TRAVEL
+    return [bool(leaves) for leaves in is_long & ~shapely.covers(allowed, travels)]
 
 
 def outside(fresh: Fresh) -> bool:
-    """Return whether a path leaves its region."""
+    """Tell whether a path leaves its region."""
     import shapely
 
     if not fresh.paths:
         return False
-    near = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + UNIT)
-    shapely.prepare(near)
-    return not bool(shapely.covers(near, [shapely.linestrings(path) for path in fresh.paths]).all())
+    allowed = shapely.buffer(shapely.union_all(list(fresh.areas)), INSIDE + UNIT)
+    shapely.prepare(allowed)
+    return not bool(shapely.covers(allowed, [shapely.linestrings(path) for path in fresh.paths]).all())

@@ -18,12 +18,12 @@ from patterns.declared import parameter_values
 FORM = 1
 
 
-MOST_OFF = 0.01  # of the filament of all infill, that it may be off
+MOST_OFF = 0.01  # relative error of the filament of all infill that is reported
 
 
 def report_of_refill(
     request: Request,
-    found: Survey,
+    print_survey: Survey,
     tally: Tally | None,
     *,
     already: bool,
@@ -31,7 +31,7 @@ def report_of_refill(
     plates: Sequence[int] = (),
     remedy: Tally | None = None,
 ) -> dict[str, Any]:
-    """Return the report of one run: plain numbers, strings, lists and dicts."""
+    """Build the report of one run: plain numbers, strings, lists and dicts."""
     report: dict[str, Any] = {
         "product": "refill",
         "version": __version__,
@@ -46,8 +46,8 @@ def report_of_refill(
             "part": request.part,
         },
         "print": {
-            "slicer": found.slicer,
-            "bytes": found.size,
+            "slicer": print_survey.slicer,
+            "bytes": print_survey.size,
             "plates": list(plates),
             "already_refilled": already,
         },
@@ -67,7 +67,7 @@ def report_of_refill(
     keeps = keeps_paths and request.density is None
     before, after = tally.infill, tally.infill_after
     ratio = _ratio(tally)
-    density = found.number("fill_density", "sparse_infill_density")
+    density = print_survey.number("fill_density", "sparse_infill_density")
     report["filament"] = {
         "infill_before_mm": before.filament,
         "infill_after_mm": after.filament,
@@ -105,7 +105,7 @@ def report_of_refill(
 
 
 def loses_filament(tally: Tally) -> bool:
-    """Return whether the infill takes so much less filament than before that it must be said."""
+    """Tell whether the infill lost so much filament that the report must say so."""
     return _ratio(tally) < LEAST_LENGTH
 
 
@@ -116,17 +116,17 @@ def _ratio(tally: Tally) -> float:
 
 
 def contact_section(tally: Tally) -> dict[str, Any]:
-    """Return what holds the infill up, before and after, as measured on some layers."""
+    """Report support and contact of the infill, before and after, as measured on some layers."""
     before, after = tally.before.shares, tally.after.shares
-    kept = kept_shares(tally.before, tally.after)
+    shares = kept_shares(tally.before, tally.after)
     return {
         "measured_mm": tally.before.length,
         "supported_before": before[0],
         "supported_after": after[0],
         "bonded_before": before[1],
         "bonded_after": after[1],
-        "kept_supported": kept[0],
-        "kept_bonded": kept[1],
+        "kept_supported": shares[0],
+        "kept_bonded": shares[1],
     }
 
 
@@ -136,29 +136,29 @@ def _finite(value: float) -> float | None:
 
 def _problems(report: dict[str, Any], tally: Tally) -> list[str]:
     keeps = report["request"]["pattern"] == KEEP
-    found = []
+    problems = []
     if not tally.sections:
-        found.append("there is no sparse infill in this print; nothing was changed")
+        problems.append("there is no sparse infill in this print; nothing was changed")
     elif not tally.replaced:
         reasons = ", ".join(f"{reason} ({number})" for reason, number in sorted(tally.kept.items()))
-        found.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
+        problems.append(f"none of {tally.sections} sections of infill was changed: {reasons or 'no corner to round'}")
     failed = sum(number for reason, number in tally.kept.items() if reason.startswith("a check failed"))
     if failed:
-        found.append(f"{failed} sections were kept because a check of the new text failed")
+        problems.append(f"{failed} sections were kept because a check of the new text failed")
     if tally.unread:
-        found.append(
+        problems.append(
             f"{tally.unread} lines that may move or extrude were not understood, the first is line "
             f"{tally.first_unread}; they stay as they are, and the times leave them out"
         )
     contact = report["contact"]
     if contact["measured_mm"] and contact["kept_supported"] < LEAST_SHARE:
-        found.append(
+        problems.append(
             f"support on the layer below fell to {contact['kept_supported']:.2f} of the slicer's own; "
             + ("give a smaller --max-deviation" if keeps else "take another pattern, or keep")
         )
     if keeps and contact["measured_mm"] and contact["kept_bonded"] < LEAST_SHARE:
-        found.append(
+        problems.append(
             f"contact of doubled lines fell to {contact['kept_bonded']:.2f} of the slicer's own; "
             "give a smaller --max-deviation"
         )
-    return found
+    return problems

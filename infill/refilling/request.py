@@ -1,4 +1,4 @@
-"""What a user asks of a refill, checked."""
+"""A user's request for a refill, checked."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ DRAWINGS = (".svg", ".dxf", ".wkt", ".png", ".jpg", ".jpeg", ".bmp")
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """A refill.
+    """Options of a refill.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class Request:
     smooth_radius : "auto" or float
         mm; 0 leaves corners as they are.
     max_deviation : float, optional
-        mm that a path may move.
+        Largest move of a path, mm.
     layers : tuple of int, optional
         First and last layer to refill, counted from 1.
     part : str, optional
@@ -78,8 +78,8 @@ class Request:
             from infill.paths.families.catalogue import FAMILIES
 
             if self.pattern not in FAMILIES:
-                near = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
-                advice = f"did you mean {near[0]!r}?" if near else f"give keep, or one of {', '.join(FAMILIES)}"
+                matches = difflib.get_close_matches(self.pattern.lower(), FAMILIES, n=1, cutoff=0.4)
+                advice = f"did you mean {matches[0]!r}?" if matches else f"give keep, or one of {', '.join(FAMILIES)}"
                 raise ParameterError(f"there is no pattern {self.pattern!r}; {advice}")
         if self.pattern == KEEP and isinstance(self.density, int | float):
             raise UsageError("density is for patterns of ours; keep has the slicer's: leave it out, or set it there")
@@ -100,7 +100,7 @@ class Request:
 
     @property
     def cell(self) -> float | None:
-        """The size of the pattern, mm, if it was asked for."""
+        """The requested size of the pattern, mm."""
         cell = self.parameters.get("cell")
         return None if cell is None else float(cell)
 

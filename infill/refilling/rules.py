@@ -1,4 +1,4 @@
-"""How a print is refilled: how corners are rounded, and which strokes may change at all."""
+"""Rules of a refill: the rounding of corners, and the strokes that may change."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 
-ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings tell it
+ACCELERATION = 1000.0  # mm/s², where neither the print nor its settings give it
 CORNER = 9.0  # mm/s × rad: of a square corner velocity of 5 mm/s
 LEAST_CORNER = 1.0  # mm/s × rad: less would cut an arc into crumbs
-SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the file tells
-SLOWED = 0.97  # a layer whose infill is slower than this share of the usual was slowed down to cool
-LEAST_LEFT = 0.9  # of the length of a layer's infill, that rounding leaves
+SHORT_LAYER = 15.0  # s: shorter layers may have been slowed down to cool, whatever the settings of the file
+SLOWED = 0.97  # of the usual speed of infill: a slower layer was slowed down to cool
+LEAST_LEFT = 0.9  # of the length of a layer's infill after rounding, at least
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rules:
-    """How every batch is refilled.
+    """Rules for every batch of a refill.
 
     Parameters
     ----------
@@ -40,15 +40,15 @@ class Rules:
     acceleration : float, mm/s²
         Where the print commands none.
     usual_speed : float, mm/min
-        Of the infill in most layers; 0 if it is not known.
+        Of the infill in most layers; 0 if unknown.
     least_layer : float, s
         A layer that would take less is left as it is.
     resets_filament : bool
-        The print sets its counter of filament by G92, so that we may.
+        True if the print sets its counter of filament by G92, so that new lines may.
     stride : int
-        Every so-many-th layer is measured.
+        Sampling stride, in layers.
     limits : Limits
-        What paths are timed with.
+        For the timing of paths.
     """
 
     request: Request
@@ -69,15 +69,19 @@ class Rules:
         return replace(self, rounding=replace(self.rounding, radius=radius))
 
 
-def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
-    """Return the rules for a print, from what its header and some of its layers tell."""
-    jerk = found.number("machine_max_jerk_x") if found.number("machine_max_junction_deviation") is None else None
-    speeds = [batch.table.f[batch.infill.opens] for batch in some]
-    lengths = [batch.infill.length[batch.layer == layer].sum() for batch in some for layer in np.unique(batch.layer)]
-    cooled = found.settings.get("cooling", "1") != "0"
-    least = found.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
+def rules_of(request: Request, print_survey: Survey, batches: Sequence[Batch]) -> Rules:
+    """Derive the rules for a print from its header and some of its layers."""
+    jerk = (
+        print_survey.number("machine_max_jerk_x")
+        if print_survey.number("machine_max_junction_deviation") is None
+        else None
+    )
+    speeds = [batch.table.f[batch.infill.opens] for batch in batches]
+    lengths = [batch.infill.length[batch.layer == layer].sum() for batch in batches for layer in np.unique(batch.layer)]
+    cooled = print_survey.settings.get("cooling", "1") != "0"
+    least_seconds = print_survey.number("slowdown_below_layer_time", "slow_down_layer_time") if cooled else 0.0
     settings = "infill_acceleration", "sparse_infill_acceleration", "default_acceleration"
-    told = found.number(*settings) or 0.0
+    stated_acceleration = print_survey.number(*settings) or 0.0
     return Rules(
         request=request,
         rounding=Rounding(
@@ -87,25 +91,25 @@ def rules_of(request: Request, found: Survey, some: Sequence[Batch]) -> Rules:
             corner=max(jerk if jerk and makes_sense(jerk, "jerk") else CORNER, LEAST_CORNER),
             same_filament=request.density == SAME,
         ),
-        acceleration=told if makes_sense(told, "acceleration") else ACCELERATION,
+        acceleration=stated_acceleration if makes_sense(stated_acceleration, "acceleration") else ACCELERATION,
         usual_speed=float(np.median(np.concatenate(speeds))) if speeds else 0.0,
-        least_layer=least or 0.0,
-        resets_filament=found.resets_filament,
-        stride=stride_of(found.layers, float(np.median(lengths)) if lengths else 0.0),
+        least_layer=least_seconds or 0.0,
+        resets_filament=print_survey.resets_filament,
+        stride=stride_of(print_survey.layers, float(np.median(lengths)) if lengths else 0.0),
     )
 
 
 def unchanged(batch: Batch, rules: Rules) -> dict[str, Flags]:
-    """Return by reason which strokes must stay as they are, (M,) each."""
+    """Find the strokes that must stay as they are, by reason, (M,) each."""
     infill, layer, table = batch.infill, batch.layer, batch.table
     reasons: dict[str, Flags] = {}
     if rules.request.layers is not None:
         low, high = rules.request.layers
         reasons["not among the layers asked for"] = (layer < low) | (layer > high)
     if rules.request.part is not None:
-        wanted = [number for number, name in batch.marks.names.items() if rules.request.part in name]
-        reasons["another object"] = ~np.isin(batch.section, wanted)
-    reasons["slowed down to cool"] = _slowed(batch, rules)
+        object_numbers = [number for number, name in batch.marks.names.items() if rules.request.part in name]
+        reasons["another object"] = ~np.isin(batch.section, object_numbers)
+    reasons["slowed down to cool"] = _slowed_strokes(batch, rules)
     ends = np.stack([infill.points[infill.first[:-1]], infill.points[infill.first[1:] - 1]])
     reasons["cut off by the end of the file"] = (infill.closes == len(table) - 1) & (not table.data.endswith(b"\n"))
     reasons["finer numbers than a micrometre"] = np.abs(ends / UNIT - np.rint(ends / UNIT)).max(axis=(0, 2)) > 1e-4
@@ -114,23 +118,23 @@ def unchanged(batch: Batch, rules: Rules) -> dict[str, Flags]:
     return reasons
 
 
-def _slowed(batch: Batch, rules: Rules) -> Flags:
-    """Return which strokes lie in layers that were slowed down to cool, or are as short as may be."""
+def _slowed_strokes(batch: Batch, rules: Rules) -> Flags:
+    """Find strokes in layers that were slowed down to cool, or are already as short as cooling allows."""
     if not rules.least_layer:
         return np.zeros(len(batch.layer), dtype=bool)
     slowed = batch.table.f[batch.infill.opens] < SLOWED * rules.usual_speed
     short = _layer_seconds(batch) * LEAST_LEFT < rules.least_layer
-    found: Flags = slowed | short[batch.layer - batch.marks.layer[0]]
-    return found
+    result: Flags = slowed | short[batch.layer - batch.marks.layer[0]]
+    return result
 
 
 def short_layers(batch: Batch, rules: Rules) -> Flags:
-    """Return which layers of a batch, from its first on, may be as short as cooling allows."""
+    """Find the layers of a batch, from its first on, that may be as short as cooling allows."""
     return _layer_seconds(batch) < max(SHORT_LAYER, rules.least_layer)
 
 
 def _layer_seconds(batch: Batch) -> Floats:
-    """Return how long each layer takes at its feed rates, from the first on, without acceleration, as slicers do."""
+    """Return the time of each layer at its feed rates, from the first on, without acceleration, as slicers count."""
     table, layer = batch.table, batch.marks.layer
     x = np.diff(table.x, prepend=table.before.x)
     y = np.diff(table.y, prepend=table.before.y)

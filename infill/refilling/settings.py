@@ -29,12 +29,12 @@ ENDLESS = 10**9  # layers
 def resolve(
     flags: Mapping[str, Any], config: Path | None = None, assigned: Sequence[str] = (), *, trust: bool = False
 ) -> dict[str, Any]:
-    """Return the arguments of `refill`, angles in degrees: the command line takes precedence over the file.
+    """Resolve the arguments of `refill`, angles in degrees: the command line takes precedence over the file.
 
     Parameters
     ----------
     flags : mapping
-        Options by their names on the command line, as typed; those that are None are not given.
+        Options by their names on the command line, as typed; None for an option that is absent.
     config : Path, optional
         A TOML file.
     assigned : sequence of str
@@ -47,37 +47,40 @@ def resolve(
     ParameterError
         If a name is unknown, a parameter is given twice, or a value cannot be read.
     FormatError
-        If the file is missing or not TOML, or asks for what it is not trusted with.
+        If the file is missing or not TOML, or names files that it is not trusted with.
     """
-    given = {name: value for name, value in flags.items() if value is not None}
+    present = {name: value for name, value in flags.items() if value is not None}
     if config is None and not assigned:
-        return _arguments(given)
+        return _arguments(present)
     from infill.options.assignments import gathered, table_of
     from infill.options.toml import read_toml
     from infill.options.trust import check_trusted
     from infill.refilling.placement import unplaced
 
-    filed = read_toml(config, example='pattern = "gyroid"') if config else {}
+    file_options = read_toml(config, example='pattern = "gyroid"') if config else {}
     if config:
         check_trusted(
-            {name: value for name, value in filed.items() if name not in given}, config, trust=trust, code=False
+            {name: value for name, value in file_options.items() if name not in present},
+            config,
+            trust=trust,
+            code=False,
         )
-    table = table_of(filed)
-    kind = unplaced(parse_word("pattern", given.get("pattern", filed.get("pattern", KEEP))))
-    own = gathered(kind, READERS, flags=given, assigned=assigned, filed=filed, table=table)
+    table = table_of(file_options)
+    kind = unplaced(parse_word("pattern", present.get("pattern", file_options.get("pattern", KEEP))))
+    pattern_arguments = gathered(kind, READERS, flags=present, assigned=assigned, filed=file_options, table=table)
     return {
-        **_arguments({name: value for name, value in (filed | given).items() if name in READERS}),
-        **own,
+        **_arguments({name: value for name, value in (file_options | present).items() if name in READERS}),
+        **pattern_arguments,
     }
 
 
 def _arguments(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Return options as arguments of `refill`."""
+    """Convert options to arguments of `refill`."""
     return {"part" if name == "object" else name: READERS[name](name, value) for name, value in options.items()}
 
 
 def parse_radius(name: str, value: object) -> str | float:
-    """Return "auto" or a number of mm, or raise ParameterError.
+    """Parse "auto" or a number of mm, or raise ParameterError.
 
     >>> parse_radius("smooth_radius", "1.5")
     1.5
@@ -91,7 +94,7 @@ def parse_radius(name: str, value: object) -> str | float:
 
 
 def parse_share_or_same(name: str, value: object) -> str | float:
-    """Return "same", or the share in ``20%`` or 0.2, or raise ParameterError.
+    """Parse "same", or the share in ``20%`` or 0.2, or raise ParameterError.
 
     >>> parse_share_or_same("density", "20%"), parse_share_or_same("density", "same")
     (0.2, 'same')
@@ -100,7 +103,7 @@ def parse_share_or_same(name: str, value: object) -> str | float:
 
 
 def parse_range(name: str, value: object) -> tuple[int, int]:
-    """Return the first and the last of ``5-20``, ``5-`` or ``5``, 5 or [5, 20], or raise ParameterError.
+    """Parse the first and the last of ``5-20``, ``5-`` or ``5``, 5 or [5, 20], or raise ParameterError.
 
     >>> parse_range("layers", "5-20")
     (5, 20)
@@ -109,11 +112,11 @@ def parse_range(name: str, value: object) -> tuple[int, int]:
     numbers = [part for part in parts if isinstance(part, int) and not isinstance(part, bool)]
     if len(numbers) == len(parts):
         return numbers[0], numbers[-1]
-    found = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
-    if not found:
+    match = re.fullmatch(r"\s*(\d{1,9})\s*(?:(-)\s*(\d{0,9})\s*)?", value) if isinstance(value, str) else None
+    if not match:
         raise UsageError(f"{name} is {quote_value(value)}; give a range such as 5-20, or 5-")
-    first = int(found[1])
-    return first, int(found[3]) if found[3] else ENDLESS if found[2] else first
+    lowest = int(match[1])
+    return lowest, int(match[3]) if match[3] else ENDLESS if match[2] else lowest
 
 
 READERS: Mapping[str, Callable[[str, object], Any]] = {

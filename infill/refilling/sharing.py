@@ -1,4 +1,4 @@
-"""Which sections of a layer fill which of its areas: a slicer may print one area in several sections."""
+"""Assign the areas of a layer to its sections: a slicer may print one area in several sections."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from infill.refilling.regions import Region
 
 Places = NDArray[np.intp]
 
-SHARED = 0.02  # of an area's infill may be another section's
-LOST = 0.1  # of the infill of sections that share areas may lie outside every area that was found
-STEP = 0.5  # mm between the points on infill that are looked up
-AROUND = 0.1  # mm around an area that belong to it
+SHARED = 0.02  # share of an area's infill up to which another section is ignored
+LOST = 0.1  # share of the infill of a group that may lie outside every area
+STEP = 0.5  # mm between the sampled points on infill
+AROUND = 0.1  # mm: margin of an area
 
 
 @dataclass(frozen=True, kw_only=True)
 class Group:
-    """Sections of a layer that share areas; most are alone.
+    """Sections of a layer that share areas; most groups hold a single section.
 
     Parameters
     ----------
     areas : dict of int to tuple of int
-        By section, the areas that it is to fill: those of which it printed more than the others.
+        By section, the areas to fill: those of which it printed more than any other section.
     lengths : dict of int to float
         mm of the slicer's infill in each area.
     lost : float
@@ -41,15 +41,15 @@ class Group:
     lost: float
 
 
-def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> list[Group]:
-    """Return the sections of a layer in groups that share areas.
+def grouped(region: Region, infill: Strokes, strokes: Places, section: Places) -> list[Group]:
+    """Group the sections of a layer that share areas.
 
     Parameters
     ----------
     region : Region
         Of the layer.
     infill : Strokes
-    some : (S,) int
+    strokes : (S,) int
         The strokes of the layer.
     section : (M,) int
         Of every stroke.
@@ -58,53 +58,57 @@ def grouped(region: Region, infill: Strokes, some: Places, section: Places) -> l
 
     grown = shapely.buffer(np.array(region.polygons, dtype=object), AROUND)
     shapely.prepare(grown)
-    numbers = np.unique(section[some]).tolist()
-    held = np.zeros((len(numbers), len(grown)))
-    whole, lost = np.zeros((2, len(numbers)))  # mm
+    numbers = np.unique(section[strokes]).tolist()
+    area_lengths_mm = np.zeros((len(numbers), len(grown)))
+    total, lost = np.zeros((2, len(numbers)))  # mm
     for place, number in enumerate(numbers):
-        places, first = picked(infill.first, some[section[some] == number])
-        drawn = sampled(infill.points[places], first, STEP)
+        places, offsets = picked(infill.first, strokes[section[strokes] == number])
+        drawn = sampled(infill.points[places], offsets, STEP)
         inside = np.array([shapely.contains_xy(area, drawn.points[:, 0], drawn.points[:, 1]) for area in grown])
-        held[place] = inside @ drawn.weight if len(grown) else 0.0
-        whole[place] = drawn.weight.sum()
-        lost[place] = drawn.weight[~inside.any(axis=0)].sum() if len(grown) else whole[place]
+        area_lengths_mm[place] = inside @ drawn.weight if len(grown) else 0.0
+        total[place] = drawn.weight.sum()
+        lost[place] = drawn.weight[~inside.any(axis=0)].sum() if len(grown) else total[place]
     # A section that printed next to nothing of an area has no share in it.
-    shares = held > SHARED * held.sum(axis=0)
+    shares = area_lengths_mm > SHARED * area_lengths_mm.sum(axis=0)
     label = np.arange(len(numbers))
     for area in range(len(grown)):
-        together = np.flatnonzero(shares[:, area])
-        if len(together):
-            label[np.isin(label, label[together])] = label[together[0]]
+        sharing = np.flatnonzero(shares[:, area])
+        if len(sharing):
+            label[np.isin(label, label[sharing])] = label[sharing[0]]
     groups = []
-    for each in np.unique(label):
+    for group_label in np.unique(label):
         areas: dict[int, tuple[int, ...]] = {}
-        for place in np.flatnonzero(label == each).tolist():
-            own = [area for area in range(len(grown)) if held[:, area].any() and held[:, area].argmax() == place]
-            areas[numbers[place]] = tuple(own)
-        amount = held[label == each].sum(axis=0)
+        for place in np.flatnonzero(label == group_label).tolist():
+            own_areas = [
+                area
+                for area in range(len(grown))
+                if area_lengths_mm[:, area].any() and area_lengths_mm[:, area].argmax() == place
+            ]
+            areas[numbers[place]] = tuple(own_areas)
+        amount = area_lengths_mm[label == group_label].sum(axis=0)
         lengths = {area: float(amount[area]) for area in np.flatnonzero(amount).tolist()}
-        share = float(lost[label == each].sum() / whole[label == each].sum())
+        share = float(lost[label == group_label].sum() / total[label == group_label].sum())
         groups.append(Group(areas=areas, lengths=lengths, lost=share))
     return groups
 
 
 def lengths_of(groups: Sequence[Group]) -> dict[int, float]:
-    """Return mm of the slicer's infill by area."""
-    held: dict[int, float] = {}
+    """Sum the slicer's infill by area, mm."""
+    totals: dict[int, float] = {}
     for group in groups:
         for area, length in group.lengths.items():
-            held[area] = held.get(area, 0.0) + length
-    return held
+            totals[area] = totals.get(area, 0.0) + length
+    return totals
 
 
 def unsure(group: Group, members: Sequence[Body]) -> str:
-    """Say why a group of sections cannot be filled anew; nothing if it can.
+    """Say why a group of sections cannot be refilled; return an empty text if it can.
 
     Parameters
     ----------
     group : Group
     members : sequence of Body
-        Its sections that can be drawn anew.
+        Its sections that can be redrawn.
     """
     if group.lost > LOST:
         return "no sure region"

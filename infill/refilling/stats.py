@@ -1,4 +1,4 @@
-"""What a refill did so far: sums over the batches of a print."""
+"""Statistics of a refill: sums over the batches of a print."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from infill.paths.contact import Contact
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-LEAST_RADIUS = 0.02  # mm: below this a corner beside a wall was hardly touched
+LEAST_RADIUS = 0.02  # mm: smaller arcs, at corners beside walls, do not count
 
 
 @dataclass(kw_only=True)
 class Histogram:
-    """How often lengths occur, by tenths of an octave from a micrometre to a metre: it does not grow."""
+    """Histogram of lengths, by tenths of an octave from a micrometre to a metre, of constant size."""
 
     counts: NDArray[np.int64] = field(default_factory=lambda: np.zeros(200, dtype=np.int64))
 
@@ -28,7 +28,7 @@ class Histogram:
         self.counts += np.bincount(place.astype(np.intp), minlength=len(self.counts))
 
     def report(self) -> dict[str, float] | None:
-        """Return the lengths that 1, 50 and 99 % do not reach, to a fifteenth, mm."""
+        """Return the 1, 50 and 99 % quantiles of the lengths, to a fifteenth, mm."""
         total = np.cumsum(self.counts)
         if not total[-1]:
             return None
@@ -41,7 +41,7 @@ class Histogram:
 
 @dataclass(frozen=True, kw_only=True)
 class Amounts:
-    """What some infill takes.
+    """Amounts that some infill takes.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ class Amounts:
 
 @dataclass(frozen=True, kw_only=True)
 class Whole:
-    """What a whole print takes.
+    """Amounts that an entire print takes.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Whole:
     filament : float
         mm
     grams : float or None
-        None if the print tells neither grams nor a density.
+        None if the print states neither grams nor a density.
     """
 
     seconds: float = 0.0
@@ -91,31 +91,31 @@ class Whole:
 
 @dataclass(kw_only=True)
 class Tally:
-    """What was done so far.
+    """Statistics up to the current batch.
 
     Parameters
     ----------
     layers, sections, replaced : int
         Read, with infill, and refilled.
     kept : dict of str to int
-        Sections that were left as they were, by reason.
+        Sections that stay as they were, by reason.
     infill, infill_after : Amounts
         Before and after.
     widened : float
-        mm of filament that the infill would take with beads as much wider as ``--density same`` makes them.
+        mm of filament that the infill would take with the beads of ``--density same``.
     filament, change : dict of int to float
-        By tool, mm: of the whole print before, and what it takes more.
+        By tool, mm: amount for the entire print before, and its increase.
     corners : int
     radii : Histogram
         Of the arcs.
     lines : list of (place, line)
-        Lines that tell time or filament, and where they stand in the draft.
+        Lines that state time or filament, and their places in the draft.
     before, after : Contact
-        What holds the infill up.
+        Support and contact of the infill.
     print_before, print_after : Whole
         Before and after.
     slicer_seconds : float
-        What the print said of its time; 0 if it said nothing.
+        Time that the print stated; 0 without one.
     unread, first_unread : int
         Lines that may move or extrude and are not understood, and the number of the first in its print.
     """
@@ -142,9 +142,9 @@ class Tally:
 
     @property
     def filament_ratio(self) -> float:
-        """Filament of the whole print, after over before."""
-        whole = sum(self.filament.values())
-        return 1 + sum(self.change.values()) / whole if whole > 0 else 1.0
+        """Filament of the entire print, after over before."""
+        total = sum(self.filament.values())
+        return 1 + sum(self.change.values()) / total if total > 0 else 1.0
 
     @property
     def tool_ratios(self) -> tuple[float, ...]:
@@ -162,41 +162,41 @@ class Tally:
 
     def round(self, radius: Floats) -> None:
         """Count corners by the radii of their arcs, mm; those without an arc have 0 or none."""
-        found = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
-        self.corners += len(found)
-        self.radii.add(found)
+        arcs = radius[(radius > LEAST_RADIUS) & np.isfinite(radius)]
+        self.corners += len(arcs)
+        self.radii.add(arcs)
 
     def use(self, tools: Places, filament: Floats) -> None:
-        """Add what the print took, mm, by tool."""
+        """Add the filament of the old print, mm, by tool."""
         _add(self.filament, tools, filament)
 
     def save(self, tools: Places, before: Floats, after: Floats) -> None:
-        """Add what sections took before and take now, mm, by tool."""
+        """Add the change of the filament of sections, mm, by tool."""
         _add(self.change, tools, after - before)
 
-    def add(self, other: Tally) -> None:
-        """Add what was done in a batch, or in another print."""
-        self.layers += other.layers
-        self.sections += other.sections
-        self.replaced += other.replaced
-        for reason, sections in other.kept.items():
+    def add(self, part: Tally) -> None:
+        """Add the statistics of a batch, or of another print."""
+        self.layers += part.layers
+        self.sections += part.sections
+        self.replaced += part.replaced
+        for reason, sections in part.kept.items():
             self.keep(reason, sections)
-        self.infill += other.infill
-        self.infill_after += other.infill_after
-        self.widened += other.widened
-        for mine, more in ((self.filament, other.filament), (self.change, other.change)):
-            for tool, filament in more.items():
-                mine[tool] = mine.get(tool, 0.0) + filament
-        self.corners += other.corners
-        self.radii.counts += other.radii.counts
-        self.lines += other.lines
-        self.before += other.before
-        self.after += other.after
-        self.print_before += other.print_before
-        self.print_after += other.print_after
-        self.slicer_seconds += other.slicer_seconds
-        self.unread += other.unread
-        self.first_unread = self.first_unread or other.first_unread
+        self.infill += part.infill
+        self.infill_after += part.infill_after
+        self.widened += part.widened
+        for sums, increments in ((self.filament, part.filament), (self.change, part.change)):
+            for tool, filament in increments.items():
+                sums[tool] = sums.get(tool, 0.0) + filament
+        self.corners += part.corners
+        self.radii.counts += part.radii.counts
+        self.lines += part.lines
+        self.before += part.before
+        self.after += part.after
+        self.print_before += part.print_before
+        self.print_after += part.print_after
+        self.slicer_seconds += part.slicer_seconds
+        self.unread += part.unread
+        self.first_unread = self.first_unread or part.first_unread
 
     def count_millimetres(self, sections: Sequence[float]) -> None:
         """Count filament in mm, where the print counts it in mm³.

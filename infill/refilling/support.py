@@ -1,7 +1,7 @@
-"""How far corners may move if layers are still to lie on one another, doubled walls to touch, and beads to stay.
+"""Limit the moves of corners so that layers still lie on one another, doubled walls touch, and beads keep their length.
 
 Measured on some layers of the print itself: the largest deviation at which the supported and the bonded share of the
-infill's length are at least 0.94 of what they are in the slicer's own paths, and its length at least 0.97.
+infill's length are at least 0.94 of those of the slicer's own paths, and its length at least 0.97.
 """
 
 from __future__ import annotations
@@ -25,33 +25,33 @@ from infill.refilling.smooth_in_place import lengths, stroke_corners
 
 LEAST_SHARE = 0.94
 LEAST_LENGTH = 0.97  # of the infill's length, and so of its filament
-AIM = 0.944  # what layers here and there must keep, so that all of them keep the least
-# mm; tried from the largest down. Beyond them, legs are what limits an arc.
+AIM = 0.944  # share that sampled layers must keep, so that all of them keep LEAST_SHARE
+# mm; tried from the largest down. Beyond them, the legs limit an arc.
 DEVIATIONS = (math.inf, 0.3, 0.2, 0.15, 0.12, *(round(0.1 - 0.0025 * k, 4) for k in range(33)), 0.01)
-LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about what it leaves of support or contact
-MANY = 6  # shares; with more, what they tell of the others is not used any longer
+LARGEST_DEVIATION, LEAST_LEFT = 0.2, 0.85  # mm, and about the share of support or contact that it leaves
+MANY = 6  # shares; with more, the search bisects instead of interpolating
 ENOUGH = 1000.0  # mm of infill in a layer
-NO_DIFFERENCE = 0.002  # of what is kept
+NO_DIFFERENCE = 0.002  # of the remaining share
 LEAST_BONDED = 0.02  # of the length: below this, contact within the layer is by chance
 
 
 def filled(batch: Batch) -> list[int]:
-    """Return layers with infill, without the lowest unless it is the only one: what is below it is not known."""
+    """Return layers with infill, without the lowest unless it is the only one: the layer below it is unknown."""
     lowest = int(batch.marks.layer.min())
-    there = np.unique(batch.layer).tolist()
-    found: list[int] = [number for number in there if number > lowest] or there[-1:]
-    # One is enough where there is much of it.
-    return found[-1:] if found and batch.infill.length[batch.layer == found[-1]].sum() > ENOUGH else found
+    layers = np.unique(batch.layer).tolist()
+    chosen: list[int] = [number for number in layers if number > lowest] or layers[-1:]
+    # A single layer is enough if it holds much infill.
+    return chosen[-1:] if chosen and batch.infill.length[batch.layer == chosen[-1]].sum() > ENOUGH else chosen
 
 
-def samples(found: Survey) -> list[Batch]:
-    """Return the layers that a survey read."""
-    some = [batch_of(read(text, found.begin), Tags()) for text in found.windows]
-    return [batch for batch in some if filled(batch)]
+def samples(print_survey: Survey) -> list[Batch]:
+    """Read the layers of a survey that hold infill."""
+    batches = [batch_of(read(text, print_survey.begin), Tags()) for text in print_survey.windows]
+    return [batch for batch in batches if filled(batch)]
 
 
 def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
-    """Return new over old share of what is supported, and of what is bonded.
+    """Compare the supported share, and the bonded share, of new paths with those of old ones.
 
     >>> kept_shares(Contact(length=10, supported=10, bonded=4), Contact(length=9, supported=9, bonded=3.6))
     (1.0, 1.0)
@@ -64,7 +64,7 @@ def kept_shares(old: Contact, new: Contact) -> tuple[float, float]:
 
 
 def kept_length(old: float, new: float) -> float:
-    """Return the share of the infill's length that is left, on the scale of the other shares: 0.97 is as 0.94 of those.
+    """Scale the remaining share of the infill's length like the other shares: 0.97 of it becomes 0.94.
 
     >>> round(kept_length(100.0, 97.0), 9), kept_length(100.0, 101.0)
     (0.94, 1.0)
@@ -73,99 +73,98 @@ def kept_length(old: float, new: float) -> float:
     return 1 - max(lost, 0.0) * (1 - LEAST_SHARE) / (1 - LEAST_LENGTH)
 
 
-def largest_deviation(some: Sequence[Batch], rounding: Rounding, acceleration: float) -> float:
-    """Return the largest deviation, mm, that keeps support, contact and length.
+def largest_deviation(batches: Sequence[Batch], rounding: Rounding, acceleration: float) -> float:
+    """Find the largest deviation, mm, that keeps support, contact and length.
 
     Parameters
     ----------
-    some : sequence of Batch
+    batches : sequence of Batch
     rounding : Rounding
         Its deviation is not exceeded.
     acceleration : float, mm/s²
         Where the print commands none.
     """
-    tried = [_Tried.of(batch, rounding, acceleration) for batch in some]
+    tried = [_SampledLayers.of(batch, rounding, acceleration) for batch in batches]
     threads = thread_count()
 
-    def measured(infill: Callable[[_Tried], Strokes | Rounded]) -> tuple[Contact, float]:
-        found = [pair for _, pair in in_order(lambda each: each.measured(infill(each)), tried, threads=threads)]
-        return sum((contact for contact, _ in found), Contact()), sum(length for _, length in found)
+    def measure_all(infill: Callable[[_SampledLayers], Strokes | Rounded]) -> tuple[Contact, float]:
+        results = [pair for _, pair in in_order(lambda layers: layers.measure(infill(layers)), tried, threads=threads)]
+        return sum((contact for contact, _ in results), Contact()), sum(length for _, length in results)
 
-    hard, old = measured(lambda each: each.batch.infill)
+    old_contact, old = measure_all(lambda layers: layers.batch.infill)
 
     def share(deviation: float) -> float:
-        now = replace(rounding, deviation=deviation)
-        contact, new = measured(lambda each: each.corners.rounded(now))
-        return min(*kept_shares(hard, contact), kept_length(old, new))
+        trial_rounding = replace(rounding, deviation=deviation)
+        contact, new = measure_all(lambda layers: layers.corners.rounded(trial_rounding))
+        return min(*kept_shares(old_contact, contact), kept_length(old, new))
 
     if share(rounding.deviation) >= AIM:
         return rounding.deviation
     return first_enough([deviation for deviation in DEVIATIONS if deviation < rounding.deviation], share)
 
 
-def smaller_deviation(deviation: float, kept: float, last: float = 0.0) -> float:
-    """Return a deviation, mm, for a print that lost too much of its support or contact; the same if it did not.
+def smaller_deviation(deviation: float, share: float, previous_share: float = 0.0) -> float:
+    """Lower a deviation, mm, that keeps too small a share.
 
-    What is lost grows with the deviation: it is lowered by as much as too much was lost, and a little more.
+    The loss grows with the deviation, so the deviation falls in proportion to the excess loss, and a little more.
 
     Parameters
     ----------
     deviation : float, mm
-    kept : float
-        The lesser share that it left.
-    last : float
-        The share that the deviation before it left, which was larger. If that made no difference, legs were what
-        limited the arcs: it is lowered by half.
+    share : float
+        The smaller of the shares that it left.
+    previous_share : float
+        The share that the previous, larger deviation left. Without a difference, the legs limited the arcs: the
+        deviation is halved.
     """
-    if kept >= LEAST_SHARE:
+    if share >= LEAST_SHARE:
         return deviation
-    factor = (1 - AIM) / (1 - kept)
-    if kept - last < NO_DIFFERENCE:
+    factor = (1 - AIM) / (1 - share)
+    if share - previous_share < NO_DIFFERENCE:
         factor = min(factor, 0.5)
     smaller = min(deviation, LARGEST_DEVIATION) * factor
     return smaller if smaller > DEVIATIONS[-1] / 2 else 0.0
 
 
 def first_enough(candidates: Sequence[float], share: Callable[[float], float]) -> float:
-    """Return the first of some deviations, from the largest down, that leaves at least `AIM`; 0 if none does.
+    """Find the first of some deviations, from the largest down, that leaves at least `AIM`; 0 if none does.
 
-    The share falls with the deviation, by and large: where it should reach the aim is reckoned from the shares that
-    are known on both sides.
+    The share mostly falls with the deviation: the search interpolates between the shares on both sides of the aim.
     """
-    low, high = -1, len(candidates)  # that is known to be too much, and to be enough
-    known = {low: (LARGEST_DEVIATION, LEAST_LEFT), high: (0.0, 1.0)}
+    low, high = -1, len(candidates)  # a deviation that is too large, and one that is small enough
+    shares = {low: (LARGEST_DEVIATION, LEAST_LEFT), high: (0.0, 1.0)}
     while high - low > 1:
-        (more, less_left), (less, more_left) = known[low], known[high]
-        aim = less + (more - less) * (more_left - AIM) / max(more_left - less_left, 1e-9)
+        (larger, larger_share), (smaller, smaller_share) = shares[low], shares[high]
+        aim = smaller + (larger - smaller) * (smaller_share - AIM) / max(smaller_share - larger_share, 1e-9)
         place = next((k for k in range(low + 1, high) if candidates[k] <= aim), high - 1)
-        if len(known) > MANY:
+        if len(shares) > MANY:
             place = (low + high) // 2
-        known[place] = candidates[place], share(candidates[place])
-        low, high = (low, place) if known[place][1] >= AIM else (place, high)
+        shares[place] = candidates[place], share(candidates[place])
+        low, high = (low, place) if shares[place][1] >= AIM else (place, high)
     # Support does not always fall evenly: a step further may still do.
-    if high > 1 and high - 2 not in known and share(candidates[high - 2]) >= AIM:
+    if high > 1 and high - 2 not in shares and share(candidates[high - 2]) >= AIM:
         return candidates[high - 2]
     return candidates[high] if high < len(candidates) else 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Tried:
-    """Layers that are looked at, with all that does not change with the deviation."""
+class _SampledLayers:
+    """Sampled layers, with all data that do not change with the deviation."""
 
     batch: Batch
     corners: Corners
     walls: dict[int, Samples]
 
     @classmethod
-    def of(cls, batch: Batch, rounding: Rounding, acceleration: float) -> _Tried:
+    def of(cls, batch: Batch, rounding: Rounding, acceleration: float) -> _SampledLayers:
         return cls(
             batch=batch,
             corners=stroke_corners(batch, rounding.corner, acceleration=acceleration),
             walls={number: batch.others.samples_of(number - 1) for number in filled(batch)},
         )
 
-    def measured(self, infill: Strokes | Rounded) -> tuple[Contact, float]:
-        """Return the contact of the layers with some infill, and the length of all of it, mm."""
+    def measure(self, infill: Strokes | Rounded) -> tuple[Contact, float]:
+        """Measure the contact of the layers with some infill, and the length of all of it, mm."""
         drawn = Drawing(points=infill.points, first=infill.first, layer=self.batch.layer)
         total = Contact()
         for number, walls in self.walls.items():

@@ -1,4 +1,4 @@
-"""How long a machine takes: for paths, each from rest to rest, and for a whole print up to each of its lines."""
+"""Times of a machine: for paths, each from rest to rest, and for an entire print up to each of its lines."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Places = NDArray[np.intp]
 
 
 def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
-    """Return the limits that paths are compared by: corners by square corner velocity, arcs by acceleration.
+    """Return the limits for comparing paths: corners by square corner velocity, arcs by acceleration.
 
     Nothing else limits: the paths compared share their axes, filament per mm and feed rates.
     """
@@ -41,19 +41,19 @@ def neutral_limits(square_corner_velocity: float = 5.0) -> Limits:
     )
 
 
-def path_seconds(points: Floats, first: Places, feedrate: Floats, acceleration: Floats, limits: Limits) -> Floats:
-    """Return the seconds that each path takes.
+def path_seconds(points: Floats, offsets: Places, feedrate: Floats, acceleration: Floats, limits: Limits) -> Floats:
+    """Compute the time of each path, s.
 
     Parameters
     ----------
     points : (N, 2) float64, mm
-    first : (M + 1,) int
+    offsets : (M + 1,) int
     feedrate, acceleration : (M,) float64
         mm/s and mm/s².
     limits : Limits
         All others.
     """
-    number = np.diff(first)
+    number = np.diff(offsets)
     if not len(number):
         return np.empty(0)
     path = np.repeat(np.arange(len(number)), number)
@@ -63,27 +63,29 @@ def path_seconds(points: Floats, first: Places, feedrate: Floats, acceleration: 
     delta[:, :2] = points[move + 1] - points[move]
     delta[:, 3] = 1e-9
     levels, setting = np.unique(acceleration, return_inverse=True)
-    several = [replace(limits, acceleration=float(level), travel_acceleration=float(level)) for level in levels]
+    limits_by_setting = [
+        replace(limits, acceleration=float(level), travel_acceleration=float(level)) for level in levels
+    ]
     stop = np.concatenate([[True], np.diff(owner) != 0])
     moves = Moves(delta=delta, feedrate=feedrate[owner], setting=setting[owner], stop=stop)
-    seconds: Floats = np.bincount(owner, plan(moves, several).seconds, len(number)).astype(np.float64)
+    seconds: Floats = np.bincount(owner, plan(moves, limits_by_setting).seconds, len(number)).astype(np.float64)
     return seconds
 
 
 @dataclass(frozen=True, kw_only=True)
 class PrintTime:
-    """How long a print takes, planned as `infill motion` does by the limits that the file tells.
+    """Times of a print, planned as `infill motion` does by the limits in the file.
 
     Parameters
     ----------
     seconds : float
-        Of the whole print; 0 if it has no moves.
+        Of the entire print; 0 without moves.
     infill : float
-        Of its sparse infill, with what leads to it.
+        Of its sparse infill, with the travel to it.
     first_layer : float
         Up to the end of the first layer.
     elapsed : (N,) float64
-        Up to each of the places that were asked for, s.
+        Up to each of the requested places, s.
     unread, first_unread : int
         Lines that may move or extrude and are not understood, and the number of the first.
     """
@@ -101,25 +103,25 @@ class PrintClock:
 
     Parameters
     ----------
-    given : SlicedText
-        With what stands outside the text.
+    sliced : SlicedText
+        The print, with its metadata.
     text : binary file, optional
-        Its text, if it is another one by now.
+        Its text, if it has changed.
     places : sequence of int, ascending
-        Bytes of the text at which to tell the time.
+        Bytes of the text at which the time is needed.
     like : PrintClock, optional
         Of the same file, with the same limits from the beginning.
     """
 
     def __init__(
         self,
-        given: SlicedText,
+        sliced: SlicedText,
         text: BinaryIO | None = None,
         places: Sequence[int] = (),
         *,
         like: PrintClock | None = None,
     ) -> None:
-        self._timeline = timeline_of_text(given, text, found=None if like is None else like.found)
+        self._timeline = timeline_of_text(sliced, text, found=None if like is None else like.found)
         self.found: FoundLimits = self._timeline.found
         self.begin: State = self._timeline.state
         self._sums, self._asked = Sums(times_only=True), np.asarray(places, dtype=np.int64)
@@ -132,7 +134,7 @@ class PrintClock:
         self._count(*self._timeline.follow(table))
 
     def read(self) -> PrintTime:
-        """Read the whole print."""
+        """Read the entire print."""
         for table in self._timeline.tables():
             self.add(table)
         return self.finish()
@@ -143,17 +145,19 @@ class PrintClock:
             self._count(*self._timeline.rest())
         return self._result()
 
-    def _count(self, steps: Steps, done: Plan) -> None:
+    def _count(self, steps: Steps, motion_plan: Plan) -> None:
         if not len(steps):
             return
-        self._sums.add(steps, done)
-        seconds = done.seconds + steps.pause
-        gone = np.concatenate([[0.0], np.cumsum(seconds)])
+        self._sums.add(steps, motion_plan)
+        seconds = motion_plan.seconds + steps.pause
+        cumulative = np.concatenate([[0.0], np.cumsum(seconds)])
         self._first_layer += float(seconds[steps.layer < 2].sum())
-        first, self._known = self._known, int(np.searchsorted(self._asked, steps.place[-1], side="right"))
-        here = slice(first, self._known)
-        self._elapsed[here] = self._total + gone[np.searchsorted(steps.place, self._asked[here], side="left")]
-        self._total += float(gone[-1])
+        begin, self._known = self._known, int(np.searchsorted(self._asked, steps.place[-1], side="right"))
+        reached = slice(begin, self._known)
+        self._elapsed[reached] = (
+            self._total + cumulative[np.searchsorted(steps.place, self._asked[reached], side="left")]
+        )
+        self._total += float(cumulative[-1])
 
     def _result(self) -> PrintTime:
         timeline, sums = self._timeline, self._sums
@@ -163,7 +167,9 @@ class PrintClock:
         roles = [role_of(name) for name in timeline.features[: len(seconds)]]
         return PrintTime(
             seconds=float(seconds.sum()),
-            infill=float(sum(each for role, each in zip(roles, seconds.tolist(), strict=False) if role == SPARSE)),
+            infill=float(
+                sum(role_seconds for role, role_seconds in zip(roles, seconds.tolist(), strict=False) if role == SPARSE)
+            ),
             first_layer=self._first_layer,
             elapsed=self._elapsed,
             unread=timeline.unread.lines,

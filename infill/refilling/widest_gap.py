@@ -1,4 +1,4 @@
-"""How wide the gaps between the beads of a layer are: what bounds how far its infill may move.
+"""Measure the widest gaps between the beads of a layer, which bound the moves of its infill.
 
 Of every point in the plane, let d be the distance to the nearest bead. If no point of a bead moves farther than δ, and
 none of the new bead is farther than δ from the old one, d grows by δ at most, everywhere. The widest gap is the largest
@@ -6,7 +6,7 @@ circle that no centre line enters, of radius R = max d over the region of the in
 grows by that share at most, whatever the pattern.
 
 R is found on a raster, for each region that the other beads of a layer enclose, and is taken smaller by what a raster
-may err.
+may be wrong.
 """
 
 from __future__ import annotations
@@ -29,36 +29,36 @@ ERROR = 0.75  # pixels: that a centre line may lie from the pixels that stand fo
 
 
 def largest_moves(batch: Batch) -> Floats:
-    """Return how far each stroke of a batch may move for the gaps of its region, (M,), mm."""
+    """Compute the largest move of each stroke of a batch by the gaps of its region, (M,), mm."""
     moves = np.zeros(len(batch.infill))
     for number in np.unique(batch.layer).tolist():
-        some = np.flatnonzero(batch.layer == number)
-        moves[some] = MOST_GROWTH * _widest_gaps(batch, number, some)
+        strokes = np.flatnonzero(batch.layer == number)
+        moves[strokes] = MOST_GROWTH * _widest_gaps(batch, number, strokes)
     return moves
 
 
-def _widest_gaps(batch: Batch, number: int, some: Places) -> Floats:
-    """Return the radius, mm, of the widest gap around each of some strokes, all those of a layer."""
+def _widest_gaps(batch: Batch, number: int, strokes: Places) -> Floats:
+    """Measure the radius, mm, of the widest gap around each stroke of a layer."""
     from scipy import ndimage
 
     infill = batch.infill
-    places, first = picked(infill.first, some)
+    places, offsets = picked(infill.first, strokes)
     points = infill.points[places]
     low, high = points.min(axis=0) - MARGIN, points.max(axis=0) + MARGIN
-    spacing = _spacing(points, first)
+    spacing = _spacing(points, offsets)
     pixel = max(FINEST * batch.line_width, float((high - low).max()) / MOST_PIXELS)
     if not np.isfinite(high - low).all() or pixel > spacing:
-        return np.full(len(some), spacing / 2)
+        return np.full(len(strokes), spacing / 2)
     shape = tuple(np.ceil((high - low) / pixel).astype(int) + 1)
-    others = batch.others.ends_of(number)
-    walls = _raster(others[:, 0], others[:, 1], low, pixel, shape)
+    other_ends = batch.others.ends_of(number)
+    walls = _raster(other_ends[:, 0], other_ends[:, 1], low, pixel, shape)
     leg = np.ones(len(points), dtype=bool)
-    leg[first[1:] - 1] = False
+    leg[offsets[1:] - 1] = False
     begins = np.flatnonzero(leg)
     beads = _raster(points[begins], points[begins + 1], low, pixel, shape)
-    at = np.floor((points - low) / pixel + 0.5).astype(np.intp)
-    beads[at[:, 0], at[:, 1]] = True
-    region, _ = ndimage.label(~_dilated(walls))
+    pixel_of = np.floor((points - low) / pixel + 0.5).astype(np.intp)
+    beads[pixel_of[:, 0], pixel_of[:, 1]] = True
+    region, _ = ndimage.label(~_dilate(walls))
     open_sides = np.concatenate([region[0], region[-1], region[:, 0], region[:, -1]])
     # The squares of distances, in whole numbers, of which only the largest are needed.
     row, column = ndimage.distance_transform_edt(~(walls | beads), return_distances=False, return_indices=True)
@@ -68,17 +68,21 @@ def _widest_gaps(batch: Batch, number: int, some: Places) -> Floats:
     np.maximum.at(square, region.ravel(), (row * row + column * column).ravel())
     radius = np.maximum(np.sqrt(square) * pixel - ERROR * pixel, 0.0)
     radius[0] = np.inf  # beside a wall
-    radius[open_sides] = spacing / 2  # around it is nothing that tells where the infill ends
-    least = np.minimum.reduceat(radius[region[at[:, 0], at[:, 1]]], first[:-1])
-    return np.where(np.isfinite(least), least, float(least[np.isfinite(least)].min(initial=spacing / 2)))
+    radius[open_sides] = spacing / 2  # an open region, without a bead that bounds the infill
+    stroke_radius = np.minimum.reduceat(radius[region[pixel_of[:, 0], pixel_of[:, 1]]], offsets[:-1])
+    return np.where(
+        np.isfinite(stroke_radius),
+        stroke_radius,
+        float(stroke_radius[np.isfinite(stroke_radius)].min(initial=spacing / 2)),
+    )
 
 
-def _spacing(points: Floats, first: Places) -> float:
-    """Return about how far lines lie from one another, mm: the area of their hull over their length."""
+def _spacing(points: Floats, offsets: Places) -> float:
+    """Estimate the distance between lines, mm: the area of their hull over their length."""
     from scipy.spatial import ConvexHull, QhullError  # which loads sooner than a library of geometry
 
     step = np.hypot(*np.diff(points, axis=0).T)
-    step[first[1:-1] - 1] = 0.0
+    step[offsets[1:-1] - 1] = 0.0
     length = float(step.sum())
     if not length or not np.isfinite(points).all():
         return 0.0
@@ -89,34 +93,34 @@ def _spacing(points: Floats, first: Places) -> float:
 
 
 def _raster(starts: Floats, ends: Floats, low: Floats, pixel: float, shape: tuple[int, ...]) -> Flags:
-    """Return the pixels that straight pieces of beads pass through; what lies outside is left out.
+    """Mark the pixels that straight pieces of beads pass through; pieces outside are left out.
 
     Pieces are cut into equal ones of half a pixel at most, and the middle of each is marked.
     """
-    found = np.zeros(shape, dtype=bool)
+    pixels = np.zeros(shape, dtype=bool)
     high = low + pixel * np.array(shape)
     # Axis by axis: NumPy is slow along the short axis of an array.
-    near = np.ones(len(starts), dtype=bool)
+    is_close = np.ones(len(starts), dtype=bool)
     for axis in (0, 1):
-        one, other = starts[:, axis], ends[:, axis]
-        near &= (np.maximum(one, other) >= low[axis] - pixel) & (np.minimum(one, other) <= high[axis])
-    (x, y), (then_x, then_y) = starts[near].T, ends[near].T
-    dx, dy = then_x - x, then_y - y
+        start, stop = starts[:, axis], ends[:, axis]
+        is_close &= (np.maximum(start, stop) >= low[axis] - pixel) & (np.minimum(start, stop) <= high[axis])
+    (x, y), (end_x, end_y) = starts[is_close].T, ends[is_close].T
+    dx, dy = end_x - x, end_y - y
     pieces = np.maximum(1, np.ceil(np.hypot(dx, dy) / (pixel / 2) - 1e-9)).astype(np.intp)
-    of = np.repeat(np.arange(len(pieces)), pieces)
-    share = (np.arange(len(of)) - (np.cumsum(pieces) - pieces)[of] + 0.5) / pieces[of]
-    row = np.floor((x[of] + share * dx[of] - low[0]) / pixel + 0.5)
-    column = np.floor((y[of] + share * dy[of] - low[1]) / pixel + 0.5)
+    piece_of = np.repeat(np.arange(len(pieces)), pieces)
+    share = (np.arange(len(piece_of)) - (np.cumsum(pieces) - pieces)[piece_of] + 0.5) / pieces[piece_of]
+    row = np.floor((x[piece_of] + share * dx[piece_of] - low[0]) / pixel + 0.5)
+    column = np.floor((y[piece_of] + share * dy[piece_of] - low[1]) / pixel + 0.5)
     inside = (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
-    found[row[inside].astype(np.intp), column[inside].astype(np.intp)] = True
-    return found
+    pixels[row[inside].astype(np.intp), column[inside].astype(np.intp)] = True
+    return pixels
 
 
-def _dilated(pixels: Flags) -> Flags:
-    """Return pixels and their neighbours on all four sides."""
-    found = pixels.copy()
-    found[1:] |= pixels[:-1]
-    found[:-1] |= pixels[1:]
-    found[:, 1:] |= pixels[:, :-1]
-    found[:, :-1] |= pixels[:, 1:]
-    return found
+def _dilate(pixels: Flags) -> Flags:
+    """Add the neighbours on all four sides to pixels."""
+    result = pixels.copy()
+    result[1:] |= pixels[:-1]
+    result[:-1] |= pixels[1:]
+    result[:, 1:] |= pixels[:, :-1]
+    result[:, :-1] |= pixels[:, 1:]
+    return result

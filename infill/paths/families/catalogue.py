@@ -1,4 +1,4 @@
-"""The catalogue: every family by name, each loaded when it is first asked for."""
+"""The catalogue: every family by name, loaded on first use."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ class _Catalogue(Mapping[str, Family]):
 
     def __getitem__(self, name: str) -> Family:
         module, attribute = _HOMES[name]
-        found = getattr(importlib.import_module(f"infill.paths.families.{module}"), attribute)
-        family: Family = found() if isinstance(found, type) else found
+        member = getattr(importlib.import_module(f"infill.paths.families.{module}"), attribute)
+        family: Family = member() if isinstance(member, type) else member
         return family
 
     def __iter__(self) -> Iterator[str]:

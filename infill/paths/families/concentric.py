@@ -44,8 +44,8 @@ class Concentric:
 
         paths: list[Path] = []
         for inner in insets(region, cell / 2, cell):
-            kept = shapely.simplify(_without_necks(inner, TOUCH * line_width / 2), SIMPLER)
-            paths.extend(shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(kept)))
+            open_area = shapely.simplify(_without_necks(inner, TOUCH * line_width / 2), SIMPLER)
+            paths.extend(shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(open_area)))
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -58,9 +58,12 @@ class Concentric:
 
 
 def _without_necks(inner: Polygon | MultiPolygon, half: float) -> Polygon | MultiPolygon:
-    """Return what holds discs of radius `half`, and whose ends at a neck are as far apart as that is wide."""
-    kept = inner.buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC)
-    between = kept.buffer(half, quad_segs=ARC).buffer(-half, quad_segs=ARC).difference(kept)
-    if between.area < (half / 8) ** 2:  # of fillets between chords of arcs, not of a neck
-        return kept
-    return kept.difference(between.buffer(half)).buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC)
+    """Cut the necks out of an area, so that it holds discs of radius `half` everywhere.
+
+    The ends at a neck are as far apart as the neck is wide.
+    """
+    opened = inner.buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC)
+    necks = opened.buffer(half, quad_segs=ARC).buffer(-half, quad_segs=ARC).difference(opened)
+    if necks.area < (half / 8) ** 2:  # of fillets between chords of arcs, not of a neck
+        return opened
+    return opened.difference(necks.buffer(half)).buffer(-half, quad_segs=ARC).buffer(half, quad_segs=ARC)

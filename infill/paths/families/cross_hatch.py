@@ -36,7 +36,7 @@ class CrossHatch:
         cell: float,
         line_width: float,
         z: float,
-        layer: int,  # noqa: ARG002 - the height says it
+        layer: int,  # noqa: ARG002 - the height decides
         radius: float,  # noqa: ARG002 - there are no corners
     ) -> list[Path]:
         """Return one wave a wall; see `Family`."""
@@ -64,7 +64,7 @@ class CrossHatch:
 
 
 def _share(z: float) -> tuple[float, bool]:
-    """Return the smaller weight over the larger one at a height, in radians, and whether walls run along x."""
+    """Return the smaller weight over the larger one at a height, in radians, and True if walls run along x."""
     from patterns.hatch import cross_hatch
 
     place, zero = np.array([0.0, math.pi / 2]), np.array([math.pi / 2, 0.0])

@@ -1,4 +1,4 @@
-"""Periodic curves given by formulas: where to put their corners, and copies of them over a box."""
+"""Periodic curves given by formulas: their division into chords, and copies of them over a box."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ SAMPLES = 512  # of one period, by which its curvature is judged
 LONGEST = 1 / 12  # of a period, for a chord: straight parts have corners too, so that a spline may pass through them
 
 
-def parameters(curve: Callable[[Floats], Path], last: float) -> Floats:
-    """Return where from 0 to `last` a curve has its corners, both ends included.
+def parameters(curve: Callable[[Floats], Path], stop: float) -> Floats:
+    """Divide a curve into chords; return their corners from 0 to `stop`, both ends included.
 
     Chords are c = √(8 · SAGITTA / κ) long at a curvature κ, which makes every chord depart as far from the curve.
 
@@ -26,20 +26,23 @@ def parameters(curve: Callable[[Floats], Path], last: float) -> Floats:
     >>> bool(np.ptp(np.diff(circle)) < 1e-3), round(math.tau / len(circle), 2)
     (True, 0.1)
     """
-    place = np.linspace(0, last, SAMPLES + 1)
+    place = np.linspace(0, stop, SAMPLES + 1)
     points = curve(place)
-    first = np.gradient(points, axis=0, edge_order=2)
-    second = np.gradient(first, axis=0, edge_order=2)
-    speed = np.hypot(*first.T)
-    curvature = np.abs(first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]) / np.maximum(speed, 1e-12) ** 3
+    velocity = np.gradient(points, axis=0, edge_order=2)
+    acceleration = np.gradient(velocity, axis=0, edge_order=2)
+    speed = np.hypot(*velocity.T)
+    curvature = (
+        np.abs(velocity[:, 0] * acceleration[:, 1] - velocity[:, 1] * acceleration[:, 0])
+        / np.maximum(speed, 1e-12) ** 3
+    )
     longest = LONGEST * float(speed.mean()) * SAMPLES
     per_sample = speed / np.minimum(longest, np.sqrt(8 * SAGITTA / np.maximum(curvature, 1e-12)))
-    passed = np.concatenate([[0.0], np.cumsum((per_sample[1:] + per_sample[:-1]) / 2)])
-    return np.interp(np.linspace(0, passed[-1], math.ceil(passed[-1]) + 1), passed, place)
+    chord_count = np.concatenate([[0.0], np.cumsum((per_sample[1:] + per_sample[:-1]) / 2)])
+    return np.interp(np.linspace(0, chord_count[-1], math.ceil(chord_count[-1]) + 1), chord_count, place)
 
 
 def rows(curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Bounds, frame: Floats) -> list[Path]:
-    """Return lines v = curve(u) and their copies every 2π in u and in v.
+    """Draw lines v = curve(u) and their copies every 2π in u and in v.
 
     Parameters
     ----------
@@ -71,9 +74,9 @@ def rows(curves: Sequence[Callable[[Floats], Floats]], unit: float, bounds: Boun
 
 
 def copies(loop: Path, period: float, bounds: Bounds) -> list[Path]:
-    """Return a closed line and its copies every `period` mm in x and y, all that reach into a box."""
+    """Copy a closed line every `period` mm in x and y, as far as copies reach into a box."""
     low, high = loop.min(axis=0), loop.max(axis=0)
-    first = np.ceil((np.array(bounds[:2]) - high) / period)
-    last = np.floor((np.array(bounds[2:]) - low) / period)
-    shifts = np.stack(np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(first, last, strict=True))), axis=-1)
+    lowest = np.ceil((np.array(bounds[:2]) - high) / period)
+    highest = np.floor((np.array(bounds[2:]) - low) / period)
+    shifts = np.stack(np.meshgrid(*(np.arange(a, b + 1) for a, b in zip(lowest, highest, strict=True))), axis=-1)
     return list(loop + shifts.reshape(-1, 1, 2) * period)

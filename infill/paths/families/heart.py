@@ -18,8 +18,8 @@ FEWEST, MOST = 9, 513  # points on a lobe
 class ConcentricHeart:
     """Hearts inside one another, `cell` apart at their straight sides and up to twice that at their lobes.
 
-    They lie about `middle`, mm, which is to be that of the whole part in every layer, or else about the middle of the
-    box, turned by `angle` degrees.
+    They lie about `middle`, mm, or else about the middle of the box, turned by `angle` degrees. `middle` should be
+    that of the entire part in every layer.
     """
 
     name: str = "concentric-heart"
@@ -64,6 +64,6 @@ class ConcentricHeart:
 
 
 def _lobe_points(radius: float) -> int:
-    """Return into how many points, an odd number, a half circle is divided."""
-    wanted = math.pi / 2 / math.acos(max(0.0, 1 - SAGITTA / radius))
-    return min(MOST, max(FEWEST, 2 * math.ceil(wanted / 2) + 1))
+    """Return the number of points, an odd one, on a half circle."""
+    exact_count = math.pi / 2 / math.acos(max(0.0, 1 - SAGITTA / radius))
+    return min(MOST, max(FEWEST, 2 * math.ceil(exact_count / 2) + 1))

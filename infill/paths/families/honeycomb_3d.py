@@ -40,12 +40,12 @@ class Honeycomb3D:
         cell: float,
         line_width: float,
         z: float,
-        layer: int,  # noqa: ARG002 - the height says it
+        layer: int,  # noqa: ARG002 - the height decides
         radius: float,  # noqa: ARG002 - walls in common are long
     ) -> list[Path]:
         """Return two waves a row; see `Family`."""
         rows = self.rows(cell, line_width, z)
-        if not _across(cell, z):
+        if not _runs_along_y(cell, z):
             return strands(rows, bounds)
         x0, y0, x1, y1 = bounds
         return [path[:, ::-1] for path in strands(rows, (y0, x0, y1, x1))]
@@ -57,7 +57,7 @@ class Honeycomb3D:
         half = 0.5 + min(part, 1 - part)
         height = half * (cell / 2 - gap)
         wall = cell - 2 * height
-        place = cell / 2 if _across(cell, z) else 0.0
+        place = cell / 2 if _runs_along_y(cell, z) else 0.0
         high = Wave(period=cell, bottom=wall, top=0, height=height, base=place + gap / 2, shift=place)
         low = Wave(
             period=cell, bottom=0, top=wall, height=height, base=place - gap / 2 - height, shift=place + cell / 2
@@ -78,6 +78,6 @@ class Honeycomb3D:
         return SHARE * cell
 
 
-def _across(cell: float, z: float) -> bool:
-    """Return whether rows run along y at height `z`."""
+def _runs_along_y(cell: float, z: float) -> bool:
+    """Tell whether rows run along y at height `z`."""
     return math.floor(2 * z / cell + 0.5) % 2 == 1

@@ -1,4 +1,4 @@
-r"""Lateral honeycomb: hexagonal tubes along x, one upon another. A layer of it is of straight lines.
+r"""Lateral honeycomb: hexagonal tubes along x, stacked. A layer of it consists of straight lines.
 
 Seen from an end of the tubes, every wall is two lines wide::
 
@@ -34,7 +34,7 @@ class LateralHoneycomb:
         cell: float,
         line_width: float,
         z: float,
-        layer: int,  # noqa: ARG002 - the height says it
+        layer: int,  # noqa: ARG002 - the height decides
         radius: float,  # noqa: ARG002 - there are no corners
     ) -> list[Path]:
         """Return straight lines, two a tube; see `Family`."""
@@ -46,15 +46,15 @@ class LateralHoneycomb:
         # Of a leaning wall, and of a tube with one upright wall, in cells.
         rise, height = across / up / 2, period[2] / 2
         # The tubes of a height have their middles at y = 0, and those of the next one half a cell beside; in between,
-        # two lines lean from where the upright walls of the first stand, by half a cell each.
+        # two lines lean from the upright walls of the lower tubes, by half a cell each.
         part = z / cell / height % 2
         above = (1 - abs(part - 1)) * height - (height - rise) / 2
-        away = float(np.clip(above * up / across, 0, 0.5)) * cell
+        offset = float(np.clip(above * up / across, 0, 0.5)) * cell
         half = TOUCH * line_width / 2
-        away = min(max(away, half), max(cell / 2 - half, half))
+        offset = min(max(offset, half), max(cell / 2 - half, half))
         x0, y0, x1, y1 = bounds
         row = np.arange(np.floor(y0 / cell) - 1, np.ceil(y1 / cell) + 1)
-        places = np.concatenate([(row + 0.5) * cell - away, (row + 0.5) * cell + away])
+        places = np.concatenate([(row + 0.5) * cell - offset, (row + 0.5) * cell + offset])
         return [np.array([[x0 - cell, y], [x1 + cell, y]]) for y in np.sort(places).tolist()]
 
     def cell_for(self, density: float, line_width: float) -> float:

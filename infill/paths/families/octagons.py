@@ -19,7 +19,7 @@ from infill.paths.families.waves import BOND, cell_of, repeated
 from patterns.octagons import NEAR, SIDES
 
 RIGHT, TOP, UPPER_RIGHT, UPPER_LEFT, LOWER_LEFT, LOWER_RIGHT = range(len(SIDES))
-# Walls that a wave passes in one period, as a side of an octagon, the middle of the octagon as seen from a square
+# Walls that a wave passes in one period, as a side of an octagon, the middle of the octagon relative to a square
 # whose side to the upper right is double, and the side of the wall on which the wave lies: towards (x, y), or on it.
 THROUGH = (
     (LOWER_LEFT, (0.5, 0.5), (-1, -1)),
@@ -76,7 +76,7 @@ class Octagons:
         return cell_of(length_per_area, density, line_width)
 
     def largest_radius(self, cell: float, line_width: float) -> float:
-        """Return the radius at which what is left of a double wall between right angles still touches, mm."""
+        """Return the radius at which the rest of a double wall between right angles still touches, mm."""
         return max(0.0, NEAR * self._width(cell, line_width) - BOND * line_width / 2)
 
     def _width(self, cell: float, line_width: float) -> float:
@@ -87,23 +87,23 @@ class Octagons:
         from patterns.linework import turn
 
         width, gap = self._width(cell, line_width), TOUCH * line_width
-        waves = [_corners(walls, gap / width) + SQUARE for walls in (THROUGH, BETWEEN)]
+        waves = [_wave_corners(walls, gap / width) + SQUARE for walls in (THROUGH, BETWEEN)]
         waves.append((0.0, 2 * SQUARE[1]) - waves[0][::-1])  # about the middle between two squares
         level = [turn(wave * width, -ANGLE) for wave in waves]
         diagonal = math.sqrt(2) * width
         return [wave - (wave[0, 0] // diagonal * diagonal, 0.0) for wave in level]
 
 
-def _corners(walls: tuple[tuple[int, tuple[float, float], tuple[int, int]], ...], gap: float) -> Path:
-    """Return where walls meet one after another, and the first of them in the next period: (N + 1, 2), in octagons."""
+def _wave_corners(walls: tuple[tuple[int, tuple[float, float], tuple[int, int]], ...], gap: float) -> Path:
+    """Intersect each wall with the next one; return the corners, and the first of the next period: (N + 1, 2)."""
     sides = np.array(SIDES)
     ends = np.array([sides[side] + middle for side, middle, _ in walls])
-    to = np.array([towards for _, _, towards in walls], dtype=np.float64)
-    ends += (to / np.maximum(np.hypot(*to.T), 1.0)[:, None] * gap / 2)[:, None]
+    offset_direction = np.array([towards for _, _, towards in walls], dtype=np.float64)
+    ends += (offset_direction / np.maximum(np.hypot(*offset_direction.T), 1.0)[:, None] * gap / 2)[:, None]
     ends = np.concatenate([ends, ends[:2] + np.array([-1.0, 1.0])])
     begin, along = ends[:, 0], ends[:, 1] - ends[:, 0]
-    beside = begin[1:] - begin[:-1]
+    between = begin[1:] - begin[:-1]
     cross = along[:-1, 0] * along[1:, 1] - along[:-1, 1] * along[1:, 0]
-    part = (beside[:, 0] * along[1:, 1] - beside[:, 1] * along[1:, 0]) / cross
-    found: Path = begin[:-1] + part[:, None] * along[:-1]
-    return found
+    share = (between[:, 0] * along[1:, 1] - between[:, 1] * along[1:, 0]) / cross
+    corners: Path = begin[:-1] + share[:, None] * along[:-1]
+    return corners

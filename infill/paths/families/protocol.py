@@ -1,4 +1,4 @@
-"""What a family of paths provides: centre lines over a plane, one layer at a time, that never cross.
+"""Protocol of a family of paths: centre lines over a plane, one layer at a time, that never cross.
 
 Centre lines of two beads that touch are `TOUCH` line widths apart, the spacing of beads with rounded
 sides: w − h (1 − π / 4) for a width w and a layer height h, which is 0.905 w for 0.45 and 0.2 mm.
@@ -28,11 +28,11 @@ class Family(Protocol):
     name : str
         The name to type on the command line.
     summary : str
-        What the family is for, in one phrase.
-    prismatic : bool
+        Purpose of the family, in one phrase.
+        prismatic : bool
         True if every layer is equal, so that each bead lies on the one below, however it is rounded.
     wide : bool
-        True if its corners are taken wide where there is room: its lines stand alone, so that none is torn off another.
+        True if its corners move outwards where there is room: its lines stand alone, and tear off no other.
     """
 
     @property
@@ -42,7 +42,7 @@ class Family(Protocol):
 
     @property
     def summary(self) -> str:
-        """What the family is for, in one phrase."""
+        """Purpose of the family, in one phrase."""
         ...
 
     @property
@@ -52,7 +52,7 @@ class Family(Protocol):
 
     @property
     def wide(self) -> bool:
-        """True if its corners are taken wide."""
+        """True if its corners move outwards before rounding."""
         ...
 
     def strands(
@@ -63,9 +63,9 @@ class Family(Protocol):
         Parameters
         ----------
         bounds : (x0, y0, x1, y1)
-            mm. Where lines lie does not depend on the box, so that regions and layers fit each other.
+            mm. The position of lines does not depend on the box, so that regions and layers fit each other.
         cell : float
-            Size of the pattern, mm; what it measures is said by each family.
+            Size of the pattern, mm; each family documents its meaning.
         line_width : float
             mm. Where the pattern has a wall in common, two lines run `TOUCH` line widths apart.
         z : float
@@ -73,8 +73,8 @@ class Family(Protocol):
         layer : int
             Its number.
         radius : float
-            Corners will be rounded by up to so much, mm. The lines are returned with their corners, but so
-            placed that they still touch after that; a radius above `largest_radius` counts as that one.
+            Upper limit for the rounding of corners, mm. The lines are returned with their corners, but placed so that
+            they still touch after rounding; a radius above `largest_radius` counts as that one.
 
         Returns
         -------
@@ -97,7 +97,7 @@ class Family(Protocol):
 
 @runtime_checkable
 class RegionFamily(Protocol):
-    """What a family provides that follows the outline of the region: its lines need no clipping."""
+    """Protocol of a family that follows the outline of the region: its lines need no clipping."""
 
     def strands_inside(self, region: Polygon | MultiPolygon, *, cell: float, line_width: float) -> list[Path]:
         """Return lines inside `region`, (N, 2) float64 each, mm."""

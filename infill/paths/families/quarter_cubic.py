@@ -29,7 +29,7 @@ SAME = 1e-6  # mm: corners nearer than that are one
 
 @dataclass(frozen=True, kw_only=True)
 class QuarterCubic:
-    """Tetrahedra, with and without corners; `cell` is the period in x, y and z, without what flats and touching add.
+    """Tetrahedra, with and without corners; `cell` is the period in x, y and z, before flats and touching are added.
 
     Planes are `cell` / √3 apart.
     """
@@ -46,22 +46,22 @@ class QuarterCubic:
         cell: float,
         line_width: float,
         z: float,
-        layer: int,  # noqa: ARG002 - the height says it
+        layer: int,  # noqa: ARG002 - the height decides
         radius: float,
     ) -> list[Path]:
         """Return two waves a row; see `Family`."""
         gap, crest, period, pitch = self._sizes(cell, line_width, radius)
-        (middle_u, half_u), (middle_v, half_v) = (_pair(z / cell, sign) for sign in (1, -1))
-        # Places are those of planes, but for the room that flats take along a row, and touching waves across it: the
+        (middle_u, half_u), (middle_v, half_v) = (_line_pair(z / cell, sign) for sign in (1, -1))
+        # Places are those of planes, plus the room for flats along a row, and for touching waves across it: the
         # pairs keep their middles.
         x = (middle_u + middle_v) / 2 * period
         y = (middle_u - middle_v) / 2 * 2 * pitch
         u, v = half_u * cell, half_v * cell
-        left = np.array([-(u + v) / 2 - crest, (v - u) / 2])
+        climb_end = np.array([-(u + v) / 2 - crest, (v - u) / 2])
         top = np.array([(u - v) / 2, (u + v) / 2])
         down = np.array([(u + v) / 2 + crest, (u - v) / 2])
-        last = np.array([cell / 2 - (u - v) / 2 + 2 * crest, cell / 2 - (u + v) / 2])
-        upper = np.array([left, top, down, last]) + np.array([0.0, gap / 2])
+        tail = np.array([cell / 2 - (u - v) / 2 + 2 * crest, cell / 2 - (u + v) / 2])
+        upper = np.array([climb_end, top, down, tail]) + np.array([0.0, gap / 2])
         # A half turn about the middle of both pairs puts the wave above on the one below.
         lower = -upper[[2, 1, 0, 3]]
         lower[3, 0] += period
@@ -70,8 +70,8 @@ class QuarterCubic:
         for wave in (upper, lower):
             corners = (wave[:, None] + ends).reshape(-1, 2)
             before = np.concatenate([corners[-1:] - (period, 0.0), corners[:-1]])
-            apart = np.hypot(*(corners - before).T) > SAME  # where lines of pairs meet, two flats are one
-            paths += repeated(corners[apart] + (0.0, y), period, pitch, shift=x, slip=period / 2, bounds=bounds)
+            is_distinct = np.hypot(*(corners - before).T) > SAME  # where lines of pairs meet, two flats are one
+            paths += repeated(corners[is_distinct] + (0.0, y), period, pitch, shift=x, slip=period / 2, bounds=bounds)
         return paths
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -88,20 +88,20 @@ class QuarterCubic:
         return SHARE * cell
 
     def _sizes(self, cell: float, line_width: float, radius: float) -> tuple[float, float, float, float]:
-        """Return how far touching lines are apart, the length of a flat, the period of a wave and of rows, mm."""
+        """Return the spacing of touching lines, the length of a flat, the period and the pitch of rows, mm."""
         gap = TOUCH * line_width
         crest = flat(line_width, min(radius, self.largest_radius(cell, line_width)), TURN)
         return gap, crest, cell + FLATS * crest, cell / 2 + 2 * gap
 
 
-def _pair(z: float, sign: int) -> tuple[float, float]:
+def _line_pair(z: float, sign: int) -> tuple[float, float]:
     """Return the middle of the two lines x + y (or x - y, for a sign of -1) and half of their distance, in cells."""
     from patterns.planes import QUARTER_CUBIC
 
     normals, offsets = QUARTER_CUBIC.families()
     # A plane n . p + offset = 0 cuts the height z in x + sign y = -(n_z z + offset) n_x, modulo 1.
     along = normals[:, 0] * normals[:, 1] == sign
-    one = -(normals[along, 2] * z + offsets[along])[0] * normals[along, 0][0]
+    place = -(normals[along, 2] * z + offsets[along])[0] * normals[along, 0][0]
     middle = (offsets[along] @ -normals[along, 0]) / 2 % 0.5
-    half = one - middle
+    half = place - middle
     return float(middle), float(abs((half + 0.5) % 1 - 0.5))

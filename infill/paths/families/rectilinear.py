@@ -23,7 +23,7 @@ class Rectilinear:
         *,
         cell: float,
         line_width: float,  # noqa: ARG002 - lines stand alone
-        z: float,  # noqa: ARG002 - the layer's number says the direction
+        z: float,  # noqa: ARG002 - the layer's number decides the direction
         layer: int,
         radius: float,  # noqa: ARG002 - there are no corners
     ) -> list[Path]:

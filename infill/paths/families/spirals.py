@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 class Spirals:
     """A spiral of `patterns.spirals`, its turns `cell` apart.
 
-    It lies about `middle`, mm, which is to be that of the whole part in every layer, or else about the middle of the
-    box, turned by `angle` degrees. The spiral itself goes from its middle as far as the box reaches.
+    It lies about `middle`, mm, or else about the middle of the box, turned by `angle` degrees. `middle` should be
+    that of the entire part in every layer. The spiral itself goes from its middle as far as the box reaches.
     """
 
     name: str
@@ -57,8 +57,8 @@ class Spirals:
     def _pattern(self) -> Spiral:
         from patterns.spirals import ArchimedeanChords, OctagramSpiral
 
-        known: tuple[type[Spiral], ...] = (ArchimedeanChords, OctagramSpiral)
-        return {kind.name: kind for kind in known}[self.name]()
+        kinds: tuple[type[Spiral], ...] = (ArchimedeanChords, OctagramSpiral)
+        return {kind.name: kind for kind in kinds}[self.name]()
 
 
 ARCHIMEDEAN_CHORDS = Spirals(

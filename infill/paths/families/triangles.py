@@ -29,7 +29,7 @@ AT_LEAST = 24  # sections in which the mean of a family over its heights is take
 class Threefold:
     """Resolved lines in three directions; `cell` is the distance between parallel lines.
 
-    `share` is s at height 0, and `rises` says whether the lines move with height as sections of cubes do.
+    `share` is s at height 0; `rises` is True if the lines move with height as sections of cubes do.
 
     >>> rows = Threefold(name="stars", summary="", share=0.5).rows(6.0, 0.45, 0.0, 0.0)
     >>> [wave.height for wave in rows.waves]
@@ -50,7 +50,7 @@ class Threefold:
         cell: float,
         line_width: float,
         z: float,
-        layer: int,  # noqa: ARG002 - the height says it
+        layer: int,  # noqa: ARG002 - the height decides
         radius: float,
     ) -> list[Path]:
         """Return two waves a row; see `Family`."""
@@ -67,7 +67,7 @@ class Threefold:
         place = (self.share - 1.5 * rise / pitch) % 1
         lowest = LEAST * line_width / cell
         share = place if lowest <= place <= 1 - lowest else float(round(place))
-        # Lines along x stay where they belong, and flanks give way: sideways they move by half of that.
+        # Lines along x keep their places, and flanks move: sideways by half of that.
         base = rise + place * pitch - share * (cell + gap)
         heights = share * cell, (1 - share) * cell
         # Two crests a period, or four where flats overlap beside the crossings; as one wave becomes a straight line,

@@ -24,7 +24,7 @@ class Turned:
 
     @property
     def summary(self) -> str:
-        """What the family is for."""
+        """Purpose of the family."""
         return self.family.summary
 
     @property
@@ -34,7 +34,7 @@ class Turned:
 
     @property
     def wide(self) -> bool:
-        """True if its corners are taken wide."""
+        """True if its corners move outwards before rounding."""
         return self.family.wide
 
     def strands(
@@ -44,8 +44,8 @@ class Turned:
         from patterns.linework import turn
 
         corners = np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]], dtype=np.float64)
-        there = turn(corners - self.phase, -self.angle)
-        (x0, y0), (x1, y1) = there.min(axis=0).tolist(), there.max(axis=0).tolist()
+        turned_corners = turn(corners - self.phase, -self.angle)
+        (x0, y0), (x1, y1) = turned_corners.min(axis=0).tolist(), turned_corners.max(axis=0).tolist()
         paths = self.family.strands((x0, y0, x1, y1), cell=cell, line_width=line_width, z=z, layer=layer, radius=radius)
         return [turn(path, self.angle) + self.phase for path in paths]
 

@@ -14,9 +14,9 @@ from infill.paths.families.protocol import TOUCH, Bounds, Path
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-EVEN = 2  # how often cells are evened out, as `patterns.voronoi` does unless told
-# Measured on 3600 cells of three seeds, to 0.1 % and 0.5 %: the outline of a cell, in cells, and what it loses for
-# every mm that touching lines are apart, in mm.
+EVEN = 2  # relaxation steps, as in `patterns.voronoi` by default
+# Measured on 3600 cells of three seeds, to 0.1 % and 0.5 %: the outline of a cell, in cells, and its loss for every mm
+# between touching lines, in mm.
 OUTLINE, LOST = 3.875, 3.58
 SHARE = 0.15  # of a cell that a radius may have: shortest walls go, and cells stay as wide
 FINEST = 7.5  # line widths: the smallest cells, with room inside for more than the bead along the wall
@@ -28,7 +28,7 @@ MITRE = 20.0  # half distances of touching lines, that the corner of a cell may 
 class Voronoi:
     """The cells of `patterns.voronoi`; `cell` is the side of a square as large as one of them on average.
 
-    A cell into which no bead fits is left out, and where most would be, cells are as large as they may be for that.
+    A cell too small for a bead is left out. Cells are at least `FINEST` line widths large, so that beads fit into most.
     """
 
     name: str = "voronoi"
@@ -54,10 +54,10 @@ class Voronoi:
         corners = np.array(bounds, dtype=np.float64).reshape(2, 2) / cell
         low, high = np.floor(corners[0]).tolist(), np.ceil(corners[1]).tolist()
         gap = TOUCH * line_width / cell
-        whole = _cells(tuple(low), tuple(high), self.seed)
-        inside = shapely.buffer(whole, -gap / 2, join_style="mitre", mitre_limit=MITRE)
-        kept = inside[~shapely.is_empty(shapely.buffer(inside, -gap / 2))]
-        loops = shapely.get_exterior_ring(kept)
+        cells = _voronoi_cells(tuple(low), tuple(high), self.seed)
+        inside = shapely.buffer(cells, -gap / 2, join_style="mitre", mitre_limit=MITRE)
+        roomy = inside[~shapely.is_empty(shapely.buffer(inside, -gap / 2))]
+        loops = shapely.get_exterior_ring(roomy)
         return [_without_specks(shapely.get_coordinates(loop) * cell) for loop in loops]
 
     def cell_for(self, density: float, line_width: float) -> float:
@@ -71,19 +71,19 @@ class Voronoi:
 
 
 @lru_cache(maxsize=16)
-def _cells(low: tuple[float, float], high: tuple[float, float], seed: int) -> NDArray[np.object_]:
+def _voronoi_cells(low: tuple[float, float], high: tuple[float, float], seed: int) -> NDArray[np.object_]:
     """Return the cells that reach into a box, Polygon each, in cells; the same for every layer."""
     import shapely
 
     from patterns.voronoi import evened
 
     points = evened(np.array(low), np.array(high), seed=seed, even=EVEN)
-    found: NDArray[np.object_] = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
-    near: NDArray[np.bool_] = shapely.intersects(found, shapely.box(*low, *high))
-    return found[near]
+    polygons: NDArray[np.object_] = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(points)))
+    reaches_box: NDArray[np.bool_] = shapely.intersects(polygons, shapely.box(*low, *high))
+    return polygons[reaches_box]
 
 
 def _without_specks(loop: Path) -> Path:
     """Return a closed line without sides shorter than `CORNERS_APART`."""
-    kept = loop[:-1][np.hypot(*np.diff(loop, axis=0).T) > CORNERS_APART]
-    return np.concatenate([kept, kept[:1]])
+    corners = loop[:-1][np.hypot(*np.diff(loop, axis=0).T) > CORNERS_APART]
+    return np.concatenate([corners, corners[:1]])

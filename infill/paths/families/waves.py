@@ -27,7 +27,7 @@ BOND = 1.0  # line widths that crests touch along, at least
 
 @dataclass(frozen=True, kw_only=True)
 class Wave:
-    """One wave of every row, mm: `base` is the height of its bottom, and `shift` where one has its middle."""
+    """One wave of every row, mm: `base` is the height of its bottom, and `shift` the place of the middle of one."""
 
     period: float
     bottom: float
@@ -63,7 +63,7 @@ def flat(line_width: float, radius: float, turn: float) -> float:
 
 
 def strands(rows: Rows, bounds: Bounds) -> list[Path]:
-    """Return one line per row and wave, from beyond one side of the box to beyond the other.
+    """Draw one line per row and wave, from beyond one side of the box to beyond the other.
 
     >>> square = Wave(period=4, bottom=2, top=2, height=1)
     >>> [line[:3].tolist() for line in strands(Rows(waves=[square], pitch=2, slip=0), (0, 0.2, 1, 0.8))][1]
@@ -72,7 +72,7 @@ def strands(rows: Rows, bounds: Bounds) -> list[Path]:
     paths: list[Path] = []
     for wave in rows.waves:
         lines = repeated(
-            _corners(wave) + np.array([0.0, wave.base]),
+            _wave_corners(wave) + np.array([0.0, wave.base]),
             wave.period,
             rows.pitch,
             shift=wave.shift,
@@ -94,41 +94,41 @@ def repeated(
     angle: float = 0.0,
     bounds: Bounds,
 ) -> list[Path]:
-    """Return rows of a line, each from beyond one side of a box to beyond the other.
+    """Repeat a line in rows, each from beyond one side of a box to beyond the other.
 
     Parameters
     ----------
     corners : (N, 2) float64
         Of one period, mm: the first at x <= 0, the last at x >= 0. The next ones begin `period` further along x.
     period, pitch, shift, slip : float
-        mm: along a row, from row to row, and how much further on row 0 lies, and each row than the one below.
+        mm: period along a row, distance of rows, offset of row 0 along the row, and of each row from the one below.
     angle : float
-        Degrees by which all of it is turned.
+        Degrees by which all lines are turned.
     bounds : (x0, y0, x1, y1)
         mm.
     """
-    x0, y0, x1, y1 = _turned(bounds, -angle)
-    first = math.floor((y0 - corners[:, 1].max()) / pitch)
-    last = math.ceil((y1 - corners[:, 1].min()) / pitch)
-    row = np.arange(first, last + 1, dtype=np.float64)
-    further = (shift + row * slip) % period
+    x0, y0, x1, y1 = _turned_bounds(bounds, -angle)
+    lowest = math.floor((y0 - corners[:, 1].max()) / pitch)
+    highest = math.ceil((y1 - corners[:, 1].min()) / pitch)
+    row = np.arange(lowest, highest + 1, dtype=np.float64)
+    row_offset = (shift + row * slip) % period
     column = np.arange(math.floor(x0 / period) - 1, math.ceil(x1 / period) + 1, dtype=np.float64)
-    x = ((column * period)[:, None] + corners[:, 0]).ravel() + further[:, None]
+    x = ((column * period)[:, None] + corners[:, 0]).ravel() + row_offset[:, None]
     y = np.tile(corners[:, 1], len(column)) + (row * pitch)[:, None]
     return list(_turn(np.stack([x, y], axis=-1), angle))
 
 
 def cell_of(length_per_area: Callable[[float], float], density: float, line_width: float) -> float:
-    """Return the cell, mm, at which a family whose lines come closer as cells shrink has a density."""
-    wanted = density / (TOUCH * line_width)
+    """Solve for the cell, mm, of a density, for a family whose lines come closer as cells shrink."""
+    target_length = density / (TOUCH * line_width)
     low, high = TOUCH * line_width, 1000 * line_width / density
     for _ in range(60):  # halvings in the logarithm: to 1e-15 of the cell
         middle = math.sqrt(low * high)
-        low, high = (middle, high) if length_per_area(middle) > wanted else (low, middle)
+        low, high = (middle, high) if length_per_area(middle) > target_length else (low, middle)
     return math.sqrt(low * high)
 
 
-def _corners(wave: Wave) -> Path:
+def _wave_corners(wave: Wave) -> Path:
     """Return the corners of one period, (2 to 4, 2); a flat of no length is one corner."""
     middle = wave.period / 2
     low = [(-wave.bottom / 2, 0.0), (wave.bottom / 2, 0.0)] if wave.bottom > 0 else [(0.0, 0.0)]
@@ -144,8 +144,8 @@ def _turn(points: Path, angle: float) -> Path:
     return turn(points, angle)
 
 
-def _turned(bounds: Bounds, angle: float) -> Bounds:
-    """Return the box around a box that is turned about (0, 0)."""
+def _turned_bounds(bounds: Bounds, angle: float) -> Bounds:
+    """Return the bounding box of a box that is turned about (0, 0)."""
     corners = _turn(np.array([[x, y] for x in bounds[::2] for y in bounds[1::2]], dtype=np.float64), angle)
     (x0, y0), (x1, y1) = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return x0, y0, x1, y1

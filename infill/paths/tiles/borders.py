@@ -1,19 +1,19 @@
-r"""The lines of a tile, put so that they part the plane into two colours.
+r"""Turn the lines of a tile into the borders of two colours.
 
 Lines can be the borders of two colours only if an even number of them meets at every point. The tile is repeated,
-so this is asked on a torus:
+so all steps work on a torus:
 
-Step 1. Open ends that lie close together, seen across the edges of the tile too, are put on one another.
-Step 2. Lines are cut at each other, and what is drawn twice is taken once.
+Step 1. Open ends that lie close together, also across the edges of the tile, are merged.
+Step 2. Lines are cut at each other, and duplicate pieces are dropped.
 Step 3. Loose ends and junctions of three, five … lines are joined in pairs, along the lines, as shortly as that can
-        be done. What lies between a pair becomes a double line of two beads that touch; without it, the number is
+        be done. The way between a pair becomes a double line of two beads that touch; without it, the number is
         even everywhere. A loose stroke is doubled as a whole; of a honeycomb, one wall in three::
 
             __/      __//
               \\        \\
 
-Step 4. At every crossing it is said which sectors are one piece, so that paths turn off instead of crossing: the
-        sharp ones, so that paths bend by as little as possible; between equals, those that lie along x.
+Step 4. At every crossing two sectors are connected, so that paths turn off instead of crossing: the sharp ones, so
+        that paths bend by as little as possible; between equals, those that lie along x.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ from infill.paths.tiles.pairing import Graph, doubled_parts
 
 Floats = NDArray[np.float64]
 
-CLOSE = 0.25  # line widths within which open ends are taken for one
+CLOSE = 0.25  # line widths within which open ends are merged
 TOUCH = 0.905  # line widths between the centres of two beads that touch
 ALIKE = math.radians(20)  # difference of angles below which a crossing counts as square
-ALONG = math.radians(10)  # near x, but no line of symmetry
-SNAP = 1e-7  # of a tile: to this, lines are cut at each other
-SAME = 1e-5  # of a tile: nodes closer than that are one
-CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: where it is cut out; no drawing has lines along there
-AHEAD = 0.03  # of a tile: where directions at a crossing are taken, at any scale the same
+ALONG = math.radians(10)  # near x, but not a line of symmetry
+SNAP = 1e-7  # of a tile: precision to which lines are cut at each other
+SAME = 1e-5  # of a tile: closer nodes are merged
+CUT = (math.sqrt(3) - 1.7, math.sqrt(7) - 2.6)  # of a tile: its corner; drawings have no lines along these values
+AHEAD = 0.03  # of a tile: distance from a crossing at which directions are measured
 MOST_COPIES = 200  # of one line in a tile
 
 
 @dataclass(frozen=True, kw_only=True)
 class Borders:
-    """Lines of one tile, by what becomes of them; mm. Copies in the next tiles are left out.
+    """Lines of one tile by their role, single or double; mm. Copies in the next tiles are left out.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class Borders:
 
 
 def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) -> Borders:
-    """Return the borders between two colours, and the lines to be doubled, in a tile from (0, 0) to `size`.
+    """Find the borders between two colours, and the lines to be doubled, in a tile from (0, 0) to `size`.
 
     Parameters
     ----------
@@ -80,17 +80,17 @@ def borders(lines: list[Line], size: tuple[float, float], *, line_width: float) 
     GeometryError
         If every line is shorter than a quarter of a line width at this size, or there are too many lines for a tile.
     """
-    together = _ends_together(lines, size, CLOSE * line_width)
-    if not together:
+    merged = _merge_ends(lines, size, CLOSE * line_width)
+    if not merged:
         raise GeometryError(
             f"every line of the drawing is shorter than {CLOSE * line_width:.3g} mm in tiles of "
             f"{size[0]:.4g} × {size[1]:.4g} mm; make the cell larger"
         )
-    graph = _torus(_copies(together, size), size)
+    graph = _cut_to_torus(_copies_in_tile(merged, size), size)
     double = doubled_parts(graph)
     crossings, inward = _crossings(graph, ~double, AHEAD * min(size))
-    single = _edges([part for part, twice in zip(graph.parts, double, strict=True) if not twice])
-    doubled = _edges([part for part, twice in zip(graph.parts, double, strict=True) if twice])
+    single = _edges([part for part, is_double in zip(graph.parts, double, strict=True) if not is_double])
+    doubled = _edges([part for part, is_double in zip(graph.parts, double, strict=True) if is_double])
     return Borders(single=single, double=doubled, crossings=crossings, inward=inward)
 
 
@@ -99,22 +99,22 @@ def _edges(parts: list[Line]) -> Floats:
     return np.concatenate(pieces) if pieces else np.empty((0, 2, 2))
 
 
-def _ends_together(lines: list[Line], size: tuple[float, float], tolerance: float) -> list[Line]:
-    """Return the lines with open ends that lie within a tolerance of each other, modulo the tile, on one point."""
+def _merge_ends(lines: list[Line], size: tuple[float, float], tolerance: float) -> list[Line]:
+    """Merge open ends that lie within a tolerance of each other, modulo the tile; return the lines."""
     ends = np.concatenate([line[[0, -1]] for line in lines])
-    label, places = _clusters(ends, size, tolerance)
-    moved = places[label] + np.array(size) * np.round((ends - places[label]) / size)
-    together = []
-    for line, pair in zip(lines, moved.reshape(-1, 2, 2), strict=True):
+    label, places = _cluster_points(ends, size, tolerance)
+    new_ends = places[label] + np.array(size) * np.round((ends - places[label]) / size)
+    result = []
+    for line, line_ends in zip(lines, new_ends.reshape(-1, 2, 2), strict=True):
         inner = line[1:-1]
         # Points nearer to an end than it may move would make a spike.
         keep = np.minimum(np.hypot(*(inner - line[0]).T), np.hypot(*(inner - line[-1]).T)) > tolerance
-        together.append(np.vstack([pair[:1], inner[keep], pair[1:]]))
-    return [line for line in together if np.hypot(*np.diff(line, axis=0).T).sum() > 0]
+        result.append(np.vstack([line_ends[:1], inner[keep], line_ends[1:]]))
+    return [line for line in result if np.hypot(*np.diff(line, axis=0).T).sum() > 0]
 
 
-def _clusters(points: Floats, size: tuple[float, float], tolerance: float) -> tuple[NDArray[np.intp], Floats]:
-    """Return the number of the place at which each point lies on the torus, and the places."""
+def _cluster_points(points: Floats, size: tuple[float, float], tolerance: float) -> tuple[NDArray[np.intp], Floats]:
+    """Cluster points on the torus; return the cluster of each point, and the places of clusters."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import KDTree
@@ -125,32 +125,32 @@ def _clusters(points: Floats, size: tuple[float, float], tolerance: float) -> tu
     pairs = KDTree(wrapped, boxsize=box).query_pairs(tolerance, output_type="ndarray")
     graph = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(len(points), len(points)))
     _, label = connected_components(graph, directed=False)
-    _, first = np.unique(label, return_index=True)
-    return label, wrapped[first]
+    _, representatives = np.unique(label, return_index=True)
+    return label, wrapped[representatives]
 
 
-def _copies(lines: list[Line], size: tuple[float, float]) -> list[Line]:
-    """Return every copy of the lines that may come into the tile, wherever it is cut out."""
+def _copies_in_tile(lines: list[Line], size: tuple[float, float]) -> list[Line]:
+    """Copy the lines to every tile from which they may reach into the tile, wherever it is cut out."""
     copies: list[Line] = []
     points = 0
     box = np.array(size)
     for line in lines:
-        first = np.ceil(-line.max(axis=0) / box).astype(int)
-        last = np.floor((2 * box - line.min(axis=0)) / box).astype(int)
-        count = int(np.prod(np.maximum(last - first + 1, 0)))
+        lowest = np.ceil(-line.max(axis=0) / box).astype(int)
+        highest = np.floor((2 * box - line.min(axis=0)) / box).astype(int)
+        count = int(np.prod(np.maximum(highest - lowest + 1, 0)))
         points += len(line) * count
         if points > MOST_POINTS or count > MOST_COPIES:
             raise GeometryError(
                 f"draw on the page: {count} copies of a line, or {points} points, meet in a "
                 f"tile of {size[0]:.4g} × {size[1]:.4g} mm; the limits are {MOST_COPIES} and {MOST_POINTS}"
             )
-        for i in range(first[0], last[0] + 1):
-            copies += [line + box * (i, j) for j in range(first[1], last[1] + 1)]
+        for i in range(lowest[0], highest[0] + 1):
+            copies += [line + box * (i, j) for j in range(lowest[1], highest[1] + 1)]
     return copies
 
 
-def _torus(copies: list[Line], size: tuple[float, float]) -> Graph:
-    """Return the lines of one tile, cut at each other and at its edges."""
+def _cut_to_torus(copies: list[Line], size: tuple[float, float]) -> Graph:
+    """Cut the lines of one tile at each other and at its edges."""
     import shapely
 
     owner = np.repeat(np.arange(len(copies)), [len(line) for line in copies])
@@ -161,28 +161,28 @@ def _torus(copies: list[Line], size: tuple[float, float]) -> Graph:
     parts = shapely.get_parts(cut)
     parts = [shapely.get_coordinates(part) for part in parts[shapely.get_type_id(parts) == 1]]
     ends = np.concatenate([part[[0, -1]] for part in parts])
-    label, places = _clusters(ends, size, SAME * max(size))
+    label, places = _cluster_points(ends, size, SAME * max(size))
     return Graph(parts=parts, node=label.reshape(-1, 2), places=places)
 
 
-def _crossings(graph: Graph, some: NDArray[np.bool_], ahead: float) -> tuple[Floats, Floats]:
-    """Return where four of the parts or more meet, and a direction into a sector that is to be connected there."""
+def _crossings(graph: Graph, chosen: NDArray[np.bool_], ahead: float) -> tuple[Floats, Floats]:
+    """Find the crossings of four single parts or more, and a direction into a sector to connect at each."""
     import shapely
 
-    at: dict[int, list[float]] = {int(node): [] for node in np.flatnonzero(graph.degree(some) >= 4)}
-    for number in np.flatnonzero(some):
+    leg_angles: dict[int, list[float]] = {int(node): [] for node in np.flatnonzero(graph.degree(chosen) >= 4)}
+    for number in np.flatnonzero(chosen):
         for end, node in zip((1, -1), graph.node[number].tolist(), strict=True):
-            if node in at:
+            if node in leg_angles:
                 line = graph.parts[number][::end]
-                near = shapely.line_interpolate_point(shapely.linestrings(line), ahead)
-                leg = shapely.get_coordinates(near)[0] - line[0]
-                at[node].append(math.atan2(leg[1], leg[0]))
-    inward = [_sector(np.sort(angles)) for angles in at.values()]
-    return graph.places[list(at)].reshape(-1, 2), np.array(inward).reshape(-1, 2)
+                ahead_point = shapely.line_interpolate_point(shapely.linestrings(line), ahead)
+                leg = shapely.get_coordinates(ahead_point)[0] - line[0]
+                leg_angles[node].append(math.atan2(leg[1], leg[0]))
+    inward = [_sector(np.sort(angles)) for angles in leg_angles.values()]
+    return graph.places[list(leg_angles)].reshape(-1, 2), np.array(inward).reshape(-1, 2)
 
 
 def _sector(angles: Floats) -> tuple[float, float]:
-    """Return the direction of a sector between lines at sorted angles, of the colour that is to be connected."""
+    """Return the direction of a sector between lines at sorted angles, of the colour to connect."""
     widths = np.diff(angles, append=angles[0] + 2 * math.pi)
     middles = angles + widths / 2
     sharp = widths[::2].sum() - widths[1::2].sum()

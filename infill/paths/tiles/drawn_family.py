@@ -18,11 +18,11 @@ from infill.paths.tiles.strands import Strand, repeated, tile_strands
 from infill.paths.tiles.two_colours import two_colours
 
 CELL_STEP = 1.04  # between the cells whose fields are computed
-IMPROVED = 2  # times that a first guess of the cell is improved: lines are doubled, rounded and left out
+IMPROVED = 2  # corrections of the first guess of the cell: lines are doubled, rounded and left out
 LEAST_BLUR = 0.45  # of a line width: corners get about its radius, and necks of a cell or two heal
 BLUR_PER_RADIUS = 0.7  # mm that a right angle is blurred for a radius of 1 mm
 LARGEST_RADIUS = 0.1  # of the smaller side of a tile
-MOST_LINES = 4.0  # line widths: rounder corners look no better, and smoothing takes longer with the fourth power
+MOST_LINES = 4.0  # line widths: rounder corners look no better, and smoothing time grows with the fourth power
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,7 +45,7 @@ class Drawn:
 
     @property
     def left_out(self) -> tuple[str, ...]:
-        """What the file holds besides lines, in words: "2 texts"."""
+        """Contents of the file besides lines, in words: "2 texts"."""
         return self.drawing.left_out
 
     @property
@@ -102,8 +102,8 @@ class Drawn:
         cell = TOUCH * line_width * float(drawn_length) / (y1 - y0) / density
         for _ in range(IMPROVED):
             strands, size = _scaled_strands(self, cell, line_width, 0.0)
-            found = sum(np.hypot(*np.diff(each.points, axis=0).T).sum() for each in strands)
-            cell *= TOUCH * line_width * float(found) / (size[0] * size[1]) / density
+            path_length = sum(np.hypot(*np.diff(strand.points, axis=0).T).sum() for strand in strands)
+            cell *= TOUCH * line_width * float(path_length) / (size[0] * size[1]) / density
         return cell
 
     def largest_radius(self, cell: float, line_width: float) -> float:
@@ -118,23 +118,23 @@ class Drawn:
 def _scaled_strands(
     family: Drawn, cell: float, line_width: float, radius: float
 ) -> tuple[list[Strand], tuple[float, float]]:
-    """Return the strands of a tile and its size, mm: those of the nearest of some fixed cells, scaled.
+    """Return the strands of a tile and its size, mm, scaled from the nearest of some fixed cells.
 
-    What finds room between beads changes with the cell, and each time the length of paths jumps. Scaled by a fiftieth
-    at most, beads keep their distance well enough, and a search for a cell finds lengths that change smoothly.
+    The topology of the paths changes with the cell, and each time their length jumps. Scaled by a fiftieth at most,
+    beads keep their distance well enough, and a search for a cell sees lengths that change smoothly.
     """
     fixed = CELL_STEP ** round(math.log(cell, CELL_STEP))
-    least = min(within("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
-    strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, least)
+    limited_radius = min(within("radius", radius, 0, math.inf, "mm"), family.largest_radius(fixed, line_width))
+    strands, (width, height) = _strands(family.name, family.drawing, fixed, line_width, limited_radius)
     scale = cell / fixed
-    return [replace(each, points=each.points * scale) for each in strands], (width * scale, height * scale)
+    return [replace(strand, points=strand.points * scale) for strand in strands], (width * scale, height * scale)
 
 
 @lru_cache(maxsize=16)
 def _strands(
     name: str, drawing: Drawing, cell: float, line_width: float, radius: float
 ) -> tuple[list[Strand], tuple[float, float]]:
-    """Return the strands of a tile and its size, mm; the field is computed once for every layer and region."""
+    """Compute the strands of a tile and its size, mm; one field serves every layer and region."""
     assert drawing.page is not None
     x0, y0, x1, y1 = drawing.page
     factor = cell / (x1 - x0)

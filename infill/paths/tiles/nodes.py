@@ -1,4 +1,4 @@
-"""The grid of a tile, whose period it is; distances to lines, and the colours between them."""
+"""The periodic grid of a tile, distances from its nodes to lines, and the colours between lines."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ CELLS_PER_LINE = 8  # grid cells in a line width, so that touching paths stay se
 COARSEST = 5
 MOST_CELLS = 6_000_000
 MOST_WORK = 2e8  # cells times squared blurs in cells: some seconds of smoothing
-GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # no drawing has its lines there
+GRID_OFFSET = (math.sqrt(2) - 1, math.sqrt(5) - 2)  # drawings have no lines there
 MARGIN = 4.0  # blurs beyond which smoothing does not reach
-LEAST_FINE = COARSEST / CELLS_PER_LINE  # to save work
+LEAST_FINE = COARSEST / CELLS_PER_LINE  # limit of the coarsening that saves work
 AT_ONCE = 2_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
 class TileGrid:
-    """Nodes of a grid whose period is the tile.
+    """Nodes of a grid with the period of a tile.
 
     Parameters
     ----------
@@ -74,47 +74,47 @@ def tile_grid(size: tuple[float, float], *, line_width: float, blur: float) -> T
 
 
 def distances(edges: Floats, grid: TileGrid, band: float) -> Floats:
-    """Return the distance to the nearest edge at every node, at most `band`, mm."""
+    """Compute the distance to the nearest edge at every node, at most `band`, mm."""
     distance = np.full(grid.nodes, band)
     edges = short_edges(edges, 4 * max(grid.spacing))
     low = np.floor((edges.min(axis=1) - band - grid.first) / grid.spacing).astype(int) + 1
     high = np.floor((edges.max(axis=1) + band - grid.first) / grid.spacing).astype(int)
     low, high = np.maximum(low, 0), np.minimum(high, np.array(grid.nodes) - 1)
     wide = np.maximum(high - low + 1, 0)
-    along = edges[:, 1] - edges[:, 0]
-    squared = np.maximum((along**2).sum(axis=1), 1e-30)
+    direction = edges[:, 1] - edges[:, 0]
+    squared = np.maximum((direction**2).sum(axis=1), 1e-30)
     flat = distance.ravel()
     for edge, place in spread(wide[:, 0] * wide[:, 1], AT_ONCE):
         i = low[edge, 0] + place // wide[edge, 1]
         j = low[edge, 1] + place % wide[edge, 1]
-        away = np.stack([i, j], axis=1) * grid.spacing + grid.first - edges[edge, 0]
-        part = np.clip((away * along[edge]).sum(axis=1) / squared[edge], 0, 1)[:, None]
-        np.minimum.at(flat, i * grid.nodes[1] + j, np.hypot(*(away - part * along[edge]).T))
+        offset = np.stack([i, j], axis=1) * grid.spacing + grid.first - edges[edge, 0]
+        part = np.clip((offset * direction[edge]).sum(axis=1) / squared[edge], 0, 1)[:, None]
+        np.minimum.at(flat, i * grid.nodes[1] + j, np.hypot(*(offset - part * direction[edge]).T))
     return distance
 
 
 def around(shapes: Floats, grid: TileGrid, band: float) -> Floats:
-    """Return shapes (N, ..., 2) with their copies in the next tiles, as far as the padding and `band` reach."""
+    """Copy shapes (N, ..., 2) to the next tiles, as far as the padding and `band` reach."""
     if not len(shapes):
         return shapes
     points = shapes.reshape(len(shapes), -1, 2)
     size = np.array(grid.size)
     low, high = points.min(axis=1), points.max(axis=1)
-    first = np.floor((grid.first - band - high.max(axis=0)) / size).astype(int)
-    end = grid.first + np.array(grid.nodes) * grid.spacing
-    last = np.ceil((end + band - low.min(axis=0)) / size).astype(int)
+    lowest = np.floor((grid.first - band - high.max(axis=0)) / size).astype(int)
+    high_corner = grid.first + np.array(grid.nodes) * grid.spacing
+    highest = np.ceil((high_corner + band - low.min(axis=0)) / size).astype(int)
     copies = []
-    for i in range(first[0], last[0] + 1):
-        for j in range(first[1], last[1] + 1):
+    for i in range(lowest[0], highest[0] + 1):
+        for j in range(lowest[1], highest[1] + 1):
             shift = size * (i, j)
-            # What lies to the left or below is kept: the colours of a row are counted from there.
-            near = ((low + shift < end + band) & (high + shift > grid.first - band)).all(axis=1)
-            copies.append(shapes[near] + shift)
+            # Shapes to the left or below stay: the colours of a row are counted from there.
+            is_close = ((low + shift < high_corner + band) & (high + shift > grid.first - band)).all(axis=1)
+            copies.append(shapes[is_close] + shift)
     return np.concatenate(copies)
 
 
 def short_edges(edges: Floats, longest: float) -> Floats:
-    """Return the edges cut into pieces no longer than `longest`."""
+    """Cut edges into pieces no longer than `longest`."""
     counts = np.maximum(1, np.ceil(np.hypot(*(edges[:, 1] - edges[:, 0]).T) / longest)).astype(int)
     pieces = []
     for edge, place in spread(counts, AT_ONCE):
@@ -125,14 +125,14 @@ def short_edges(edges: Floats, longest: float) -> Floats:
 
 
 def colours(edges: Floats, grid: TileGrid) -> NDArray[np.bool_]:
-    """Return the colour of every node: the parity of the borders crossed from the first node, along y, then x."""
+    """Compute the colour of every node: the parity of the borders crossed from the first node, along y, then x."""
     scaled = (edges - grid.first) / grid.spacing
     flips = np.zeros(grid.nodes, dtype=np.int64)
-    row, x = _crossed(scaled, 1, grid.nodes[1])
+    row, x = _crossed_lines(scaled, 1, grid.nodes[1])
     column = np.floor(x).astype(int) + 1
-    there = (column > 0) & (column < grid.nodes[0])
-    np.add.at(flips, (column[there], row[there]), 1)
-    _, y = _crossed(scaled, 0, 1)
+    is_inside = (column > 0) & (column < grid.nodes[0])
+    np.add.at(flips, (column[is_inside], row[is_inside]), 1)
+    _, y = _crossed_lines(scaled, 0, 1)
     start = np.floor(y).astype(int) + 1
     start = start[(start > 0) & (start < grid.nodes[1])]
     sides = np.cumsum(np.bincount(start, minlength=grid.nodes[1]))
@@ -140,15 +140,15 @@ def colours(edges: Floats, grid: TileGrid) -> NDArray[np.bool_]:
     return parity
 
 
-def _crossed(edges: Floats, axis: int, count: int) -> tuple[NDArray[np.int64], Floats]:
-    """Return which of the lines 0, 1, 2 … across an axis an edge crosses, and where; an end on one lies above it."""
-    first = np.ceil(np.nextafter(edges[..., axis], np.inf)).astype(int)  # the first line above each end
-    low, high = np.clip(np.sort(first, axis=1), 0, count).T
+def _crossed_lines(edges: Floats, axis: int, count: int) -> tuple[NDArray[np.int64], Floats]:
+    """Find the lines 0, 1, 2 … across an axis that each edge crosses, and where; an end on one lies above it."""
+    line_above = np.ceil(np.nextafter(edges[..., axis], np.inf)).astype(int)  # the first line above each end
+    low, high = np.clip(np.sort(line_above, axis=1), 0, count).T
     rows, places = [np.empty(0, dtype=np.int64)], [np.empty(0)]
     for edge, place in spread(high - low, AT_ONCE):
         row = low[edge] + place
         a, b = edges[edge, 0], edges[edge, 1]
-        part = (row - a[:, axis]) / (b[:, axis] - a[:, axis])
+        share = (row - a[:, axis]) / (b[:, axis] - a[:, axis])
         rows.append(row)
-        places.append(a[:, 1 - axis] + part * (b[:, 1 - axis] - a[:, 1 - axis]))
+        places.append(a[:, 1 - axis] + share * (b[:, 1 - axis] - a[:, 1 - axis]))
     return np.concatenate(rows), np.concatenate(places)

@@ -1,7 +1,7 @@
-"""Which lines of a tile are doubled, so that at every point an even number of single ones meets.
+"""Choose the lines of a tile to double, so that at every point an even number of single ones meets.
 
-Where an odd number meets, points are taken in pairs, along the lines and as near to each other as can be; what lies
-between a pair is doubled. Known as a T-join: Edmonds and Johnson, Mathematical Programming 5 (1973) 88.
+Points where an odd number meets are paired, along the lines and as close to each other as possible; the lines between
+a pair are doubled. Known as a T-join: Edmonds and Johnson, Mathematical Programming 5 (1973) 88.
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ class Graph:
     node: NDArray[np.intp]  # (parts, 2)
     places: Floats
 
-    def degree(self, some: NDArray[np.bool_]) -> NDArray[np.intp]:
-        """Return how many ends of some parts meet at each node."""
-        return np.bincount(self.node[some].ravel(), minlength=len(self.places))
+    def degree(self, chosen: NDArray[np.bool_]) -> NDArray[np.intp]:
+        """Count the ends of some parts at each node."""
+        return np.bincount(self.node[chosen].ravel(), minlength=len(self.places))
 
 
 def doubled_parts(graph: Graph) -> NDArray[np.bool_]:
-    """Return which parts are to be doubled: shortest ways between nodes of odd degree, taken in pairs.
+    """Choose the parts to double: shortest ways between nodes of odd degree, taken in pairs.
 
-    Pairs are those nearest to each other, improved as long as exchanging the partners of two pairs makes the ways
-    shorter. Where there are too many, all that hangs together with an odd node is doubled.
+    Pairs are the nearest ones, improved as long as exchanging the partners of two pairs makes the ways shorter. With
+    too many odd nodes, every part connected to an odd node is doubled.
     """
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components, dijkstra
@@ -66,20 +66,20 @@ def doubled_parts(graph: Graph) -> NDArray[np.bool_]:
     ways = coo_array((lengths[numbers], (a, b)), shape=(count, count)).tocsr()
     if len(odd) > MOST_PAIRED:
         _, label = connected_components(ways, directed=False)
-        found: NDArray[np.bool_] = np.isin(label[graph.node[:, 0]], label[odd])
-        return found
+        is_connected: NDArray[np.bool_] = np.isin(label[graph.node[:, 0]], label[odd])
+        return is_connected
     distances, before = dijkstra(ways, directed=False, indices=odd, return_predecessors=True)
-    for i, j in _pairs(distances[:, odd]):
-        here = int(odd[j])
-        while here != odd[i]:
-            last = int(before[i, here])
-            doubled[part_of[min(last, here), max(last, here)]] ^= True
-            here = last
+    for i, j in _pair_nodes(distances[:, odd]):
+        node = int(odd[j])
+        while node != odd[i]:
+            previous = int(before[i, node])
+            doubled[part_of[min(previous, node), max(previous, node)]] ^= True
+            node = previous
     return doubled
 
 
-def _pairs(distances: Floats) -> list[tuple[int, int]]:
-    """Return numbers in pairs whose distances are small in all."""
+def _pair_nodes(distances: Floats) -> list[tuple[int, int]]:
+    """Pair numbers so that the sum of distances is small."""
     upper = np.triu_indices(len(distances), 1)
     partner = np.full(len(distances), -1)
     for number in np.argsort(distances[upper], kind="stable"):

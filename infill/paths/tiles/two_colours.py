@@ -20,18 +20,18 @@ from infill.phasefield.methods import smooth
 Floats = NDArray[np.float64]
 
 FIDELITY = 0.001
-# Cells: of a thinner interface, lines settle on those of the grid; thicker ones draw touching paths together.
+# Cells: with a thinner interface, lines snap to the grid; a thicker one draws touching paths together.
 INTERFACE = 2.3
 ALPHA = 0.2  # time step: explicit diffusion is stable up to 1 / 4 in a plane, on cells that are nearly square
-NARROWEST = 0.9  # line widths: narrower places are widened, or given to their neighbours
-RIDGE = 0.5  # slope of a distance below which it has its ridge there: between lines, or in a corner of less than 60°
-CAREFUL = 0.35  # of the thickest place of a colour: no smoothing goes beyond
+NARROWEST = 0.9  # line widths: narrower places are widened, or merged into their neighbours
+RIDGE = 0.5  # slope of a distance on its ridge, at most: between lines, or in a corner of less than 60°
+CAREFUL = 0.35  # of the thickest place of a colour: the limit of smoothing
 COARSE = 4  # cells
 EIGHT = np.ones((3, 3))  # neighbours
 
 
 def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: float) -> NDArray[np.float64]:
-    """Return the smoothed field at the nodes of the padded tile: a distance in line widths, cut off, zero on the paths.
+    """Compute the smoothed field at the nodes of the padded tile: a distance in line widths, zero on the paths.
 
     Parameters
     ----------
@@ -47,47 +47,47 @@ def two_colours(borders: Borders, grid: TileGrid, *, line_width: float, blur: fl
     band = radius + 3 * h
     edges = around(borders.single, grid, band)
     field = np.where(colours(edges, grid), 1, -1) * distances(edges, grid, band)
-    field = _doubled(field, borders.double, grid, TOUCH / 2 * line_width)
-    field = _opened_crossings(field, borders, grid, radius)
+    field = _double_edges(field, borders.double, grid, TOUCH / 2 * line_width)
+    field = _open_crossings(field, borders, grid, radius)
     for sign in (1, -1):
-        field = sign * _widened(sign * field, grid, radius)
+        field = sign * _widen_necks(sign * field, grid, radius)
     for sign in (1, -1, 1):
-        field = sign * _opened(sign * field, grid, radius)
-    steps = math.ceil((min(blur, CAREFUL * _thickest(field, h)) / h) ** 2 / (2 * ALPHA))
+        field = sign * _open_field(sign * field, grid, radius)
+    steps = math.ceil((min(blur, CAREFUL * _smallest_thickness(field, h)) / h) ** 2 / (2 * ALPHA))
     profile = np.tanh(STEEPNESS / (INTERFACE * h) * field)
     smoothing = Smoothing(steps=steps, fidelity=FIDELITY, interface=INTERFACE, alpha=ALPHA)
     phi = smooth(profile, smoothing, spacing=grid.spacing, method="inplace").astype(np.float64)
     return np.arctanh(np.clip(phi, -0.9999, 0.9999))
 
 
-def _thickest(field: Floats, h: float) -> float:
+def _smallest_thickness(field: Floats, h: float) -> float:
     """Return the smaller of both colours' largest distances to the other, to a few cells, mm."""
     from scipy.ndimage import distance_transform_edt
 
-    some = field[::COARSE, ::COARSE]
-    return COARSE * h * min(float(distance_transform_edt(sign * some > 0).max()) for sign in (1, -1))
+    coarse = field[::COARSE, ::COARSE]
+    return COARSE * h * min(float(distance_transform_edt(sign * coarse > 0).max()) for sign in (1, -1))
 
 
-def _opened(field: Floats, grid: TileGrid, radius: float) -> Floats:
-    """Return the field without the places above 0 into which no disc fits; half a cell is allowed for the grid."""
+def _open_field(field: Floats, grid: TileGrid, radius: float) -> Floats:
+    """Remove the places above 0 into which no disc fits; half a cell is allowed for the grid."""
     from scipy.ndimage import distance_transform_edt
 
     h = max(grid.spacing)
     core = field > radius - h / 2
     if not core.any():
         return np.minimum(field, -h)
-    away: Floats = distance_transform_edt(~core, sampling=grid.spacing)
-    return np.minimum(field, radius + h - away)
+    distance: Floats = distance_transform_edt(~core, sampling=grid.spacing)
+    return np.minimum(field, radius + h - distance)
 
 
-def _widened(field: Floats, grid: TileGrid, radius: float) -> Floats:
-    """Return the field with its narrow places above 0 widened about their middle, until beads there just touch.
+def _widen_necks(field: Floats, grid: TileGrid, radius: float) -> Floats:
+    """Widen the narrow places above 0 about their middle, until beads there just touch.
 
-    That is done where they are long, or lead from one wide place to another; the others are tips and specks.
+    Only places that are long, or lead from one wide place to another, are widened; the others are tips and specks.
     """
     from scipy.ndimage import binary_dilation, distance_transform_edt, label, maximum_filter, sum_labels
 
-    wide = _opened(field, grid, radius) > 0
+    wide = _open_field(field, grid, radius) > 0
     narrow, count = label((field > 0) & ~wide, structure=EIGHT)
     if not count:
         return field
@@ -95,18 +95,18 @@ def _widened(field: Floats, grid: TileGrid, radius: float) -> Floats:
     middle = (narrow > 0) & (slope < RIDGE)
     long = sum_labels(middle, narrow, np.arange(count + 1)) > 4 * radius / max(grid.spacing)
     doors, _ = label(binary_dilation(narrow > 0, structure=EIGHT) & wide, structure=EIGHT)
-    there = doors > 0
-    pairs = np.unique(np.stack([maximum_filter(narrow, 3)[there], doors[there]]), axis=1)
+    is_door = doors > 0
+    pairs = np.unique(np.stack([maximum_filter(narrow, 3)[is_door], doors[is_door]]), axis=1)
     leading = np.bincount(pairs[0], minlength=count + 1) > 1
     middle &= (long | leading)[narrow]
     if not middle.any():
         return field
-    away: Floats = distance_transform_edt(~middle, sampling=grid.spacing)
-    return np.maximum(field, radius - away)
+    distance: Floats = distance_transform_edt(~middle, sampling=grid.spacing)
+    return np.maximum(field, radius - distance)
 
 
-def _doubled(field: Floats, edges: Floats, grid: TileGrid, radius: float) -> Floats:
-    """Return the field with a strip around each edge, of the colour that is not there."""
+def _double_edges(field: Floats, edges: Floats, grid: TileGrid, radius: float) -> Floats:
+    """Add a strip around each edge, of the opposite colour."""
     if not len(edges):
         return field
     band = radius + 4 * max(grid.spacing)
@@ -114,27 +114,27 @@ def _doubled(field: Floats, edges: Floats, grid: TileGrid, radius: float) -> Flo
     middle = np.round((pieces.mean(axis=1) - grid.first) / grid.spacing).astype(int)
     # Edges lie in one tile, and so within the grid.
     colour = field[tuple(np.clip(middle, 0, np.array(grid.nodes) - 1).T)] > 0
-    for sign, some in ((1, colour), (-1, ~colour)):
-        if some.any():
-            strip = distances(around(pieces[some], grid, band), grid, band) - radius
+    for sign, in_colour in ((1, colour), (-1, ~colour)):
+        if in_colour.any():
+            strip = distances(around(pieces[in_colour], grid, band), grid, band) - radius
             field = sign * np.minimum(sign * field, strip)
     return field
 
 
-def _opened_crossings(field: Floats, borders: Borders, grid: TileGrid, radius: float) -> Floats:
-    """Return the field with a disc at each crossing, of the colour that is to be connected there."""
+def _open_crossings(field: Floats, borders: Borders, grid: TileGrid, radius: float) -> Floats:
+    """Add a disc at each crossing, of the colour to connect there."""
     field = field.copy()
     reach = np.ceil(2 * radius / np.array(grid.spacing)).astype(int) + 1
-    both = np.stack([borders.crossings, borders.crossings + radius * borders.inward], axis=1)
-    for centre, inward in around(both, grid, 2 * radius):
+    pairs = np.stack([borders.crossings, borders.crossings + radius * borders.inward], axis=1)
+    for centre, inward in around(pairs, grid, 2 * radius):
         inside = np.round((inward - grid.first) / grid.spacing).astype(int)
         middle = np.round((centre - grid.first) / grid.spacing).astype(int)
         low, high = np.maximum(middle - reach, 0), np.minimum(middle + reach + 1, grid.nodes)
         if (low >= high).any() or (inside < 0).any() or (inside >= grid.nodes).any():
             continue
-        here = np.ix_(*(np.arange(a, b) for a, b in zip(low, high, strict=True)))
-        x, y = (grid.first[axis] + here[axis] * grid.spacing[axis] - centre[axis] for axis in (0, 1))
+        window = np.ix_(*(np.arange(a, b) for a, b in zip(low, high, strict=True)))
+        x, y = (grid.first[axis] + window[axis] * grid.spacing[axis] - centre[axis] for axis in (0, 1))
         disc = radius - np.hypot(x, y)
         sign = 1 if field[tuple(inside)] > 0 else -1
-        field[here] = sign * np.maximum(sign * field[here], disc)
+        field[window] = sign * np.maximum(sign * field[window], disc)
     return field
