@@ -3,7 +3,7 @@
     Metadata/plate_1.gcode        the text
     Metadata/plate_1.gcode.md5    its MD5 in hexadecimal digits
 
-A printer refuses a plate whose MD5 does not fit, so it is compared on reading and made anew on writing.
+A printer rejects a plate whose MD5 does not match, so the MD5 is compared on reading and recomputed on writing.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ AGAIN = "copy or slice the file again"
 
 
 def is_archive(head: bytes) -> bool:
-    """Tell a zip by its first bytes (four are enough); `plates` tells whether there is G-code in it."""
+    """Return True if a file begins like a zip (four bytes are enough); `plates` finds the G-code in it."""
     return head[:4] == b"PK\x03\x04"
 
 
@@ -37,10 +37,10 @@ def plates(file: BinaryIO) -> tuple[int, ...]:
     Raises
     ------
     FormatError
-        The file is no zip, is damaged, or holds no G-code.
+        The file is not a zip, is damaged, or holds no G-code.
     """
-    with _archive(file) as archive:
-        return tuple(sorted(_members(archive)))
+    with _open_archive(file) as archive:
+        return tuple(sorted(_find_members(archive)))
 
 
 def plate_pieces(file: BinaryIO, plate: int) -> Iterator[bytes]:
@@ -49,118 +49,119 @@ def plate_pieces(file: BinaryIO, plate: int) -> Iterator[bytes]:
     Raises
     ------
     FormatError
-        As `plates`; or, after the last piece, the MD5 beside the text does not fit.
+        As `plates`; or, after the last piece, the stated MD5 does not match the text.
     ParameterError
-        There is no such plate.
+        The archive does not have this plate.
     """
-    return whole_lines(_text(file, plate))
+    return whole_lines(_read_text(file, plate))
 
 
 def rewritten_archive(source: BinaryIO, target: BinaryIO, texts: Mapping[int, Iterable[bytes]]) -> None:
-    """Write an archive anew with other G-code for some plates, and its MD5; all other members keep their bytes.
+    """Copy an archive with new G-code and a new MD5 for some plates; all other members keep their bytes.
 
     Parameters
     ----------
     source, target : BinaryIO
         The old file and the new one.
     texts : mapping from plate to iterable of bytes
-        The new text of each plate that changes, in pieces of any length, taken one by one. It may come from
-        `plate_pieces` of the same file opened once more.
+        The new text of each plate that changes, in pieces of any length, read one by one. It may come from
+        `plate_pieces` of the same file opened a second time.
 
     Raises
     ------
     FormatError, ParameterError
         As `plate_pieces`.
     """
-    with _archive(source) as old, zipfile.ZipFile(target, "w") as new:
-        members = _members(old)
-        changed = {_member(members, plate): text for plate, text in texts.items()}
+    with _open_archive(source) as old, zipfile.ZipFile(target, "w") as new:
+        members = _find_members(old)
+        changed = {_get_member(members, plate): text for plate, text in texts.items()}
         for info in old.infolist():
             if info.filename in changed:
                 _write_plate(old, new, info, changed[info.filename])
             elif info.filename.removesuffix(SUM) not in changed:
-                with _opened(new, info) as writing:
-                    writing.writelines(_chunks(old, info.filename))
+                with _open_member(new, info) as writing:
+                    writing.writelines(_read_chunks(old, info.filename))
         new.comment = old.comment
 
 
 def _write_plate(old: zipfile.ZipFile, new: zipfile.ZipFile, info: zipfile.ZipInfo, text: Iterable[bytes]) -> None:
     digest = hashlib.md5(usedforsecurity=False)
-    with _opened(new, info) as writing:
+    with _open_member(new, info) as writing:
         for piece in text:
             digest.update(piece)
             writing.write(piece)
-    stated = _sum(old, info.filename)
+    stated = _stated_md5(old, info.filename)
     if stated is not None:
         new_sum = digest.hexdigest()
-        # Some readers want capitals: the old file knows.
+        # Some readers want capitals: follow the old file.
         new_sum = new_sum if stated == stated.lower() else new_sum.upper()
-        with _opened(new, old.getinfo(info.filename + SUM)) as writing:
+        with _open_member(new, old.getinfo(info.filename + SUM)) as writing:
             writing.write(new_sum.encode())
 
 
-def _text(file: BinaryIO, plate: int) -> Iterator[bytes]:
-    with _archive(file) as archive:
-        name = _member(_members(archive), plate)
+def _read_text(file: BinaryIO, plate: int) -> Iterator[bytes]:
+    with _open_archive(file) as archive:
+        name = _get_member(_find_members(archive), plate)
         digest = hashlib.md5(usedforsecurity=False)
-        for piece in _chunks(archive, name):
+        for piece in _read_chunks(archive, name):
             digest.update(piece)
             yield piece
-        stated = _sum(archive, name)
+        stated = _stated_md5(archive, name)
     if stated is not None and stated.lower() != digest.hexdigest():
         raise FormatError(f"{name} is damaged: its MD5 does not fit; {AGAIN}")
 
 
-def _sum(archive: zipfile.ZipFile, name: str) -> str | None:
-    """Read the MD5 that the archive states for a plate, if it does."""
+def _stated_md5(archive: zipfile.ZipFile, name: str) -> str | None:
+    """Read the MD5 that the archive states for a plate, if any."""
     if name + SUM not in archive.namelist():
         return None
-    return next(_chunks(archive, name + SUM), b"").decode("ascii", "replace").strip()
+    return next(_read_chunks(archive, name + SUM), b"").decode("ascii", "replace").strip()
 
 
-def _members(archive: zipfile.ZipFile) -> dict[int, str]:
-    found = (PLATE.fullmatch(name) for name in archive.namelist())
-    members = {int(match[1]): match[0] for match in found if match}
+def _find_members(archive: zipfile.ZipFile) -> dict[int, str]:
+    matches = (PLATE.fullmatch(name) for name in archive.namelist())
+    members = {int(match[1]): match[0] for match in matches if match}
     if not members:
         raise FormatError("the archive holds no G-code (Metadata/plate_1.gcode); slice the plate, then export it again")
     return members
 
 
-def _member(members: Mapping[int, str], plate: int) -> str:
+def _get_member(members: Mapping[int, str], plate: int) -> str:
     if plate not in members:
-        there = ", ".join(map(str, sorted(members)))
-        raise ParameterError(f"plate is {plate}, which is not in the archive; it has {there}")
+        available = ", ".join(map(str, sorted(members)))
+        raise ParameterError(f"plate is {plate}, which is not in the archive; it has {available}")
     return members[plate]
 
 
-def _opened(new: zipfile.ZipFile, like: zipfile.ZipInfo) -> BinaryIO:
-    # A copy: writing changes sizes and places in what it is given.
+def _open_member(new: zipfile.ZipFile, like: zipfile.ZipInfo) -> BinaryIO:
+    # A copy: zipfile changes sizes and offsets in the object it gets.
     return new.open(copy(like), "w", force_zip64=like.file_size > LARGE)  # type: ignore[return-value]
 
 
-def _archive(file: BinaryIO) -> zipfile.ZipFile:
-    with _readable():
+def _open_archive(file: BinaryIO) -> zipfile.ZipFile:
+    with _wrap_zip_errors():
         archive = zipfile.ZipFile(file)
     names = archive.namelist()
     if any(info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) for info in archive.infolist()):
         raise FormatError(f"the archive is not compressed as slicers do it; {AGAIN}")
-    if len(set(names)) < len(names):  # readers do not agree on which of them counts
+    if len(set(names)) < len(names):  # readers disagree on which of them counts
         twice = next(name for number, name in enumerate(names) if name in names[:number])
         raise FormatError(f"the archive holds {twice!r} twice; {AGAIN}")
     return archive
 
 
-def _chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
-    with _readable(), archive.open(name) as reading:
+def _read_chunks(archive: zipfile.ZipFile, name: str) -> Iterator[bytes]:
+    with _wrap_zip_errors(), archive.open(name) as reading:
         while piece := reading.read(LONGEST_TEXT):
             yield piece
 
 
 @contextmanager
-def _readable() -> Iterator[None]:
-    """Say one line where the zip itself is at fault.
+def _wrap_zip_errors() -> Iterator[None]:
+    """Raise FormatError, in one line, where the zip itself is at fault.
 
-    RuntimeError is what an encrypted one ends in, ValueError a name that is no text, OSError a place before its begin.
+    zipfile raises RuntimeError for an encrypted one, ValueError for a name that is not text, OSError for an offset
+    before its start.
     """
     try:
         yield

@@ -1,6 +1,6 @@
-"""Binary G-code (.bgcode) as text and metadata, and written anew: the meaning of the blocks of `block_file`.
+"""Binary G-code (.bgcode) read as text and metadata, and written: the meaning of the blocks of `block_file`.
 
-What comes back from a file that was written with MeatPack is not every byte that went in: see `meatpack`.
+A file written with MeatPack does not return every byte that went in: see `meatpack`.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ METADATA = (Kind.FILE_METADATA, Kind.SLICER_METADATA, Kind.PRINTER_METADATA, Kin
 
 
 def decoded(block: Block) -> bytes:
-    """Give what a block holds: G-code text, metadata as key=value lines, or an image.
+    """Decode the content of a block: G-code text, metadata as key=value lines, or an image.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def decoded(block: Block) -> bytes:
         The data does not decompress to the size that the block states, or does not unpack.
     """
     try:
-        data = _decompressed(block)
+        data = _decompress(block)
         packed = block.kind == Kind.GCODE and block.encoding != Encoding.NONE
         return meatpack.unpacked(data) if packed else data
     except FormatError as told:
@@ -63,32 +63,32 @@ def decoded(block: Block) -> bytes:
 
 
 def encoded(text: bytes, *, like: Block) -> Block:
-    """Make a block that holds a text, encoded and compressed as another block is.
+    """Make a block that holds a text, encoded and compressed like another block.
 
-    MeatPack leaves out what `meatpack.normalised` says: blank lines, blanks, comments behind commands. Prusa's
-    firmware stops a print where a block of G-code has another encoding or compression than the one before, so
-    neither changes from block to block, even where a block grows. Each is decoded again before it is given back.
+    MeatPack drops blank lines, blanks and comments behind commands, see `meatpack.normalised`. Prusa's firmware
+    stops a print where a block of G-code has another encoding or compression than the previous block, so neither
+    changes from block to block, even where a block grows. Each block is decoded as a check before it is returned.
 
     Parameters
     ----------
     text : bytes
         Whole lines of G-code, or key=value lines of metadata.
     like : Block
-        Where kind, encoding and compression come from.
+        The block whose kind, encoding and compression the new one takes.
 
     Raises
     ------
     OutputError
         The block does not decode to the text; with MeatPack the bytes 255 255 cannot be written.
     """
-    data = wanted = text
+    data = expected = text
     if like.kind == Kind.GCODE and like.encoding != Encoding.NONE:
         comments = like.encoding == Encoding.MEATPACK_COMMENTS
-        wanted = meatpack.normalised(text, comments=comments)
-        data = meatpack.packed(wanted, comments=comments)
-    result = replace(like, data=_compressed(data, like.compression), size=len(data), number=0)
+        expected = meatpack.normalised(text, comments=comments)
+        data = meatpack.packed(expected, comments=comments)
+    result = replace(like, data=_compress(data, like.compression), size=len(data), number=0)
     try:
-        same = decoded(result) == wanted
+        same = decoded(result) == expected
     except FormatError:
         same = False
     if not same:
@@ -105,7 +105,7 @@ def metadata(block: Block) -> dict[str, str]:
 
 
 def edited(block: Block, changes: Mapping[str, str]) -> Block:
-    """Change values of a block of metadata; keys that it has not stay away, and all else stays as it is.
+    """Change values of a block of metadata; skip keys that it lacks, and keep all else.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def edited(block: Block, changes: Mapping[str, str]) -> Block:
                 f"the value of {key} is {value!r}, and metadata has one line each; take the breaks out"
             )
     lines = _metadata_text(block).split(b"\n")
-    named = {_bytes(key): _bytes(value) for key, value in changes.items()}
+    named = {_encode_text(key): _encode_text(value) for key, value in changes.items()}
     new = []
     for line in lines:
         word = line.partition(b"=")[0]
@@ -127,31 +127,31 @@ def edited(block: Block, changes: Mapping[str, str]) -> Block:
 
 
 def text_pieces(file: BinaryIO) -> Iterator[bytes]:
-    """Read the G-code text of a file in pieces of whole lines, LONGEST_TEXT bytes at most but for a longer line.
+    """Read the G-code text of a file in pieces of whole lines, up to LONGEST_TEXT bytes; a longer line is one piece.
 
     Raises
     ------
     FormatError
-        As `blocks` and `decoded`; or the file has no G-code in it.
+        As `blocks` and `decoded`; or the file has no G-code.
     """
-    return whole_lines(_texts(file))
+    return whole_lines(_read_texts(file))
 
 
 def rewritten(
     source: BinaryIO, target: BinaryIO, text: Iterable[bytes], changes: Mapping[str, str] | None = None
 ) -> frozenset[str]:
-    """Write a file anew with other G-code text; everything else is copied byte for byte.
+    """Write a file with other G-code text; copy everything else byte for byte; return the keys of `changes` it has.
 
-    The new blocks of G-code stand where the first old one stood, are encoded as that one is, and hold at most
-    LONGEST_TEXT bytes of text each in whole lines.
+    The new blocks of G-code stand where the first old one stood, have its encoding, and hold at most LONGEST_TEXT
+    bytes of text each, in whole lines.
 
     Parameters
     ----------
     source, target : BinaryIO
         The old file at its start, and the new one.
     text : iterable of bytes
-        The new text in pieces of any length, taken one by one; it may come from `text_pieces` of the same file
-        opened once more.
+        The new text in pieces of any length, read one by one; it may come from `text_pieces` of the same file
+        opened a second time.
     changes : mapping, optional
         New values of metadata of the print and of the printer.
 
@@ -161,7 +161,7 @@ def rewritten(
         The keys of `changes` that the file has.
     """
     changes = changes or {}
-    found: set[str] = set()
+    present_keys: set[str] = set()
     started = copied = False
     for block in blocks(source):
         if not started:
@@ -173,15 +173,15 @@ def rewritten(
                 target.writelines(stored(encoded(piece, like=block)) for piece in whole_lines(text))
             continue
         if changes and block.kind in (Kind.PRINT_METADATA, Kind.PRINTER_METADATA):
-            found |= metadata(block).keys() & changes.keys()
+            present_keys |= metadata(block).keys() & changes.keys()
             block = edited(block, changes)
         target.write(stored(block))
     if not copied:
         raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
-    return frozenset(found)
+    return frozenset(present_keys)
 
 
-def _texts(file: BinaryIO) -> Iterator[bytes]:
+def _read_texts(file: BinaryIO) -> Iterator[bytes]:
     empty = True
     for block in blocks(file):
         if block.kind == Kind.GCODE:
@@ -191,7 +191,7 @@ def _texts(file: BinaryIO) -> Iterator[bytes]:
         raise FormatError(f"binary G-code without a block of G-code; {AGAIN}")
 
 
-def _bytes(text: str) -> bytes:
+def _encode_text(text: str) -> bytes:
     return text.encode(errors="surrogateescape")
 
 
@@ -203,7 +203,7 @@ def _metadata_text(block: Block) -> bytes:
     return decoded(block)
 
 
-def _decompressed(block: Block) -> bytes:
+def _decompress(block: Block) -> bytes:
     match block.compression:
         case Compression.NONE:
             return block.data
@@ -219,7 +219,7 @@ def _decompressed(block: Block) -> bytes:
     return heatshrink.decompressed(block.data, size=block.size, window=WINDOWS[block.compression])
 
 
-def _compressed(data: bytes, compression: Compression) -> bytes:
+def _compress(data: bytes, compression: Compression) -> bytes:
     match compression:
         case Compression.NONE:
             return data

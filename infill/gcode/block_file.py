@@ -1,4 +1,4 @@
-"""The frame of binary G-code (.bgcode): a head of ten bytes, then blocks of metadata, thumbnails and packed G-code.
+"""The frame of binary G-code (.bgcode): a header of ten bytes, then blocks of metadata, thumbnails and packed G-code.
 
     head    "GCDE", version 1 (4 bytes), checksum 0 none or 1 CRC32 (2)
     block   kind (2), compression (2), size (4), size as stored (4, if compressed),
@@ -26,7 +26,7 @@ AGAIN = "copy or slice the file again"
 
 
 class Kind(IntEnum):
-    """What a block holds."""
+    """Content of a block."""
 
     FILE_METADATA = 0
     GCODE = 1
@@ -37,7 +37,7 @@ class Kind(IntEnum):
 
 
 class Compression(IntEnum):
-    """How the data of a block is compressed."""
+    """Compression of a block's data."""
 
     NONE = 0
     DEFLATE = 1
@@ -46,7 +46,7 @@ class Compression(IntEnum):
 
 
 class Encoding(IntEnum):
-    """How a block of G-code holds its text before compression."""
+    """Encoding of a block's G-code text, before compression."""
 
     NONE = 0
     MEATPACK = 1
@@ -55,12 +55,12 @@ class Encoding(IntEnum):
 
 @dataclass(frozen=True, kw_only=True)
 class Block:
-    """One block as it stands in the file.
+    """One block as stored in the file.
 
     Attributes
     ----------
     kind, compression : Kind, Compression
-        What the data is, and how it is stored.
+        Kind of the data, and its compression.
     size : int
         Bytes of the data once decompressed.
     parameters : bytes
@@ -83,33 +83,33 @@ class Block:
 
     @property
     def encoding(self) -> int:
-        """How the data is encoded; of a thumbnail, its format."""
+        """Encoding of the data; of a thumbnail, its format."""
         return int.from_bytes(self.parameters[:2], "little")
 
     @property
     def name(self) -> str:
-        """Its place and kind, for messages."""
+        """Place and kind of the block, for messages."""
         return named(self.number, self.kind)
 
 
 def named(number: int, kind: Kind) -> str:
-    """Call a block by its place and kind, for messages."""
+    """Return the place and kind of a block as text, for messages."""
     return f"block {number} ({kind.name.lower().replace('_', ' ').replace('gcode', 'G-code')})"
 
 
 def is_binary(head: bytes) -> bool:
-    """Tell binary G-code by its first bytes (four are enough), whatever the file is called."""
+    """Return True if the first bytes of a file are those of binary G-code (four are enough), whatever its name."""
     return head[:4] == MAGIC
 
 
 def blocks(file: BinaryIO) -> Iterator[Block]:
-    """Read the blocks of a file one by one, checksums compared.
+    """Read the blocks of a file one by one, and compare checksums.
 
     Raises
     ------
     FormatError
-        The file is cut off or damaged, or has a version, checksum, kind, compression or encoding that is not
-        known here; the message names the block.
+        The file is cut off or damaged, or has an unsupported version, checksum, kind, compression or encoding;
+        the message names the block.
     """
     head = file.read(HEAD.size)
     if not is_binary(head):
@@ -122,11 +122,11 @@ def blocks(file: BinaryIO) -> Iterator[Block]:
     if checksum not in (0, 1):
         raise FormatError(f"binary G-code with checksum type {checksum}, and only 0 and 1 are known; {AGAIN}")
     number = 0
-    while block := _block(file, number := number + 1, summed=checksum == 1):
+    while block := _read_block(file, number := number + 1, summed=checksum == 1):
         yield block
 
 
-def _block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
+def _read_block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
     head = file.read(8)
     if not head:
         return None
@@ -150,9 +150,14 @@ def _block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
     if max(size, length) > limit:
         raise FormatError(f"{name} states {max(size, length)} bytes, and {limit} are the most that we read; {AGAIN}")
     data, sum_bytes = file.read(length), file.read(4 * summed)
-    wanted = (0 if compression == Compression.NONE else 4, 6 if kind == Kind.THUMBNAIL else 2, length, 4 * summed)
-    if (got := (len(packed_size), len(parameters), len(data), len(sum_bytes))) != wanted:
-        raise FormatError(f"{name} is cut off: {8 + sum(got)} of its {8 + sum(wanted)} bytes; {AGAIN}")
+    expected_sizes = (
+        0 if compression == Compression.NONE else 4,
+        6 if kind == Kind.THUMBNAIL else 2,
+        length,
+        4 * summed,
+    )
+    if (sizes := (len(packed_size), len(parameters), len(data), len(sum_bytes))) != expected_sizes:
+        raise FormatError(f"{name} is cut off: {8 + sum(sizes)} of its {8 + sum(expected_sizes)} bytes; {AGAIN}")
     body = head + packed_size + parameters + data
     if summed and zlib.crc32(body) != int.from_bytes(sum_bytes, "little"):
         raise FormatError(f"{name} is damaged: its checksum does not fit; {AGAIN}")
@@ -168,7 +173,7 @@ def _block(file: BinaryIO, number: int, *, summed: bool) -> Block | None:
 
 
 def stored(block: Block) -> bytes:
-    """Give the bytes of a block as they stand in a file, checksum included."""
+    """Return the bytes of a block as stored in a file, with its checksum."""
     sizes = (block.size,) if block.compression == Compression.NONE else (block.size, len(block.data))
     head = struct.pack(f"<HH{len(sizes)}I", block.kind, block.compression, *sizes)
     body = head + block.parameters + block.data

@@ -1,4 +1,4 @@
-"""Sections of infill as wholes: what stands between the first and the last move of each, and new paths in its place."""
+"""Sections of infill, each with all lines from its first to its last move, and new paths in their place."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
 LEAST_STEP = 1e-6  # mm
-ALIKE = 0.03  # strokes of one section that are drawn anew extrude alike to this share
-# What a machine is told on the way, and may as well be told at the end of a section.
+ALIKE = 0.03  # new strokes of one section have equal filament per mm up to this share
+# Commands that may be sent at the end of a section as well as in the middle.
 HARMLESS = {"M73", "M117", "M118", "M106", "M107", "M204", "M205", "M900", "M572", "M70", "G10", "G11"}
 HARMLESS_WORDS = {"SET_VELOCITY_LIMIT", "SET_PRESSURE_ADVANCE"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """What stands between the first and the last move of a section, inclusive.
+    """The lines from the first to the last move of a section, inclusive.
 
     Parameters
     ----------
@@ -34,9 +34,9 @@ class Body:
     first, last : int
         Lines of the table.
     strokes : (S,) int
-        Its strokes.
+        Strokes of the section.
     start, end : (2,) float64, mm
-        Where the nozzle is before the first move, and where it must be in the end.
+        Nozzle before the first move, and after the last one.
     z : float, mm
     layer : int
     rate : float
@@ -63,52 +63,54 @@ class Body:
 
 
 def bodies(table: Table, marks: Marks, infill: Strokes) -> tuple[list[Body], dict[str, list[int]]]:
-    """Return the sections that can be drawn anew, and which cannot, by reason."""
-    found: list[Body] = []
+    """Find the sections that can get new paths; return them, and the numbers of the other sections by reason."""
+    editable: list[Body] = []
     odd: dict[str, list[int]] = {}
     opens, closes = infill.opens, infill.closes
     section = marks.section[opens]
     commands = {command.line: command for command in table.commands}
     for number in np.unique(section):
-        some = np.flatnonzero(section == number)
-        reason = _oddness(table, marks, infill, some, int(opens[some[0]]), int(closes[some[-1]]), commands)
+        stroke_rows = np.flatnonzero(section == number)
+        reason = _refusal_reason(
+            table, marks, infill, stroke_rows, int(opens[stroke_rows[0]]), int(closes[stroke_rows[-1]]), commands
+        )
         if reason:
             odd.setdefault(reason, []).append(int(number))
             continue
-        length, filament = infill.length[some], infill.filament[some]
-        feeds, which = np.unique(table.f[opens[some]], return_inverse=True)
-        last = int(closes[some[-1]])
-        found.append(
+        length, filament = infill.length[stroke_rows], infill.filament[stroke_rows]
+        feeds, which = np.unique(table.f[opens[stroke_rows]], return_inverse=True)
+        last_line = int(closes[stroke_rows[-1]])
+        editable.append(
             Body(
                 section=int(number),
-                first=int(opens[some[0]]),
-                last=last,
-                strokes=some,
-                start=infill.points[infill.first[some[0]]],
-                end=infill.points[infill.first[some[-1] + 1] - 1],
-                z=float(table.z[opens[some[0]]]),
-                layer=int(marks.layer[opens[some[0]]]),
+                first=int(opens[stroke_rows[0]]),
+                last=last_line,
+                strokes=stroke_rows,
+                start=infill.points[infill.first[stroke_rows[0]]],
+                end=infill.points[infill.first[stroke_rows[-1] + 1] - 1],
+                z=float(table.z[opens[stroke_rows[0]]]),
+                layer=int(marks.layer[opens[stroke_rows[0]]]),
                 rate=float(filament.sum() / length.sum()),
                 filament=float(filament.sum()),
                 length=float(length.sum()),
                 feed=float(feeds[np.argmax(np.bincount(which, length))]),
-                feed_after=float(table.f[last]),
+                feed_after=float(table.f[last_line]),
             )
         )
-    return found, odd
+    return editable, odd
 
 
-def _oddness(
+def _refusal_reason(
     table: Table,
     marks: Marks,
     infill: Strokes,
-    some: Places,
-    first: int,
-    last: int,
+    stroke_rows: Places,
+    first_line: int,
+    last_line: int,
     commands: dict[int, Command],
 ) -> str:
-    """Say why a section cannot be drawn anew; nothing if it can."""
-    inside = slice(first, last + 1)
+    """Name the reason why a section cannot get new paths; "" if it can."""
+    inside = slice(first_line, last_line + 1)
     kinds = table.kind[inside]
     if (kinds == ODD).any():
         return "a line that cannot be read"
@@ -116,37 +118,41 @@ def _oddness(
         return "arcs"
     if table.numbered[inside].any():
         return "line numbers"
-    rate = infill.filament[some] / infill.length[some]
+    rate = infill.filament[stroke_rows] / infill.length[stroke_rows]
     if np.ptp(rate) > ALIKE * rate.mean():
-        long = infill.length[some] > 2.0
+        long = infill.length[stroke_rows] > 2.0
         if np.ptp(rate[long] if long.any() else rate) > ALIKE * rate.mean():
             return "lines of different widths"
-    if np.isnan(table.z[first]) or np.ptp(table.z[infill.opens[some]]) > 0:
+    if np.isnan(table.z[first_line]) or np.ptp(table.z[infill.opens[stroke_rows]]) > 0:
         return "lines at different heights"
-    for line in range(first, last + 1):
+    for line in range(first_line, last_line + 1):
         command = commands.get(line)
-        if command is not None and not _harmless(command):
+        if command is not None and not _is_harmless(command):
             return f"a {command.code or 'strange'} command in between"
-    # Everything that extrudes between its first and last move must be a stroke.
-    drawn = np.flatnonzero(table.extruded[inside] > 0) + first
+    # Everything that extrudes between the first and the last move of the section must be a stroke.
+    drawn = np.flatnonzero(table.extruded[inside] > 0) + first_line
     moving = drawn[table.given[drawn, 0] | table.given[drawn, 1]]
-    own = np.isin(moving, infill.moves)  # where a stroke begins, another may end
-    return "" if own.all() and (marks.section[inside] == marks.section[first]).all() else "extrusion of another kind"
+    in_stroke = np.isin(moving, infill.moves)  # where a stroke begins, another may end
+    return (
+        ""
+        if in_stroke.all() and (marks.section[inside] == marks.section[first_line]).all()
+        else "extrusion of another kind"
+    )
 
 
-def _harmless(command: Command) -> bool:
-    """Return whether a command may stand between moves that are drawn anew."""
+def _is_harmless(command: Command) -> bool:
+    """Return True if a command may stand between moves that get new paths."""
     return command.code in HARMLESS or command.code in HARMLESS_WORDS or _sets_counter(command)
 
 
 def _sets_counter(command: Command) -> bool:
-    """Return whether a command sets the counter of filament, and nothing else."""
+    """Return True if a command only sets the counter of filament."""
     return command.code == "G92" and set(command.words) == {"E"}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ways:
-    """How the print travels and retracts.
+    """Travel and retraction of a print.
 
     Parameters
     ----------
@@ -170,7 +176,7 @@ class Ways:
 
 
 def ways_of(table: Table, before: Ways | None = None) -> Ways:
-    """Return how a table travels and retracts: the usual amounts and feed rates."""
+    """Measure the travel and retraction of a table: the most usual amounts and feed rates."""
     moved = table.given[:, 0] | table.given[:, 1]
     still = (table.kind == MOVE) & ~moved
     back, forth = still & (table.extruded < 0), still & (table.extruded > 0)
@@ -179,30 +185,30 @@ def ways_of(table: Table, before: Ways | None = None) -> Ways:
     depth = np.maximum.accumulate(np.maximum(total, 0.0)) - total
     rises = np.diff(table.z, prepend=table.before.z)
     up = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises > 0)
-    known = before or Ways()
+    default = before or Ways()
 
     def usual(values: Floats, otherwise: float) -> float:
         values = values[np.isfinite(values) & (values > 0)]
         return float(np.median(values)) if len(values) else otherwise
 
-    # Layers begin with a rise too: a lift is what comes down again.
+    # Layers begin with a rise too: a lift comes down afterwards.
     down = (table.kind == MOVE) & table.given[:, 2] & ~moved & (depth > 1e-6) & (rises < 0)
     return Ways(
-        travel=usual(table.f[travel], known.travel),
-        retraction=usual(np.round(depth[travel & (depth > 0.05)], 5), known.retraction),
-        retract_feed=usual(table.f[back], known.retract_feed),
-        prime_feed=usual(table.f[forth], known.prime_feed),
-        lift=usual(-rises[down], known.lift) if down.any() else known.lift,
-        lift_feed=usual(table.f[up], known.lift_feed),
+        travel=usual(table.f[travel], default.travel),
+        retraction=usual(np.round(depth[travel & (depth > 0.05)], 5), default.retraction),
+        retract_feed=usual(table.f[back], default.retract_feed),
+        prime_feed=usual(table.f[forth], default.prime_feed),
+        lift=usual(-rises[down], default.lift) if down.any() else default.lift,
+        lift_feed=usual(table.f[up], default.lift_feed),
         firmware=any(firmware_retraction(command, table.before.firmware) for command in table.commands)
-        or known.firmware,
+        or default.firmware,
     )
 
 
 def composed(
     table: Table, body: Body, paths: Sequence[Floats], rate: float, ways: Ways, retracts: Sequence[bool]
 ) -> tuple[bytes, float]:
-    """Return the text of a body with new paths, and the filament that they take, mm.
+    """Write the text of a body with new paths; return it, and the filament that the paths take, mm.
 
     Parameters
     ----------
@@ -211,28 +217,30 @@ def composed(
     rate : float
         mm of filament per mm.
     retracts : sequence of bool, one more than paths
-        Whether to retract on the way to each path, and from the last one to the end of the body.
+        Whether to retract on the way to each path, and from the last path to the end of the body.
     """
     ends = b"\r\n" if table.text(body.first, body.first + 1).endswith(b"\r\n") else b"\n"
     relative = bool(table.relative_e[body.first])
     counter = float(table.e[body.first - 1]) if body.first else table.before.e
     begun = counter
-    here, feed = body.start, float(table.f[body.first - 1]) if body.first else table.before.f
+    position, feed = body.start, float(table.f[body.first - 1]) if body.first else table.before.f
     pieces: list[bytes] = []
     pushed = 0.0
 
-    def go(there: Floats, retract: bool) -> None:
+    def go(goal: Floats, retract: bool) -> None:
         nonlocal feed
-        if np.abs(there - here).max() < 1e-9:
+        if np.abs(goal - position).max() < 1e-9:
             return
-        up, down = _retraction(body, ways, counter, relative, ends) if retract else (b"", b"")
+        up, down = _retraction_lines(body, ways, counter, relative, ends) if retract else (b"", b"")
         pieces.append(up)
-        pieces.append(b"G1 X%s Y%s F%s%s" % (_word(there[0]), _word(there[1]), _word(ways.travel), ends))
+        pieces.append(
+            b"G1 X%s Y%s F%s%s" % (_format_word(goal[0]), _format_word(goal[1]), _format_word(ways.travel), ends)
+        )
         pieces.append(down)
         feed = ways.travel if not retract else np.nan
 
-    held = _held(table, body)
-    whole = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
+    kept_lines = _kept_lines(table, body)
+    total_length = sum(float(np.hypot(*np.diff(path, axis=0).T).sum()) for path in paths)
     drawn = 0.0
     for path, retract in zip(paths, retracts[:-1], strict=True):
         go(path[0], retract)
@@ -249,66 +257,68 @@ def composed(
             feeds[0] = feed = body.feed
         columns = [(b" X", path[1:, 0], 3), (b" Y", path[1:, 1], 3), (b" E", words, 5), (b" F", feeds, 3)]
         rows = write_words(columns, b"G1", ends)
-        done = 0
-        while held and held[0][0] * whole < drawn + along[-1]:  # a line that stood between moves
-            share, text = held.pop(0)
-            row = int(np.searchsorted(along, share * whole - drawn + LEAST_STEP))
-            pieces += [rows.text[rows.start[done] : rows.start[row]], text]
-            done = row
-        pieces.append(rows.text[rows.start[done] :])
+        copied_rows = 0
+        while kept_lines and kept_lines[0][0] * total_length < drawn + along[-1]:  # a line that stood between moves
+            share, text = kept_lines.pop(0)
+            row = int(np.searchsorted(along, share * total_length - drawn + LEAST_STEP))
+            pieces += [rows.text[rows.start[copied_rows] : rows.start[row]], text]
+            copied_rows = row
+        pieces.append(rows.text[rows.start[copied_rows] :])
         drawn += float(along[-1])
-        here = path[-1]
+        position = path[-1]
     go(body.end, retracts[-1])
-    pieces.extend(text for _, text in held)
+    pieces.extend(text for _, text in kept_lines)
     expected = float(table.e[body.last])
     if not relative and abs(counter - expected) >= FILAMENT_UNIT / 2:
-        pieces.append(b"G92 E%s%s" % (_word(expected, 5), ends))
+        pieces.append(b"G92 E%s%s" % (_format_word(expected, 5), ends))
     if feed != body.feed_after:
-        pieces.append(b"G1 F%s%s" % (_word(body.feed_after), ends))
+        pieces.append(b"G1 F%s%s" % (_format_word(body.feed_after), ends))
     return b"".join(pieces), pushed
 
 
-def exchanged(table: Table, some: Sequence[Body], texts: Sequence[bytes]) -> Spliced:
-    """Return the text of a table with the bodies of some sections exchanged."""
+def exchanged(table: Table, selected: Sequence[Body], texts: Sequence[bytes]) -> Spliced:
+    """Replace the bodies of some sections in the text of a table; return the new text."""
     pieces: list[bytes] = []
     same = np.ones(len(table), dtype=bool)
     change = np.zeros(len(table) + 1, dtype=np.intp)
-    done = 0
-    for body, text in zip(some, texts, strict=True):
-        pieces += [table.text(done, body.first), text]
+    copied_lines = 0
+    for body, text in zip(selected, texts, strict=True):
+        pieces += [table.text(copied_lines, body.first), text]
         same[body.first : body.last + 1] = False
         change[body.last + 1] += text.count(b"\n") - (body.last + 1 - body.first)
-        done = body.last + 1
-    pieces.append(table.text(done, len(table)))
+        copied_lines = body.last + 1
+    pieces.append(table.text(copied_lines, len(table)))
     return Spliced(text=b"".join(pieces), shift=np.cumsum(change), same=same)
 
 
-def unlawful(other: Table, done: Spliced, some: Sequence[Body], texts: Sequence[bytes]) -> str:
-    """Say what is wrong with the lines that are new, if anything is.
+def unlawful(new_table: Table, spliced_text: Spliced, selected: Sequence[Body], texts: Sequence[bytes]) -> str:
+    """Describe the first fault of the new lines; "" if there is none.
 
     Parameters
     ----------
-    other : Table
-        The new text, read.
-    some, texts
+    new_table : Table
+        The new text as a table.
+    selected, texts
         As for `exchanged`.
     """
-    fresh = np.ones(len(other), dtype=bool)
-    old = np.flatnonzero(done.same)
-    fresh[old + done.shift[old]] = False
-    drawn = fresh & (other.kind == MOVE) & (other.given[:, 0] | other.given[:, 1]) & (other.extruded != 0)
-    if (other.kind[fresh] == ODD).any():
+    fresh = np.ones(len(new_table), dtype=bool)
+    old = np.flatnonzero(spliced_text.same)
+    fresh[old + spliced_text.shift[old]] = False
+    drawn = (
+        fresh & (new_table.kind == MOVE) & (new_table.given[:, 0] | new_table.given[:, 1]) & (new_table.extruded != 0)
+    )
+    if (new_table.kind[fresh] == ODD).any():
         return "a new line that cannot be read"
-    if (other.extruded[drawn] < 0).any():
+    if (new_table.extruded[drawn] < 0).any():
         return "a new move that draws filament back"
-    if not np.isin(np.round(other.z[drawn], 6), np.round([body.z for body in some], 6)).all():
+    if not np.isin(np.round(new_table.z[drawn], 6), np.round([body.z for body in selected], 6)).all():
         return "a new move at another height"
-    if not (other.f[fresh] > 0).all():
+    if not (new_table.f[fresh] > 0).all():
         return "a new move without a feed rate"
-    for body, text in zip(some, texts, strict=True):
-        first = body.first + int(done.shift[body.first])
-        part = slice(first, first + text.count(b"\n"))
-        total = np.cumsum(other.extruded[part])  # the nozzle is primed where a body begins
+    for body, text in zip(selected, texts, strict=True):
+        first_line = body.first + int(spliced_text.shift[body.first])
+        part = slice(first_line, first_line + text.count(b"\n"))
+        total = np.cumsum(new_table.extruded[part])  # the nozzle is primed where a body begins
         depth = np.maximum.accumulate(np.maximum(total, 0.0)) - total
         if (depth[drawn[part]] > 1e-3).any():
             return "extrusion while retracted"
@@ -317,34 +327,34 @@ def unlawful(other: Table, done: Spliced, some: Sequence[Body], texts: Sequence[
     return ""
 
 
-def _retraction(body: Body, ways: Ways, counter: float, relative: bool, ends: bytes) -> tuple[bytes, bytes]:
-    """Return the lines before and after a travel that is retracted."""
+def _retraction_lines(body: Body, ways: Ways, counter: float, relative: bool, ends: bytes) -> tuple[bytes, bytes]:
+    """Return the lines before and after a travel with retraction."""
     if ways.firmware:
         back, forth = b"G10" + ends, b"G11" + ends
     elif ways.retraction:
         low = -ways.retraction if relative else counter - ways.retraction
         high = ways.retraction if relative else counter
-        back = b"G1 E%s F%s%s" % (_word(low, 5), _word(ways.retract_feed), ends)
-        forth = b"G1 E%s F%s%s" % (_word(high, 5), _word(ways.prime_feed), ends)
+        back = b"G1 E%s F%s%s" % (_format_word(low, 5), _format_word(ways.retract_feed), ends)
+        forth = b"G1 E%s F%s%s" % (_format_word(high, 5), _format_word(ways.prime_feed), ends)
     else:
         return b"", b""
     if ways.lift:
-        back += b"G1 Z%s F%s%s" % (_word(body.z + ways.lift), _word(ways.lift_feed), ends)
-        forth = b"G1 Z%s F%s%s" % (_word(body.z), _word(ways.lift_feed), ends) + forth
+        back += b"G1 Z%s F%s%s" % (_format_word(body.z + ways.lift), _format_word(ways.lift_feed), ends)
+        forth = b"G1 Z%s F%s%s" % (_format_word(body.z), _format_word(ways.lift_feed), ends) + forth
     return back, forth
 
 
-def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
-    """Return the lines of a body that are no moves, in their order, with the share of the filament before each.
+def _kept_lines(table: Table, body: Body) -> list[tuple[float, bytes]]:
+    """Return the lines of a body other than moves, in order, with the share of the filament before each.
 
-    Without retractions by firmware, which new paths have of their own, and without those that set a counter which goes
-    on from path to path: slicers set it after every retraction, new text once, in the end.
+    Leave out firmware retractions, since new paths have their own, and lines that set a counter which continues from
+    path to path: slicers set it after every retraction, new text once, at the end.
     """
     inside = slice(body.first, body.last + 1)
     moved = table.given[inside, 0] | table.given[inside, 1]
     pushed = np.cumsum(np.where(moved, np.maximum(table.extruded[inside], 0.0), 0.0))
     share = pushed / max(float(pushed[-1]), 1e-12)
-    kept = np.flatnonzero(table.kind[inside] != MOVE)
+    rows = np.flatnonzero(table.kind[inside] != MOVE)
     counted = not table.relative_e[body.first]
     left_out = {
         command.line
@@ -353,11 +363,11 @@ def _held(table: Table, body: Body) -> list[tuple[float, bytes]]:
     }
     return [
         (float(share[place]), table.text(body.first + place, body.first + place + 1))
-        for place in kept.tolist()
+        for place in rows.tolist()
         if body.first + place not in left_out
     ]
 
 
-def _word(value: float, decimals: int = 3) -> bytes:
+def _format_word(value: float, decimals: int = 3) -> bytes:
     text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
     return text.encode() if text not in ("", "-", "-0") else b"0"

@@ -1,4 +1,4 @@
-"""Text that comes in pieces: cut into whole lines, or read as a file."""
+"""Text in pieces: cut into whole lines, or read as a file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def whole_lines(texts: Iterable[bytes]) -> Iterator[bytes]:
 
 
 def as_file(texts: Iterable[bytes]) -> BinaryIO:
-    r"""Give texts as a file that can be read once, from front to back; each text is taken when it is needed.
+    r"""Return a file that can be read once, from front to back; each text is read when it is needed.
 
     Examples
     --------

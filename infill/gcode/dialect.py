@@ -1,8 +1,8 @@
-"""What slicers call things: the comments that carry structure, and the names of features.
+"""Words of slicers: the comments that carry structure, and the names of features.
 
 There are two families of tags, ``;TYPE:Internal infill`` (PrusaSlicer, SuperSlicer, OrcaSlicer for most printers) and
 ``; FEATURE: Sparse infill`` (Bambu Studio, OrcaSlicer for Bambu printers), and those of Cura, spelled like the first.
-Which family a file of OrcaSlicer uses depends on its printer, so all of them are understood in every file.
+The family in a file of OrcaSlicer depends on the printer, so all of them are understood in every file.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Final
 
-OTHER: Final = "other"  # the role of a name that no slicer we know writes
-UNTAGGED: Final = "untagged"  # the role of what stands before the first tag
+OTHER: Final = "other"  # role of a name that no known slicer writes
+UNTAGGED: Final = "untagged"  # role of everything before the first tag
 
-LONGEST_TAG: Final = 200  # bytes of a comment that are looked at
+LONGEST_TAG: Final = 200  # bytes of a comment that are examined
 TOOL_CODES: Final = ("M108", "M135")  # select a tool by T: Sailfish and MakerWare
 
-# What a comment says, by how it begins. The rest of the line is its value.
+# Meaning of a comment by its prefix. The rest of the line is its value.
 TAGS: Final[dict[bytes, str]] = {
     b";TYPE:": "role",
     b"; FEATURE:": "role",
@@ -82,9 +82,9 @@ _ROLE_OF: Final = {name: role for role, names in ROLES.items() for name in names
 
 
 def role_of(name: bytes) -> str:
-    """Return what a slicer's name of a feature means, the same word for every slicer, or "other".
+    """Return the role of a slicer's name of a feature, the same word for every slicer, or "other".
 
-    No name is "untagged": what stands before the first tag. Whole names count: "Gap infill" is no sparse infill.
+    An empty name is "untagged": everything before the first tag. Full names count: "Gap infill" is not sparse infill.
 
     >>> role_of(b"Internal infill"), role_of(b"FILL"), role_of(b"Gap infill"), role_of(b"Mill")
     ('sparse infill', 'sparse infill', 'gap fill', 'other')
@@ -93,7 +93,7 @@ def role_of(name: bytes) -> str:
 
 
 def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
-    """Return the tool that a command selects, the same word each time; nothing if it selects none.
+    """Return the tool that a command selects, always as the same word; "" if it selects none.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
     words : mapping
         Its numbers by letter.
     text : bytes
-        The whole line.
+        The full line.
 
     >>> tool_of("T1", {}, b"T1"), tool_of("M135", {"T": 1.0}, b"M135 T1"), tool_of("M104", {"S": 210.0}, b"M104 S210")
     ('T1', 'T1', '')
@@ -117,9 +117,9 @@ def tool_of(code: str, words: Mapping[str, float | None], text: bytes) -> str:
     return ""
 
 
-@lru_cache(maxsize=4096)  # a print says few different ones, ten thousand times
+@lru_cache(maxsize=4096)  # a print has few different ones, ten thousand times
 def tag_of(comment: bytes) -> tuple[str, bytes] | None:
-    r"""Return what a comment line says and its value, or None for a comment without structure.
+    r"""Parse a comment line; return its meaning and value, or None for a comment without structure.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def tag_of(comment: bytes) -> tuple[str, bytes] | None:
     Returns
     -------
     tuple of str and bytes, or None
-        One of the words of `TAGS`, and what follows, without blanks around it.
+        One of the words of `TAGS`, and the rest of the line, without blanks around it.
 
     >>> tag_of(b";TYPE:Internal infill\n"), tag_of(b"; FEATURE: Sparse infill"), tag_of(b"; a remark")
     (('role', b'Internal infill'), ('role', b'Sparse infill'), None)

@@ -1,8 +1,8 @@
-"""The limits of the machine that a file was sliced for, as far as the file tells them, and where each was found.
+"""Limits of the machine that a file was sliced for, as far as the file states them, and the source of each.
 
 PrusaSlicer, SuperSlicer, OrcaSlicer and Bambu Studio write their settings as comments ``; name = value``, at the end or
 at the top; the first value of a list is that of the normal mode. Commands (M201 to M205, M566, SET_VELOCITY_LIMIT) then
-change them on the way. Cura tells nothing but its name; its own estimates take the defaults of its machine definitions.
+change them on the way. Cura states only its name; its own estimates use the defaults of its machine definitions.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from infill.gcode.table import DIAMETER, MOST_TOOLS
 KLIPPER: Final = Limits(model="klipper", feedrate=(300.0, 300.0, 5.0, 50.0))
 MARLIN: Final = Limits()  # its factory settings
 SMOOTHIE: Final = Limits(model="junction", junction_deviation=0.05)
-CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate takes
+CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate uses
     model="vector-jerk",
     feedrate=(1e6, 1e6, 1e6, 1e6),
     axis_acceleration=(9000.0, 9000.0, 100.0, 10000.0),
@@ -28,7 +28,7 @@ CURA: Final = Limits(  # of its definition fdmprinter, which its own estimate ta
     travel_acceleration=4000.0,
     retract_acceleration=4000.0,
 )
-# What each model works with; nothing is said of the rest.
+# Fields that each model works with; the others are not reported.
 USED: Final[dict[str, tuple[str, ...]]] = {
     "jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
     "vector-jerk": ("feedrate", "axis_acceleration", "acceleration", "jerk"),
@@ -67,14 +67,14 @@ _VOLUMETRIC: Final = {
     b"reprap (volumetric)",
     b"reprap(volumetric)",
 }
-# What only RepRapFirmware knows, and feed rates that no machine reaches in mm/s.
+# Commands of RepRapFirmware alone, and feed rates that no machine reaches in mm/s.
 _BY_MINUTE: Final = re.compile(rb"^(?:M566\b|M203\b[^;\n]*[XY]\s*[3-9]\d{3}|M203\b[^;\n]*[XY]\s*\d{5})", re.MULTILINE)
 _UNIT_OF_TIME: Final = {"d": 86400, "h": 3600, "m": 60, "s": 1}
 
 
 @dataclass(frozen=True, kw_only=True)
 class FoundLimits:
-    """What a file tells about its machine and itself.
+    """Limits and settings of the machine that a file states.
 
     Parameters
     ----------
@@ -83,9 +83,9 @@ class FoundLimits:
     sources : mapping of str to str
         Where each limit that the model works with comes from: "settings", "commands", "given" or "assumed".
     fixed : mapping of str to object
-        Limits that were given, and that no command changes.
+        Limits that were given, and that commands do not change.
     feedrate_unit : float
-        What a number of M203 is in mm/s.
+        Value of one unit of M203, mm/s.
     slicer : str
         Its name and version, "" if unknown.
     filament_diameter : float
@@ -97,9 +97,9 @@ class FoundLimits:
     diameters : tuple of float
         mm, of the filaments by tool, from the beginning.
     start : tuple of Limits and mapping
-        Limits and sources before any command: what Klipper returns to.
+        Limits and sources before any command: Klipper returns to them.
     firmware : str
-        As `commanded` takes it.
+        As the argument of `commanded`.
     rule_of_e : str
         As `State.firmware`.
     """
@@ -118,13 +118,13 @@ class FoundLimits:
     rule_of_e: str = ""
 
     def after(self, code: str, line: bytes) -> FoundLimits:
-        """Return what is in force after a command."""
+        """Return the limits in force after a command."""
         if code == "RESET_VELOCITY_LIMIT":
             return replace(self, limits=self.start[0], sources=self.start[1])
         limits = commanded(self.limits, code, line, feedrate_unit=self.feedrate_unit, firmware=self.firmware)
         if self.fixed:
             limits = replace(limits, **self.fixed)
-        named = _SETS.get(code) or [name for name in self.sources if _says(line, name)]
+        named = _SETS.get(code) or [name for name in self.sources if _mentions(line, name)]
         sources = {
             name: "commands" if name in named and source != "given" else source for name, source in self.sources.items()
         }
@@ -136,15 +136,15 @@ class FoundLimits:
 def found_limits(
     head: bytes, tail: bytes, fixed: Mapping[str, Any] | None = None, settings: Mapping[str, str] | None = None
 ) -> FoundLimits:
-    """Return the limits that the beginning and the end of a file tell.
+    """Read the limits that the beginning and the end of a file state.
 
     Parameters
     ----------
     head, tail : bytes
     fixed : mapping, optional
-        Fields of `Limits` that are known better.
+        Fields of `Limits` that override those of the file.
     settings : mapping, optional
-        What the slicer tells elsewhere.
+        Settings of the slicer from outside the text.
 
     Raises
     ------
@@ -161,15 +161,15 @@ def found_limits(
     )
     named = _SLICER.search(head)
     slicer = b" ".join(named.groups()).decode("latin-1") if named else ""
-    start, found = _start(flavour, head, slicer), {}
+    start, stated = _default_limits(flavour, head, slicer), {}
     if settings.get("machine_limits_usage") != "ignore":
-        found = _from_settings(settings, start)
-    model: Model = fixed.get("model") or found.pop("model", start.model)
+        stated = _parse_settings(settings, start)
+    model: Model = fixed.get("model") or stated.pop("model", start.model)
     if "jerk" in fixed and "model" not in fixed and model not in JERKS:
         model = "jerk"
-    limits = replace(start, **{**found, "model": model, **fixed})
+    limits = replace(start, **{**stated, "model": model, **fixed})
     sources = {
-        name: "given" if name in fixed else "settings" if name in found else "assumed" for name in USED[limits.model]
+        name: "given" if name in fixed else "settings" if name in stated else "assumed" for name in USED[limits.model]
     }
     volumetric, diameters = filament_of(head, settings)
     return FoundLimits(
@@ -184,12 +184,12 @@ def found_limits(
         feedrate_unit=1 / 60 if by_minute else 1.0,
         slicer=slicer,
         filament_diameter=diameters[0],
-        estimate=_estimate(settings, head, tail),
+        estimate=_slicer_estimate(settings, head, tail),
     )
 
 
 def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[float, ...]]:
-    """Return whether E counts mm³ before any command says so, and the diameters of the filaments by tool, mm.
+    """Return True if E counts mm³ before any command, and the diameters of the filaments by tool, mm.
 
     Parameters
     ----------
@@ -205,12 +205,14 @@ def filament_of(head: bytes, settings: Mapping[str, str]) -> tuple[bool, tuple[f
     volumetric = flavour is not None and flavour[1].strip().lower() in _VOLUMETRIC
     if "use_volumetric_e" in settings:
         volumetric = settings["use_volumetric_e"].strip() not in ("0", "", "nil", "false")
-    numbers = [_first(text) or DIAMETER for text in settings.get("filament_diameter", "").replace(";", ",").split(",")]
+    numbers = [
+        _first_number(text) or DIAMETER for text in settings.get("filament_diameter", "").replace(";", ",").split(",")
+    ]
     return volumetric, tuple(numbers[:MOST_TOOLS])
 
 
 def rule_of_e(head: bytes, settings: Mapping[str, str]) -> str:
-    """Return whose rule tells when E counts from the last move, as `infill.gcode.table.State.firmware`.
+    """Return the firmware whose rule makes E relative, as in `infill.gcode.table.State.firmware`.
 
     >>> rule_of_e(b"", {"gcode_flavor": "klipper"}), rule_of_e(b"", {"gcode_flavor": "marlin2"})
     ('klipper', '')
@@ -221,12 +223,12 @@ def rule_of_e(head: bytes, settings: Mapping[str, str]) -> str:
     return "reprapfirmware" if flavour == "reprapfirmware" else ""
 
 
-def _says(line: bytes, name: str) -> bool:
+def _mentions(line: bytes, name: str) -> bool:
     return name in _SAYS and _SAYS[name].search(line.upper()) is not None
 
 
-def _start(flavour: str, head: bytes, slicer: str) -> Limits:
-    """Return what is assumed until the file says more."""
+def _default_limits(flavour: str, head: bytes, slicer: str) -> Limits:
+    """Return the limits to assume until the file states others."""
     if flavour == "klipper" or b"SET_VELOCITY_LIMIT" in head.upper():
         return KLIPPER
     if flavour == "smoothie":
@@ -234,18 +236,18 @@ def _start(flavour: str, head: bytes, slicer: str) -> Limits:
     return CURA if slicer.startswith("Cura") else MARLIN
 
 
-def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]:
-    """Return the fields of `Limits` that a block of settings tells."""
-    found: dict[str, Any] = {}
+def _parse_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]:
+    """Return the fields of `Limits` that a block of settings states."""
+    stated: dict[str, Any] = {}
     for field, prefixes in {
         "feedrate": ("machine_max_feedrate", "machine_max_speed"),
         "axis_acceleration": ("machine_max_acceleration",),
         "jerk": ("machine_max_jerk",),
     }.items():
-        given = [
+        values = [
             next(
                 (
-                    _limit(settings.get(f"{prefix}_{axis}"), field)
+                    _first_limit(settings.get(f"{prefix}_{axis}"), field)
                     for prefix in prefixes
                     if f"{prefix}_{axis}" in settings
                 ),
@@ -253,9 +255,9 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
             )
             for axis in "xyze"
         ]
-        if any(given):
+        if any(values):
             before: Axes = getattr(start, field)
-            found[field] = tuple(value or old for value, old in zip(given, before, strict=True))
+            stated[field] = tuple(value or old for value, old in zip(values, before, strict=True))
     for field, name in {
         "acceleration": "machine_max_acceleration_extruding",
         "travel_acceleration": "machine_max_acceleration_travel",
@@ -264,20 +266,20 @@ def _from_settings(settings: Mapping[str, str], start: Limits) -> dict[str, Any]
         "minimum_feedrate": "machine_min_extruding_rate",
         "minimum_travel_feedrate": "machine_min_travel_rate",
     }.items():
-        value = _limit(settings.get(name), field)
+        value = _first_limit(settings.get(name), field)
         if value:
-            found[field] = value
+            stated[field] = value
             if field.endswith("acceleration") and start.model != "klipper":
-                found[f"highest_{field}"] = value
-    if settings.get("gcode_flavor") == "marlin" and "acceleration" in found:  # before 2.0 it has none of travel
-        found["travel_acceleration"] = found["highest_travel_acceleration"] = found["acceleration"]
-    if "junction_deviation" in found and start.model in JERKS:
-        found["model"] = "junction"
-    return found
+                stated[f"highest_{field}"] = value
+    if settings.get("gcode_flavor") == "marlin" and "acceleration" in stated:  # before 2.0 it has none of travel
+        stated["travel_acceleration"] = stated["highest_travel_acceleration"] = stated["acceleration"]
+    if "junction_deviation" in stated and start.model in JERKS:
+        stated["model"] = "junction"
+    return stated
 
 
-def _first(text: str | None) -> float | None:
-    """Return the first number of a list, or None where there is none that could be a limit."""
+def _first_number(text: str | None) -> float | None:
+    """Return the first number of a list, or None if it cannot be a limit."""
     try:
         number = float((text or "").split(",")[0])
     except ValueError:
@@ -285,18 +287,18 @@ def _first(text: str | None) -> float | None:
     return number if 0 <= number < math.inf else None
 
 
-def _limit(text: str | None, field: str) -> float | None:
-    """Return the first number of a list, or None where no machine has that limit."""
-    number = _first(text)
+def _first_limit(text: str | None, field: str) -> float | None:
+    """Return the first number of a list, or None if no machine has that limit."""
+    number = _first_number(text)
     return None if number is None or not makes_sense(number, field) else number
 
 
-def _estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:
-    """Return the time that the slicer wrote into the file, s."""
+def _slicer_estimate(settings: Mapping[str, str], head: bytes, tail: bytes) -> float | None:
+    """Return the slicer's own estimate in the file, s."""
     total = _TOTAL.search(head)
     text = settings.get("estimated printing time (normal mode)", total[1].decode() if total else "")
     parts = re.findall(r"(\d+)\s*([dhms])", text)
     if parts:
         return float(sum(int(number) * _UNIT_OF_TIME[unit] for number, unit in parts))
-    found = next((found for pattern in _TIMES if (found := pattern.findall(head + tail))), None)
-    return float(found[-1]) if found else None
+    times = next((times for pattern in _TIMES if (times := pattern.findall(head + tail))), None)
+    return float(times[-1]) if times else None

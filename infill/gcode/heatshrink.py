@@ -1,4 +1,4 @@
-"""Heatshrink, the compression of binary G-code: one bit, then either a byte or a copy of what came before.
+"""Heatshrink, the compression of binary G-code: one bit, then either a byte or a copy of earlier bytes.
 
     1 + 8 bits              the byte itself
     0 + window + lookahead  copy `lookahead bits + 1` bytes from `window bits + 1` bytes back
@@ -20,21 +20,21 @@ SORTED = 1 << 20  # bytes; two names and a place of 21 bits each fill 63 bits
 
 
 def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> bytes:
-    """Give back the bytes that a Heatshrink stream stands for.
+    """Decompress a Heatshrink stream; return its bytes.
 
     Parameters
     ----------
     data : bytes
         The stream.
     size : int
-        How many bytes it stands for; the stream itself does not say.
+        Bytes of the result; the stream itself does not say.
     window, lookahead : int
         Bits of a distance and of a length, together 8 to 16.
 
     Raises
     ------
     FormatError
-        The stream ends before it has made `size` bytes, or goes on after them.
+        The stream ends before it has made `size` bytes, or continues after them.
 
     Examples
     --------
@@ -68,20 +68,20 @@ def decompressed(data: bytes, *, size: int, window: int, lookahead: int = 4) -> 
             made += length
     except IndexError:
         position = 8 * len(data) + 1
-    left = 8 * len(data) - position
-    if left < 0 or left >= 8 or made != total:
-        trouble = "ends before" if left < 0 else "does not end after"
+    spare_bits = 8 * len(data) - position
+    if spare_bits < 0 or spare_bits >= 8 or made != total:
+        trouble = "ends before" if spare_bits < 0 else "does not end after"
         raise FormatError(f"Heatshrink data {trouble} the {size} bytes that it should hold; it is damaged")
     return bytes(result[1 << window :])
 
 
 def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
-    """Write bytes as a Heatshrink stream: the longest copy that a quick search finds, else the byte.
+    """Compress bytes to a Heatshrink stream, with the longest copies that a quick search finds.
 
     Parameters
     ----------
     data : bytes
-        What to compress.
+        The bytes to compress.
     window, lookahead : int
         Bits of a distance and of a length, together 8 to 16.
 
@@ -92,10 +92,10 @@ def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
     """
     if not data:
         return b""
-    # Copies never reach from one sorted piece into the one before; a block of G-code is far shorter than a piece.
+    # Copies never reach from one sorted piece into the previous one; a block of G-code is far shorter than a piece.
     pieces = [data[start : start + SORTED] for start in range(0, len(data), SORTED)]
-    found = [_matches(piece, farthest=1 << window, longest=1 << lookahead) for piece in pieces]
-    lengths, backs = (np.concatenate(each) for each in zip(*found, strict=True))
+    matches = [_find_matches(piece, farthest=1 << window, longest=1 << lookahead) for piece in pieces]
+    lengths, backs = (np.concatenate(columns) for columns in zip(*matches, strict=True))
     steps, places, position, count = lengths.tolist(), [], 0, len(data)
     while position < count:
         places.append(position)
@@ -109,27 +109,27 @@ def compressed(data: bytes, *, window: int, lookahead: int = 4) -> bytes:
     width = np.where(copied, 1 + window + lookahead, LITERAL)
     end = np.cumsum(width)
     start = end - width
-    first, shifted = start >> 3, token << (24 - width - (start & 7))
+    first_byte, shifted = start >> 3, token << (24 - width - (start & 7))
     # Tokens share bytes but no bits, so a sum joins them. Float64 is exact here.
     written = np.zeros((int(end[-1]) + 7 >> 3) + 2)
     for nth in range(3):
-        written += np.bincount(first + nth, weights=shifted >> (16 - 8 * nth) & 255, minlength=len(written))
+        written += np.bincount(first_byte + nth, weights=shifted >> (16 - 8 * nth) & 255, minlength=len(written))
     return written[:-2].astype(np.uint8).tobytes()
 
 
-def _matches(data: bytes, *, farthest: int, longest: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _find_matches(data: bytes, *, farthest: int, longest: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Find for each byte an earlier place within reach that starts with the same bytes: (length, distance).
 
-    The latest place with the same 2, 3, 4, 6, 8, 12, 16, ... bytes is found by sorting; the names of long runs are
-    made of the names of shorter ones, as when a suffix array is built by doubling. The lengths in between come
-    from comparing byte by byte. Length 1 means no match. At most SORTED bytes.
+    Sorting finds the latest place with the same 2, 3, 4, 6, 8, 12, 16, ... bytes; the names of long runs combine
+    the names of shorter ones, as in a suffix array built by doubling. Comparing byte by byte finds the lengths in
+    between. Length 1 means no match. At most SORTED bytes.
     """
     count = len(data)
     bits = max(8, count.bit_length())
     values = np.frombuffer(data, np.uint8).astype(np.int64)
     names = {1: values}
     lengths, backs = np.ones(count, np.int64), np.zeros(count, np.int64)
-    runs = [(1, 1)] + [(whole, part) for whole in (2, 4, 8, 16, 32, 64) for part in (whole // 2, whole)]
+    runs = [(1, 1)] + [(length, part) for length in (2, 4, 8, 16, 32, 64) for part in (length // 2, length)]
     for head, tail in runs:
         run = head + tail
         if run > min(longest, count):
@@ -144,9 +144,9 @@ def _matches(data: bytes, *, farthest: int, longest: int) -> tuple[NDArray[np.in
         names[run] = np.empty(places, np.int64)
         names[run][order] = np.concatenate(([0], np.cumsum(~same)))
         back = order[1:] - order[:-1]
-        found = np.flatnonzero(same & (back <= farthest))
-        later = order[1:][found]
-        lengths[later], backs[later] = run, back[found]
+        close = np.flatnonzero(same & (back <= farthest))
+        later = order[1:][close]
+        lengths[later], backs[later] = run, back[close]
     growing = np.flatnonzero((lengths > 1) & (lengths < longest))
     while len(growing):
         after = growing + lengths[growing]

@@ -1,4 +1,4 @@
-"""What a machine can do: the limits that the planner of its firmware works with, and the commands that change them.
+"""Limits of a machine that the planner of its firmware works with, and the commands that change them.
 
 Feed rates are in mm/s, accelerations in mm/s², jerks and corner velocities in mm/s. The order of axes is x, y, z, e.
 """
@@ -27,7 +27,7 @@ _MAY_BE_ZERO: Final = {
     "square_corner_velocity",
     "minimum_cruise_ratio",
 }
-LEAST, MOST = 1e-3, 1e9  # of a limit in mm/s or mm/s²: others are mistakes of the file
+LEAST, MOST = 1e-3, 1e9  # of a limit in mm/s or mm/s²: other values are mistakes of the file
 LEAST_DEVIATION: Final = 1e-6  # mm
 _KLIPPER_WORDS: Final = {  # and the field whose bounds each keeps
     "VELOCITY": "feedrate",
@@ -43,22 +43,22 @@ _REMARK: Final = re.compile(rb"\([^()]*\)|[;*].*", re.DOTALL)
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """The limits of a machine, and the model of its corners.
+    """Limits of a machine, and the model of its corners.
 
     Parameters
     ----------
     model : {"jerk", "vector-jerk", "junction", "klipper"}
-        What bounds the speed at a corner: the jump of each axis' velocity, as PrusaSlicer estimates and Marlin does
+        The bound on the speed at a corner: the jump of each axis' velocity, as PrusaSlicer estimates and Marlin does
         with CLASSIC_JERK; that of x and y together, as CuraEngine estimates and Marlin did until 2016; Marlin's
         junction deviation; Klipper's square corner velocity.
     feedrate, axis_acceleration, jerk : tuple of 4 float
         Of x, y, z, e. The jerk is used by "jerk" and "vector-jerk", by the latter that of x for x and y.
     acceleration, travel_acceleration, retract_acceleration : float
-        Along the path: of moves that extrude, that do not, and that only turn the extruder.
+        Along the path: of moves that extrude, of travel moves, and of moves of the extruder alone.
     highest_acceleration, highest_travel_acceleration, highest_retract_acceleration : float
-        What commands may raise them to.
+        Highest values that commands can set.
     minimum_feedrate, minimum_travel_feedrate : float
-        What slower moves are raised to.
+        Lowest feed rates; slower moves are raised to them.
     junction_deviation : float
         mm; used by "junction" only.
     square_corner_velocity, corner_extrusion_velocity, minimum_cruise_ratio : float
@@ -68,7 +68,7 @@ class Limits:
     Raises
     ------
     ParameterError
-        If a limit is none that a machine has, or the model is unknown.
+        If a limit is impossible for a machine, or the model is unknown.
     """
 
     model: Model = "jerk"
@@ -91,39 +91,39 @@ class Limits:
     def __post_init__(self) -> None:
         if self.model not in MODELS:
             raise UsageError(f"model is {self.model!r}; give one of {', '.join(MODELS)}")
-        for each in fields(self)[1:]:
-            given = getattr(self, each.name)
-            for value in given if isinstance(given, tuple) else (given,):
-                if not (makes_sense(value, each.name) or (value == INFINITE and each.name != "minimum_cruise_ratio")):
-                    raise ParameterError(f"{each.name} is {value:g}; give {_sensible(each.name)}")
+        for limit in fields(self)[1:]:
+            limit_value = getattr(self, limit.name)
+            for value in limit_value if isinstance(limit_value, tuple) else (limit_value,):
+                if not (makes_sense(value, limit.name) or (value == INFINITE and limit.name != "minimum_cruise_ratio")):
+                    raise ParameterError(f"{limit.name} is {value:g}; give {_describe_valid(limit.name)}")
         for name in ("acceleration", "travel_acceleration", "retract_acceleration"):
             if getattr(self, name) == INFINITE:
                 raise ParameterError(f"{name} is infinite; give a number in mm/s²")
 
 
 def makes_sense(value: float, name: str) -> bool:
-    """Return whether a machine may have this limit; name is a field of `Limits`.
+    """Return True if a machine may have this limit; name is a field of `Limits`.
 
     >>> makes_sense(1e-300, "acceleration"), makes_sense(0.0, "jerk"), makes_sense(0.013, "junction_deviation")
     (False, True, True)
     """
     if name == "minimum_cruise_ratio":
         return 0 <= value < 1
-    least = LEAST_DEVIATION if name == "junction_deviation" else LEAST
-    return least <= value <= MOST or (value == 0 and name in _MAY_BE_ZERO)
+    lower = LEAST_DEVIATION if name == "junction_deviation" else LEAST
+    return lower <= value <= MOST or (value == 0 and name in _MAY_BE_ZERO)
 
 
-def _sensible(name: str) -> str:
-    """Return which numbers make sense as a limit."""
+def _describe_valid(name: str) -> str:
+    """Describe the valid numbers of a limit."""
     if name == "minimum_cruise_ratio":
         return "a number from 0 and below 1"
-    least = LEAST_DEVIATION if name == "junction_deviation" else LEAST
-    return f"a number from {least:g} to {MOST:g}{', or 0' if name in _MAY_BE_ZERO else ''}"
+    lower = LEAST_DEVIATION if name == "junction_deviation" else LEAST
+    return f"a number from {lower:g} to {MOST:g}{', or 0' if name in _MAY_BE_ZERO else ''}"
 
 
 @lru_cache(maxsize=256)  # slicers switch between a few accelerations, ten thousand times
 def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 1.0, firmware: str = "") -> Limits:
-    """Return the limits after a line of G-code; the same ones if it sets none.
+    """Return the limits after a line of G-code; the same object if it sets none.
 
     Parameters
     ----------
@@ -131,11 +131,11 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
     code : str
         Such as "M204".
     line : bytes
-        The whole line.
+        The full line.
     feedrate_unit : float
-        What a number of M203 is in mm/s: RepRapFirmware counts in mm/min.
+        Value of one unit of M203, mm/s: RepRapFirmware counts in mm/min.
     firmware : str
-        "repetier", whose M203 to M205 are no limits, or "smoothie", whose M205 X is the junction deviation; "" else.
+        "repetier", whose M203 to M205 set no limits, or "smoothie", whose M205 X is the junction deviation; else "".
 
     >>> commanded(Limits(), "M204", b"M204 P900 T1500").acceleration
     900.0
@@ -144,32 +144,32 @@ def commanded(limits: Limits, code: str, line: bytes, *, feedrate_unit: float = 
         return limits
     match code:
         case "M205" if firmware == "smoothie":
-            return _deviating(limits, _words(line).get("X", 0.0))
+            return _with_deviation(limits, _parse_words(line).get("X", 0.0))
         case "M201":
-            return replace(limits, axis_acceleration=_axes(limits.axis_acceleration, _words(line)))
+            return replace(limits, axis_acceleration=_update_axes(limits.axis_acceleration, _parse_words(line)))
         case "M203":
-            return replace(limits, feedrate=_axes(limits.feedrate, _words(line), feedrate_unit))
+            return replace(limits, feedrate=_update_axes(limits.feedrate, _parse_words(line), feedrate_unit))
         case "M204":
-            return _accelerated(limits, _words(line))
+            return _apply_m204(limits, _parse_words(line))
         case "M205":
-            return _cornered(limits, _words(line))
+            return _apply_m205(limits, _parse_words(line))
         case "M566":
-            return replace(limits, jerk=_axes(limits.jerk, _words(line), 1 / 60))
+            return replace(limits, jerk=_update_axes(limits.jerk, _parse_words(line), 1 / 60))
         case "SET_VELOCITY_LIMIT":
-            return _limited(limits, line)
+            return _apply_velocity_limit(limits, line)
         case _:
             return limits
 
 
-def _words(line: bytes) -> dict[str, float]:
-    """Return the numbers of a command by letter, without its own."""
+def _parse_words(line: bytes) -> dict[str, float]:
+    """Return the numbers of a command by letter, without that of the command itself."""
     text = _REMARK.sub(b"", line)
     code = _CODE.match(text)
-    found = re.findall(rb"([A-Za-z])\s*([-+]?(?:\d+\.?\d*|\.\d+))", text[code.end() :] if code else b"")
-    return {letter.decode().upper(): float(number) for letter, number in found}
+    pairs = re.findall(rb"([A-Za-z])\s*([-+]?(?:\d+\.?\d*|\.\d+))", text[code.end() :] if code else b"")
+    return {letter.decode().upper(): float(number) for letter, number in pairs}
 
 
-def _axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Axes:
+def _update_axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Axes:
     x, y, z, e = (
         words[axis] * unit if LEAST <= words.get(axis, 0.0) * unit <= MOST else value
         for axis, value in zip("XYZE", before, strict=True)
@@ -177,50 +177,56 @@ def _axes(before: Axes, words: dict[str, float], unit: float = 1.0) -> Axes:
     return x, y, z, e
 
 
-def _accelerated(limits: Limits, words: dict[str, float]) -> Limits:
-    """Follow M204: P, R and T, or S for both printing and travel; Klipper takes S, or the lower of P and T."""
+def _apply_m204(limits: Limits, words: dict[str, float]) -> Limits:
+    """Apply M204: P, R and T, or S for both printing and travel; Klipper takes S, or the lower of P and T."""
     words = {letter: value for letter, value in words.items() if LEAST <= value <= MOST}
     if limits.model == "klipper":
         value = words.get("S", min(words["P"], words["T"]) if {"P", "T"} <= set(words) else limits.acceleration)
         return replace(limits, acceleration=value, travel_acceleration=value)
     if "S" in words:  # with S, T is the acceleration of retraction
-        given = {"acceleration": words["S"], "travel_acceleration": words["S"], "retract_acceleration": words.get("T")}
+        requested = {
+            "acceleration": words["S"],
+            "travel_acceleration": words["S"],
+            "retract_acceleration": words.get("T"),
+        }
     else:
         names = {"acceleration": "P", "travel_acceleration": "T", "retract_acceleration": "R"}
-        given = {name: words.get(letter) for name, letter in names.items()}
-    highest = {name: getattr(limits, f"highest_{name}") for name in given}
-    return replace(limits, **{name: min(value, highest[name]) for name, value in given.items() if value})
+        requested = {name: words.get(letter) for name, letter in names.items()}
+    highest = {name: getattr(limits, f"highest_{name}") for name in requested}
+    return replace(limits, **{name: min(value, highest[name]) for name, value in requested.items() if value})
 
 
-def _cornered(limits: Limits, words: dict[str, float]) -> Limits:
-    """Follow M205: jerk by axis, where X alone stands for Y too; S and T, the lowest feed rates; J, the deviation."""
+def _apply_m205(limits: Limits, words: dict[str, float]) -> Limits:
+    """Apply M205: jerk by axis, where X alone stands for Y too; S and T, the lowest feed rates; J, the deviation."""
     if "X" in words and "Y" not in words:
         words = {**words, "Y": words["X"]}
     changed = replace(
         limits,
-        jerk=_axes(limits.jerk, words),
-        minimum_feedrate=_lowest(limits.minimum_feedrate, words.get("S")),
-        minimum_travel_feedrate=_lowest(limits.minimum_travel_feedrate, words.get("T")),
+        jerk=_update_axes(limits.jerk, words),
+        minimum_feedrate=_lowest_feedrate(limits.minimum_feedrate, words.get("S")),
+        minimum_travel_feedrate=_lowest_feedrate(limits.minimum_travel_feedrate, words.get("T")),
     )
-    return _deviating(changed, words.get("J", 0.0))
+    return _with_deviation(changed, words.get("J", 0.0))
 
 
-def _lowest(before: float, asked: float | None) -> float:
-    """Return a lowest feed rate; below 0 there is none."""
+def _lowest_feedrate(before: float, asked: float | None) -> float:
+    """Return a lowest feed rate; a negative one means none."""
     asked = before if asked is None else max(asked, 0.0)
     return asked if makes_sense(asked, "minimum_feedrate") else before
 
 
-def _deviating(limits: Limits, deviation: float) -> Limits:
+def _with_deviation(limits: Limits, deviation: float) -> Limits:
     sense = makes_sense(deviation, "junction_deviation")
     return replace(limits, junction_deviation=deviation) if sense else limits
 
 
-def _limited(limits: Limits, line: bytes) -> Limits:
-    """Follow Klipper's SET_VELOCITY_LIMIT, as far as its numbers make sense."""
-    found = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
+def _apply_velocity_limit(limits: Limits, line: bytes) -> Limits:
+    """Apply Klipper's SET_VELOCITY_LIMIT, as far as its numbers are valid."""
+    numbers = {name.upper().decode(): float(value) for name, value in _PAIR.findall(line.split(b";", 1)[0])}
     words = {
-        name: found[name] for name, field in _KLIPPER_WORDS.items() if name in found and makes_sense(found[name], field)
+        name: numbers[name]
+        for name, field in _KLIPPER_WORDS.items()
+        if name in numbers and makes_sense(numbers[name], field)
     }
     acceleration = words.get("ACCEL", limits.acceleration)
     ratio = words.get("MINIMUM_CRUISE_RATIO", limits.minimum_cruise_ratio)

@@ -1,4 +1,4 @@
-"""MeatPack: the fifteen characters that G-code is mostly made of take four bits each.
+"""MeatPack: packs the fifteen most frequent characters of G-code into four bits each.
 
     0-9  .  E  newline  G  X       two to a byte, the first in the lower half
     half = 15                      this character follows as a whole byte, before the next pair
@@ -8,9 +8,9 @@ After a newline in the lower half the upper half means nothing. With no spaces, 
 with G are packed without blanks before them, and the reader puts those blanks back. Facts from the MeatPack
 documentation (https://github.com/scottmudge/OctoPrint-MeatPack) and from what Prusa's tools write and read.
 
-What cannot come back from packed text, so that `normalised` leaves it out first: blank lines, blanks at both
-ends of a command, comments behind a command, several blanks (or none) before a word of a G line, and without
-`comments` every comment. Lines that would come back changed all the same stand between "off" and "on" as they are.
+Packed text loses blank lines, blanks at both ends of a command, comments behind a command, several blanks (or
+none) before a word of a G line, and without `comments` every comment; `normalised` removes these first. Lines that
+would still come back changed stand between "off" and "on" unchanged.
 """
 
 from __future__ import annotations
@@ -45,15 +45,15 @@ def _table(characters: bytes) -> Flags:
 HALVES = np.full(256, WHOLE, np.uint8)
 HALVES[list(ALPHABET)] = np.arange(WHOLE)
 PADDING = HALVES[NEWLINE] * 17  # two newlines, read as one
-WORDS = _table(b"XYZEFIJRGPWHCAS")  # letters before which readers put a blank back
-DROPPED = _table(b"XYZEFIJR")  # those that every reader knows: only their blanks are left out
+WORDS = _table(b"XYZEFIJRGPWHCAS")  # letters before which readers restore a blank
+DROPPED = _table(b"XYZEFIJR")  # letters that every reader knows: only their blanks are dropped
 BLANKS = _table(b" \t\r\n")
 ODD = _table(b'"\xff')
 DIGITS = _table(b"0123456789")
 
 
 def unpacked(data: bytes) -> bytes:
-    r"""Give back the text of one packed block.
+    r"""Unpack the text of one packed block.
 
     Raises
     ------
@@ -69,34 +69,34 @@ def unpacked(data: bytes) -> bytes:
     if not size:
         return b""
     code = np.frombuffer(data + b"\0\0", np.uint8)
-    packing, spaceless, skipped = _commands(data)
+    packing, spaceless, skipped = _read_commands(data)
     low, high = code[:size] & 15, code[:size] >> 4
     line_ends = packing & (low == HALVES[NEWLINE])
     low_whole = packing & (low == WHOLE)
     high_whole = packing & (high == WHOLE) & ~line_ends
     steps = 1 + low_whole + high_whole + skipped
-    heads = _reached(steps)
+    heads = _walk_steps(steps)
     if heads[-1] + steps[heads[-1]] > size:
         raise FormatError("MeatPack data ends within a character; it is damaged")
     if np.count_nonzero(skipped[heads]) != np.count_nonzero(skipped):
         raise FormatError("MeatPack data has a command within a character; it is damaged")
     heads = heads[skipped[heads] == 0]
-    first, second, plain = low_whole[heads], high_whole[heads], ~packing[heads]
+    escapes_low, escapes_high, plain = low_whole[heads], high_whole[heads], ~packing[heads]
     meaning = spaceless[heads]
     text = np.empty((len(heads), 2), np.uint8)
-    there = np.ones((len(heads), 2), np.bool_)
-    text[:, 0] = np.where(first, code[heads + 1], CHARACTERS[meaning, low[heads]])
+    present = np.ones((len(heads), 2), np.bool_)
+    text[:, 0] = np.where(escapes_low, code[heads + 1], CHARACTERS[meaning, low[heads]])
     text[:, 0][plain] = code[heads[plain]]
-    text[:, 1] = np.where(second, code[heads + 1 + first], CHARACTERS[meaning, high[heads]])
-    there[:, 1] = ~(plain | line_ends[heads])
-    result, plain = text[there], np.repeat(plain, 2).reshape(-1, 2)[there]
-    # An empty line can be padding: readers skip it, so that packed text has none.
+    text[:, 1] = np.where(escapes_high, code[heads + 1 + escapes_low], CHARACTERS[meaning, high[heads]])
+    present[:, 1] = ~(plain | line_ends[heads])
+    result, plain = text[present], np.repeat(plain, 2).reshape(-1, 2)[present]
+    # An empty line can be padding: readers skip it, so packed text has none.
     empty = ~plain & (result == NEWLINE) & (np.append(np.uint8(0), result[:-1]) == NEWLINE)
     result, plain = result[~empty], plain[~empty]
     if not len(result):
         return b""
-    starts, line = _lines(result)
-    return _spaced(result, ((result[starts] == G) & ~plain[starts])[line]).tobytes()
+    starts, line = _find_lines(result)
+    return _insert_blanks(result, ((result[starts] == G) & ~plain[starts])[line]).tobytes()
 
 
 def packed(text: bytes, *, comments: bool = True) -> bytes:
@@ -109,39 +109,39 @@ def packed(text: bytes, *, comments: bool = True) -> bytes:
     if not text:
         return BEGIN
     code = np.frombuffer(text, np.uint8)
-    starts, line = _lines(code)
-    lines = _survey(code, starts)
+    starts, line = _find_lines(code)
+    lines = _survey_lines(code, starts)
     plain, moves = (lines.odd | lines.comments)[line], lines.moves[line]
     blanks = (code == BLANK) & DROPPED[np.append(code[1:], np.uint8(0))] & moves
     end = b"" if comments else SIGNAL + bytes([RESET])
-    result = _packed(code[~blanks], plain[~blanks], moves[~blanks]) + end
-    return result if 2 * len(result) > len(text) + 1 else _packed(code, plain, moves) + end
+    result = _pack_codes(code[~blanks], plain[~blanks], moves[~blanks]) + end
+    return result if 2 * len(result) > len(text) + 1 else _pack_codes(code, plain, moves) + end
 
 
-def _packed(code: Bytes, plain: Flags, moves: Flags) -> bytes:
-    starts, line = _lines(code)
+def _pack_codes(code: Bytes, plain: Flags, moves: Flags) -> bytes:
+    starts, line = _find_lines(code)
     within = np.arange(len(code)) - starts[line]
     after = np.append(code[1:], np.uint8(NEWLINE))
     after[code == NEWLINE] = NEWLINE
     switched = np.diff(plain, prepend=np.False_)
 
     unit = np.flatnonzero(plain | (within % 2 == 0))
-    plain, moves, first, second = plain[unit], moves[unit], code[unit], after[unit]
-    low, high = HALVES[first], HALVES[second]
+    plain, moves, low_characters, high_characters = plain[unit], moves[unit], code[unit], after[unit]
+    low, high = HALVES[low_characters], HALVES[high_characters]
     # Of each unit at most: a command, the byte, the characters that follow it whole, and padding.
     rows = np.empty((len(unit), 7), np.uint8)
-    there = np.empty(rows.shape, np.bool_)
+    present = np.empty(rows.shape, np.bool_)
     rows[:, :2], rows[:, 2] = SIGNAL[0], np.where(plain, PLAIN, PACKED)
-    there[:, :3] = switched[unit, None]
-    rows[:, 3], there[:, 3] = np.where(plain, first, high << 4 | low), True
-    rows[:, 4], there[:, 4] = first, ~plain & (low == WHOLE)
-    rows[:, 5], there[:, 5] = second, ~plain & (high == WHOLE)
-    rows[:, 6], there[:, 6] = PADDING, moves & (first != NEWLINE) & (second == NEWLINE)
-    return BEGIN + rows[there].tobytes()
+    present[:, :3] = switched[unit, None]
+    rows[:, 3], present[:, 3] = np.where(plain, low_characters, high << 4 | low), True
+    rows[:, 4], present[:, 4] = low_characters, ~plain & (low == WHOLE)
+    rows[:, 5], present[:, 5] = high_characters, ~plain & (high == WHOLE)
+    rows[:, 6], present[:, 6] = PADDING, moves & (low_characters != NEWLINE) & (high_characters == NEWLINE)
+    return BEGIN + rows[present].tobytes()
 
 
 def normalised(text: bytes, *, comments: bool = True) -> bytes:
-    r"""Leave out of a text what packing would lose: the text that comes back.
+    r"""Remove everything from a text that packing would lose; return the text that comes back.
 
     Examples
     --------
@@ -151,71 +151,71 @@ def normalised(text: bytes, *, comments: bool = True) -> bytes:
     if not text:
         return b""
     code = np.frombuffer(text if text.endswith(b"\n") else text + b"\n", np.uint8)
-    starts, line = _lines(code)
-    lines = _survey(code, starts)
+    starts, line = _find_lines(code)
+    lines = _survey_lines(code, starts)
     place = np.arange(len(code))
-    last = np.maximum.reduceat(np.where(_ink(code) & (place < lines.remark[line]), place, -1), starts)
-    whole = lines.odd | lines.comments if comments else lines.odd
-    last[whole] = np.append(starts[1:], len(code))[whole] - 1
-    first = np.where(lines.odd, starts, lines.first)
-    keep = (place >= first[line]) & (place <= last[line]) | (code == NEWLINE) & (last >= 0)[line]
+    last_place = np.maximum.reduceat(np.where(_is_ink(code) & (place < lines.remark[line]), place, -1), starts)
+    keeps_all = lines.odd | lines.comments if comments else lines.odd
+    last_place[keeps_all] = np.append(starts[1:], len(code))[keeps_all] - 1
+    first_place = np.where(lines.odd, starts, lines.first)
+    keep = (place >= first_place[line]) & (place <= last_place[line]) | (code == NEWLINE) & (last_place >= 0)[line]
     moves, code = lines.moves[line][keep], code[keep]
     doubled = moves & (code == BLANK) & (np.append(code[1:], np.uint8(0)) == BLANK)
-    return _spaced(code[~doubled], moves[~doubled]).tobytes()
+    return _insert_blanks(code[~doubled], moves[~doubled]).tobytes()
 
 
 class _Lines(NamedTuple):
-    """What is on each line: the place of the first character that is no blank, and of the first semicolon."""
+    """Of each line: the place of its first non-blank character, and of its first semicolon."""
 
     first: NDArray[np.int64]
     remark: NDArray[np.int64]
-    comments: Flags  # nothing but a comment
-    moves: Flags  # G and a digit: blanks before the words come and go
-    odd: Flags  # readers would change it: G and no digit, or a string, in which a semicolon may be no comment
+    comments: Flags  # only a comment
+    moves: Flags  # G and a digit: blanks before the words may be dropped
+    odd: Flags  # readers would change it: G and no digit, or a string, in which a semicolon need not begin a comment
 
 
-def _survey(code: Bytes, starts: NDArray[np.int64]) -> _Lines:
+def _survey_lines(code: Bytes, starts: NDArray[np.int64]) -> _Lines:
     count = len(code)
     place = np.arange(count)
 
     def nearest(flags: Flags) -> NDArray[np.int64]:
         return np.minimum.reduceat(np.where(flags, place, count), starts)
 
-    first, remark = nearest(_ink(code)), nearest(code == SEMICOLON)
+    first_place, remark = nearest(_is_ink(code)), nearest(code == SEMICOLON)
     padded = np.append(code, np.zeros(2, np.uint8))
-    g, digit = padded[first] == G, DIGITS[padded[first + 1]]
+    g, digit = padded[first_place] == G, DIGITS[padded[first_place + 1]]
     odd = (g & ~digit) | (nearest(ODD[code]) < remark)
-    return _Lines(first, remark, (first == remark) & (first < count), g & digit & ~odd, odd)
+    return _Lines(first_place, remark, (first_place == remark) & (first_place < count), g & digit & ~odd, odd)
 
 
-def _ink(code: Bytes) -> Flags:
+def _is_ink(code: Bytes) -> Flags:
     ink: Flags = ~BLANKS[code]
     return ink
 
 
-def _commands(data: bytes) -> tuple[Flags, NDArray[np.int64], NDArray[np.int64]]:
-    """Tell for each byte whether it is packed, whether half 11 is E (1), and at a command how many bytes to skip."""
+def _read_commands(data: bytes) -> tuple[Flags, NDArray[np.int64], NDArray[np.int64]]:
+    """Return for each byte whether it is packed, whether half 11 is E (1), and at commands the bytes to skip."""
     size = len(data)
     packing = np.zeros(size, np.bool_)
     spaceless = np.zeros(size, np.int64)
     skipped = np.zeros(size, np.int64)
     on = no_spaces = False
     after = 0
-    for found in re.finditer(rb"\xff\xff(.?)", data, re.DOTALL):
-        packing[after : found.start()], spaceless[after : found.start()] = on, no_spaces
-        command = found[1][0] if found[1] else -1
+    for match in re.finditer(rb"\xff\xff(.?)", data, re.DOTALL):
+        packing[after : match.start()], spaceless[after : match.start()] = on, no_spaces
+        command = match[1][0] if match[1] else -1
         if command not in COMMANDS:
             raise FormatError(f"MeatPack data has command {command}, and only 246 to 251 are known; it is damaged")
         on = command == PACKED or (on and command not in (PLAIN, RESET))
         no_spaces = command == NO_SPACES or (no_spaces and command not in (SPACES, RESET))
-        skipped[found.start()] = 2
-        after = found.end()
+        skipped[match.start()] = 2
+        after = match.end()
     packing[after:], spaceless[after:] = on, no_spaces
     return packing, spaceless, skipped
 
 
-def _reached(steps: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Walk from place 0, each place telling the step to the next, by doubling: list the places walked on."""
+def _walk_steps(steps: NDArray[np.int64]) -> NDArray[np.int64]:
+    """List the places of a walk from place 0, each place holding the step to the next one, by doubling."""
     size = len(steps)
     jump = np.minimum(np.arange(size) + steps, size)
     jump = np.append(jump, size)
@@ -227,15 +227,15 @@ def _reached(steps: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.flatnonzero(walked[:size])
 
 
-def _lines(code: Bytes) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Tell where each line starts, and which line each byte is on."""
+def _find_lines(code: Bytes) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the start of each line, and the line of each byte."""
     newline = code == NEWLINE
     starts = np.append(0, np.flatnonzero(newline[:-1]) + 1)
     return starts, np.cumsum(newline) - newline
 
 
-def _spaced(code: Bytes, moves: Flags) -> Bytes:
-    """Put a blank before every word of the lines that are moves, where there is none."""
+def _insert_blanks(code: Bytes, moves: Flags) -> Bytes:
+    """Put a blank before every word of the moves that lacks one."""
     before = np.append(np.uint8(NEWLINE), code[:-1])
     bare = moves & WORDS[code] & (before != BLANK) & (before != NEWLINE)
     return np.insert(code, np.flatnonzero(bare), np.uint8(BLANK))

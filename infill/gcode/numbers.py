@@ -1,7 +1,7 @@
-"""Decimal numbers of G-code, many at a time: read from text, and written as text.
+"""Decimal numbers of G-code, many at a time: parsed from text, and written as text.
 
-A number is an optional sign, digits and at most one point. Its digits are gathered as a whole number and divided by a
-power of ten once, so the value is the very float that `float` returns.
+A number is an optional sign, digits and at most one point. Its digits are read as an integer and divided by a
+power of ten once, so the value is the same float that `float` returns.
 """
 
 from __future__ import annotations
@@ -23,55 +23,55 @@ ZERO, NINE, POINT, MINUS, PLUS = b"09.-+"
 WORD = 8  # bytes
 
 
-def _eight(byte: int) -> np.uint64:
+def _repeat_byte(byte: int) -> np.uint64:
     """Return a word with the same value in each of its bytes."""
     return np.uint64(int.from_bytes(bytes([byte]) * WORD, "little"))
 
 
 _ONE, _EIGHT_BITS = np.uint64(1), np.uint64(3)  # a shift by which bytes become bits
-_HIGH, _LOW, _ZEROS = _eight(0x80), _eight(0x7F), _eight(ZERO)
-_OVER_NINE = _eight(0x80 - 10)  # added to a byte over 9, it sets the high bit
+_HIGH, _LOW, _ZEROS = _repeat_byte(0x80), _repeat_byte(0x7F), _repeat_byte(ZERO)
+_OVER_NINE = _repeat_byte(0x80 - 10)  # added to a byte over 9, it sets the high bit
 
 
 @dataclass(frozen=True, kw_only=True)
 class Rows:
-    """Lines of text, and where each begins: (N + 1,) int, the last entry being the length."""
+    """Lines of text, and their starts: (N + 1,) int, the last entry being the length."""
 
     text: bytes
     start: NDArray[np.int64]
 
 
 def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    r"""Return the numbers that begin at `places` in `text`, and whether each is one.
+    r"""Parse the numbers that begin at `places` in `text`; return the values, and True where a number is valid.
 
     Parameters
     ----------
     text : (N,) uint8
-        Must end with a line end, so that no number runs over it.
+        Must end with a line end, so that numbers cannot run past it.
     places : (M,) int
-        Where the sign or the first digit stands.
+        Place of the sign or the first digit.
 
     Returns
     -------
     values : (M,) float64
-        NaN where there is no number.
+        NaN where there is no valid number.
     good : (M,) bool
-        False if there is no digit, something strange follows, or there are more digits than a float holds.
+        False if there is no digit, an unexpected character follows, or there are more digits than a float holds.
 
     >>> text = np.frombuffer(b"X-1.25 E.5 FNaN\n", dtype=np.uint8)
     >>> values, good = read_numbers(text, np.array([1, 8, 12]))
     >>> values.tolist(), good.tolist()
     ([-1.25, 0.5, nan], [True, True, False])
     """
-    last = len(text) - 1
-    head = text[np.minimum(places, last)]
+    end = len(text) - 1
+    head = text[np.minimum(places, end)]
     negative = head == MINUS
     at = places + (negative | (head == PLUS))
-    digits, number, decimals, whole = short_numbers(text, at)
-    long = np.flatnonzero(~whole)
+    digits, number, decimals, is_short = short_numbers(text, at)
+    long = np.flatnonzero(~is_short)
     if len(long):
         digits[long], number[long], decimals[long] = long_numbers(text, at[long])
-    good = _ENDS[text[np.minimum(at + number + (decimals >= 0), last)]] & (number > 0) & (number <= MOST_DIGITS)
+    good = _ENDS[text[np.minimum(at + number + (decimals >= 0), end)]] & (number > 0) & (number <= MOST_DIGITS)
     values = digits / POWERS[np.maximum(decimals, 0)]
     np.negative(values, where=negative, out=values)
     values[~good] = np.nan
@@ -79,24 +79,24 @@ def read_numbers(text: Bytes, places: Places) -> tuple[NDArray[np.float64], NDAr
 
 
 def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]:
-    """Read numbers without a sign, of up to `LONGEST` characters, one character after another.
+    """Parse numbers without a sign, of up to `LONGEST` characters, one character after another.
 
     Returns
     -------
     digits : (M,) int64
-        The digits as a whole number.
+        The digits as an integer.
     number : (M,) int64
-        How many there are.
+        Number of digits.
     decimals : (M,) int64
-        How many of them stand after the point; -1 without a point.
+        Number of digits after the point; -1 without a point.
     """
-    last = len(text) - 1
+    end = len(text) - 1
     digits = np.zeros(len(at), dtype=np.int64)
     number = np.zeros(len(at), dtype=np.int64)
     decimals = np.full(len(at), -1)
     going = np.ones(len(at), dtype=bool)
     for step in range(LONGEST):
-        byte = text[np.minimum(at + step, last)]
+        byte = text[np.minimum(at + step, end)]
         digit = (byte - ZERO <= 9) & going  # bytes below 0 wrap around
         point = (byte == POINT) & going & (decimals < 0)
         np.multiply(digits, 10, out=digits, where=digit)
@@ -110,46 +110,46 @@ def long_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers]
 
 
 def short_numbers(text: Bytes, at: Places) -> tuple[Integers, Integers, Integers, NDArray[np.bool_]]:
-    """Read numbers as `long_numbers` does, each from one word of 64 bits whose lowest byte comes first.
+    """Parse numbers as `long_numbers` does, each from one word of 64 bits whose lowest byte comes first.
 
     Returns
     -------
     digits, number, decimals : (M,) int64
     whole : (M,) bool
-        The number ends within these eight characters; else the others mean nothing.
+        The number ends within these eight characters; else the other results are invalid.
     """
     padded = np.zeros(len(text) + 2 * WORD, dtype=np.uint8)
     padded[: len(text)] = text
-    # Words begin at any byte: as items without alignment they are copied byte by byte, whatever the machine.
-    every: NDArray[np.void] = np.ndarray((len(text) + WORD,), dtype=f"V{WORD}", buffer=padded, strides=(1,))
-    words = every[np.minimum(at, len(text))].view("<u8").astype(np.uint64, copy=False) ^ _ZEROS
-    other = _not_digits(words)
-    first = other & (~other + _ONE)  # the lowest bit that is set
-    before = _place(first)
-    pointed = ((words >> (before << _EIGHT_BITS)) & np.uint64(0xFF) == POINT ^ ZERO) & (other != 0)
-    lower = (first >> np.uint64(7)) - _ONE
+    # Words begin at any byte: as items without alignment they are copied byte by byte on every machine.
+    windows: NDArray[np.void] = np.ndarray((len(text) + WORD,), dtype=f"V{WORD}", buffer=padded, strides=(1,))
+    words = windows[np.minimum(at, len(text))].view("<u8").astype(np.uint64, copy=False) ^ _ZEROS
+    non_digits = _not_digits(words)
+    lowest_bit = non_digits & (~non_digits + _ONE)  # the lowest bit that is set
+    before = _byte_index(lowest_bit)
+    pointed = ((words >> (before << _EIGHT_BITS)) & np.uint64(0xFF) == POINT ^ ZERO) & (non_digits != 0)
+    lower = (lowest_bit >> np.uint64(7)) - _ONE
     words = np.where(pointed, (words & lower) | ((words >> np.uint64(8)) & ~lower), words)
-    other = np.where(pointed, _not_digits(words) | np.uint64(0x80 << 56), other)
-    number = _place(other & (~other + _ONE))
-    whole = np.where(pointed, number < WORD - 1, other != 0)
-    # Digits end where the word ends, zeros before them; then pairs, fours and eights of them are put together.
+    non_digits = np.where(pointed, _not_digits(words) | np.uint64(0x80 << 56), non_digits)
+    number = _byte_index(non_digits & (~non_digits + _ONE))
+    is_complete = np.where(pointed, number < WORD - 1, non_digits != 0)
+    # Digits end at the end of the word, zeros before them; then pairs, fours and eights of them are combined.
     words = np.where(number > 0, words << ((np.uint64(WORD) - number) % np.uint64(WORD) << _EIGHT_BITS), 0)
     words = (words * np.uint64(10) + (words >> np.uint64(8))) & np.uint64(0x00FF00FF00FF00FF)
     words = (words * np.uint64(100) + (words >> np.uint64(16))) & np.uint64(0x0000FFFF0000FFFF)
     words = (words * np.uint64(10000) + (words >> np.uint64(32))) & np.uint64(0xFFFFFFFF)
     count = number.astype(np.int64)
     decimals = np.where(pointed, count - before.astype(np.int64), -1)
-    return words.astype(np.int64), count, decimals, whole
+    return words.astype(np.int64), count, decimals, is_complete
 
 
 def _not_digits(words: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Return words with the high bit of each byte that is over 9."""
+    """Return words with the high bit set in each byte over 9."""
     marked: NDArray[np.uint64] = (((words & _LOW) + _OVER_NINE) | words) & _HIGH
     return marked
 
 
-def _place(bit: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """Return which byte has its high bit set, where one has it."""
+def _byte_index(bit: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Return the index of the byte whose high bit is set."""
     place: NDArray[np.uint64] = (bit >> np.uint64(7)) * np.uint64(0x0001020304050607) >> np.uint64(56)
     return place
 
@@ -160,13 +160,13 @@ _ENDS[list(b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")] = True  # E
 
 
 def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: bytes, tail: bytes) -> Rows:
-    r"""Return rows of text, each `head`, a word for every column, and `tail`.
+    r"""Write rows of text, each `head`, a word for every column, and `tail`.
 
     Parameters
     ----------
     columns : list of (prefix, values, decimals)
-        The prefix, such as ``b" X"``, stands before the number. A value that is NaN leaves its word out. Zeros that
-        add nothing are left out, as slicers do: ``.5``, ``12``, ``-.031``.
+        The prefix, such as ``b" X"``, stands before the number. A value that is NaN omits its word. Redundant zeros
+        are left out, as slicers do: ``.5``, ``12``, ``-.031``.
     head, tail : bytes
         Such as ``b"G1"``, and a line end.
 
@@ -178,26 +178,28 @@ def write_words(columns: list[tuple[bytes, NDArray[np.float64], int]], head: byt
     b'G1 X1.5\nG1 X-.25 F900\n'
     """
     rows = len(columns[0][1])
-    parts = [_constant(head, rows)]
+    parts = [_repeat_text(head, rows)]
     for prefix, values, decimals in columns:
         absent = np.isnan(values)
-        word = np.concatenate([_constant(prefix, rows), _number(np.where(absent, 0.0, values), decimals)], axis=1)
+        word = np.concatenate(
+            [_repeat_text(prefix, rows), _format_numbers(np.where(absent, 0.0, values), decimals)], axis=1
+        )
         word[absent] = 0
         parts.append(word)
-    parts.append(_constant(tail, rows))
+    parts.append(_repeat_text(tail, rows))
     wide: Bytes = np.concatenate(parts, axis=1)
     text = wide.tobytes().translate(None, b"\0")
     ends = np.flatnonzero(np.frombuffer(text, dtype=np.uint8) == NEWLINE)
     return Rows(text=text, start=np.append(0, ends + 1))
 
 
-def _constant(text: bytes, rows: int) -> Bytes:
+def _repeat_text(text: bytes, rows: int) -> Bytes:
     repeated: Bytes = np.broadcast_to(np.frombuffer(text, dtype=np.uint8), (rows, len(text)))
     return repeated
 
 
-def _number(values: NDArray[np.float64], decimals: int) -> Bytes:
-    """Return each value as text in a row of its own, 0 where there is no character."""
+def _format_numbers(values: NDArray[np.float64], decimals: int) -> Bytes:
+    """Write each value as text in a row, 0 in unused columns."""
     scaled = np.rint(values * 10.0**decimals).astype(np.int64)
     rest = np.abs(scaled)
     largest = int(rest.max(initial=0))
@@ -207,7 +209,7 @@ def _number(values: NDArray[np.float64], decimals: int) -> Bytes:
     ten = rest.dtype.type(10)
     places = max(wide, decimals + 1)
     text = np.zeros((len(values), places + 2), dtype=np.uint8)
-    shown = np.zeros(len(values), dtype=bool)  # something other than 0 was met, from the right
+    shown = np.zeros(len(values), dtype=bool)  # a digit other than 0 was met, from the right
     column = places + 1
     for place in range(places):
         tenth = rest // ten  # much quicker than divmod
@@ -220,10 +222,10 @@ def _number(values: NDArray[np.float64], decimals: int) -> Bytes:
             shown |= digit != 0
             text[:, column] = np.where(shown, digit + ZERO, 0)
         else:
-            some = (digit != 0) | (rest != 0)  # a digit, or a 0 with digits before it
+            visible = (digit != 0) | (rest != 0)  # a digit, or a 0 with digits before it
             if place == decimals:
-                some |= ~shown  # "0" rather than nothing
-            text[:, column] = np.where(some, digit + ZERO, 0)
+                visible |= ~shown  # "0" rather than nothing
+            text[:, column] = np.where(visible, digit + ZERO, 0)
         column -= 1
     text[:, 0] = np.where(scaled < 0, MINUS, 0)
     return text

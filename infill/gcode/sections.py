@@ -1,4 +1,4 @@
-"""What each line of a sliced print belongs to: its feature, layer, width, and the strokes of its sparse infill."""
+"""Feature, layer and width of each line of a sliced print, and the strokes of its sparse infill."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ SPARSE = "sparse infill"
 SKINS = ("solid infill", "top solid infill", "bottom solid infill", "bridge infill", "internal bridge infill")
 ALIKE = 0.02  # two moves extrude alike if their filament per mm differs by less than this share
 FILAMENT_UNIT = 1e-5  # mm: the last decimal of an E word
-# Said to the display or the host alone, so that moves before and after it are still one line of plastic.
+# Commands to the display or the host alone: moves before and after them are still one line of plastic.
 TALK = {"M73", "M117", "M118", "M70"}
-# Tags that are remarks where they change nothing: a stroke goes on.
+# Tags that act as remarks where they change nothing: a stroke continues across them.
 QUIET = {"purged", "tool change", "tool change end", "wipe end"}
 
 
 class Tags(NamedTuple):
-    """What the tags before a line have said.
+    """State set by the tags before a line.
 
-    Slicers forget an end, say a beginning twice, or say it where nothing follows. So whatever begins also ends with
-    what cannot be inside of it, a new layer at the latest.
+    Slicers forget an end, repeat a beginning, or write one where nothing follows. So everything that begins also
+    ends with the next tag that cannot stand inside it, a new layer at the latest.
 
     Parameters
     ----------
     role : str
-        What is printed: see `infill.gcode.dialect.ROLES`; "untagged" before the first tag. It holds until the next tag
-        of a role, as in slicers' own readers: PrusaSlicer says it once where all layers are of infill alone.
+        The role in print: see `infill.gcode.dialect.ROLES`; "untagged" before the first tag. It holds until the next
+        tag of a role, as in slicers' own readers: PrusaSlicer writes it once where all layers are of infill alone.
     layer : int
         Number of layers so far. Tags with nothing printed between them, such as those of a slicer and of its settings
         for each layer, begin the same layer.
@@ -50,7 +50,7 @@ class Tags(NamedTuple):
     part : int
         Number of tags so far that begin or end an object.
     name : str
-        Of the object; "" if none is said.
+        Of the object; "" if unnamed.
     wiping : bool
         Up to the tag that ends it. A tag of a role, an object or a layer ends it too: then the next move that
         extrudes was no part of it.
@@ -59,10 +59,10 @@ class Tags(NamedTuple):
     tool : str
         In use, as `infill.gcode.dialect.tool_of` names it; "" while unknown.
     purging : bool
-        The tool was changed, and what is printed now takes what is purged if a tag says later that purging is over:
+        The tool was changed, and the lines that follow purge it if a later tag says that purging is over:
         the first such tag in the same layer.
     purged_on_object : bool
-        Something other than a wipe tower was printed since the tool was changed.
+        Something other than a wipe tower was printed since the change of tool.
     changing_tool : bool
         Between the tags around a tool change. A tag of a role, an object or a layer ends it too.
     """
@@ -85,7 +85,7 @@ class Tags(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Marks:
-    """What every line of a table belongs to.
+    """Feature, layer and section of every line of a table.
 
     Parameters
     ----------
@@ -94,12 +94,12 @@ class Marks:
     role : (N,) uint8
         Place in `roles`.
     purged : (N,) bool
-        The line is tagged as sparse infill, and takes what a tool change purges: its role is "wipe tower".
+        The line is tagged as sparse infill, but prints the purge of a tool change: its role is "wipe tower".
     section : (N,) int
         Number of the run of lines between two tags of role, layer or object, or of purging, from 0 in this table.
     layer : (N,) int
     layers : int
-        How many begin here.
+        Number of layers that begin here.
     width, height, acceleration : (N,) float64
     wiping : (N,) bool
         From the tag that begins a wipe to the one that ends it, or, where that is missing, to the next move that
@@ -107,9 +107,9 @@ class Marks:
     names : dict of int to str
         By section, the name of its object.
     tagged : (N,) bool
-        The line is such a tag.
+        The line is a tag of this kind.
     after : Tags
-        What holds at the end.
+        State at the end.
     """
 
     roles: tuple[str, ...]
@@ -127,67 +127,67 @@ class Marks:
     after: Tags
 
     def is_role(self, role: str) -> NDArray[np.bool_]:
-        """Return whether each line belongs to `role`."""
-        found = self.role == (self.roles.index(role) if role in self.roles else len(self.roles))
-        return np.asarray(found)
+        """Return (N,) bool, True for lines of `role`."""
+        matches = self.role == (self.roles.index(role) if role in self.roles else len(self.roles))
+        return np.asarray(matches)
 
 
 def marked(table: Table, before: Tags) -> Marks:
-    """Read the tags of a table, beginning with what held before it.
+    """Read the tags of a table, starting from the state before it.
 
-    Purging into the infill bears the role of the infill. It is what stands between a tool change and the first tag
-    after it that says that purging is over, and its role is set to "wipe tower". PrusaSlicer writes that tag once for
-    every tool of a layer, also for the one in use when the layer begins: then nothing was purged.
+    Purging into the infill bears the role of the infill. It stands between a tool change and the first tag after it
+    that says that purging is over, and its role is set to "wipe tower". PrusaSlicer writes that tag once for every
+    tool of a layer, also for the one in use when the layer begins: then there is no purge.
     """
     lines = len(table)
-    at, said = [0], [before]
+    at, history = [0], [before]
     tagged = np.zeros(lines, dtype=bool)
-    now, last = before, 0
+    state, last_line = before, 0
     purges: list[tuple[int, int]] = []
     wipes: list[tuple[int, int]] = []
-    changed_tool = wipe = 0  # the line, or the first one if it stands in a table before
+    changed_tool = wipe = 0  # the line, or the first one if it stands in an earlier table
     # Plain lists: single entries of an array cost several times as much.
     printed_so_far = np.concatenate([[0], np.cumsum(printing(table))])
     printed, start, data = printed_so_far.tolist(), table.start.tolist(), table.data
     commands = {command.line: command for command in table.commands}
 
     def first_printed(line: int) -> int:
-        """Return the first line from one on that prints; the end if none does."""
+        """Return the first printing line, counted from `line`; the end if there is none."""
         return int(np.searchsorted(printed_so_far, printed[line], side="right")) - 1
 
     for line in sorted([*np.flatnonzero(table.kind == COMMENT).tolist(), *commands]):
-        if printed[line] > printed[last]:
-            now = _printed(now)
-        last, then = line, now
+        if printed[line] > printed[last_line]:
+            state = _after_printing(state)
+        last_line, previous_tags = line, state
         command = commands.get(line)
         if command is not None:
             tool = tool_of(command.code, command.words, table.text(line, line + 1))
-            if tool and (tool != now.tool or now.changing_tool or now.role == "wipe tower"):
-                changed_tool = changed_tool if now.purging else line
-                now = now._replace(tool=tool, purging=True)
+            if tool and (tool != state.tool or state.changing_tool or state.role == "wipe tower"):
+                changed_tool = changed_tool if state.purging else line
+                state = state._replace(tool=tool, purging=True)
             elif command.code == "M204":
                 value = command.words.get("P") or command.words.get("S") or 0.0
-                now = now._replace(acceleration=value) if makes_sense(value, "acceleration") else now
+                state = state._replace(acceleration=value) if makes_sense(value, "acceleration") else state
         else:
             tag = tag_of(data[start[line] : min(start[line + 1], start[line] + LONGEST_TAG)].lstrip())
             if tag is None:
                 continue
-            if tag[0] == "purged" and now.purging:
+            if tag[0] == "purged" and state.purging:
                 purges.append((changed_tool, line))
-            now = _said(now, *tag)
-            if then.wiping and (tag[0] in ("wipe start", "wipe end") or not now.wiping):
+            state = _apply_tag(state, *tag)
+            if previous_tags.wiping and (tag[0] in ("wipe start", "wipe end") or not state.wiping):
                 wipes.append((wipe, line if tag[0] == "wipe end" else min(line, first_printed(wipe))))
             wipe = line if tag[0] == "wipe start" else wipe
-            tagged[line] = tag[0] not in QUIET or now != then
-        if now is not then and now != then:
+            tagged[line] = tag[0] not in QUIET or state != previous_tags
+        if state is not previous_tags and state != previous_tags:
             at.append(line)
-            said.append(now)
-    if printed[lines] > printed[last]:
-        now = _printed(now)
-    if now.wiping:
+            history.append(state)
+    if printed[lines] > printed[last_line]:
+        state = _after_printing(state)
+    if state.wiping:
         wipes.append((wipe, first_printed(wipe)))
-        now = now._replace(wiping=first_printed(wipe) == lines)
-    fields = dict(zip(Tags._fields, zip(*said, strict=True), strict=True))  # of each, all values
+        state = state._replace(wiping=first_printed(wipe) == lines)
+    fields = dict(zip(Tags._fields, zip(*history, strict=True), strict=True))  # all values of each field
     place = {role: number for number, role in enumerate(dict.fromkeys([*fields["role"], "wipe tower"]))}
     roles = tuple(place)
     count = np.diff([*at, lines])
@@ -199,42 +199,44 @@ def marked(table: Table, before: Tags) -> Marks:
     purged = spread(fields["changing_tool"], np.bool_)
     keys = list(zip(fields["role"], fields["layer"], fields["part"], strict=True))
     begins = np.zeros(lines + 1, dtype=bool)
-    begins[[line for line, one, other in zip(at[1:], keys[1:], keys[:-1], strict=True) if one != other]] = True
-    for first, end in purges:
-        purged[first:end] = begins[first] = begins[end] = True
+    begins[
+        [line for line, key, previous_key in zip(at[1:], keys[1:], keys[:-1], strict=True) if key != previous_key]
+    ] = True
+    for first_line, end in purges:
+        purged[first_line:end] = begins[first_line] = begins[end] = True
     begins[0] = False
     wiping = np.zeros(lines, dtype=bool)
-    for first, end in wipes:
-        wiping[first:end] = True
+    for first_line, end in wipes:
+        wiping[first_line:end] = True
     section = np.cumsum(begins[:lines])
     purged &= role == (roles.index(SPARSE) if SPARSE in roles else len(roles))
     role[purged] = roles.index("wipe tower")
-    names = {int(section[line]): tags.name for line, tags in zip(at, said, strict=True) if line < lines}
+    names = {int(section[line]): tags.name for line, tags in zip(at, history, strict=True) if line < lines}
     return Marks(
         roles=roles,
         role=role,
         purged=purged,
         section=section,
         layer=spread(fields["layer"], np.intp),
-        layers=now.layer - before.layer,
+        layers=state.layer - before.layer,
         width=spread(fields["width"], np.float64),
         height=spread(fields["height"], np.float64),
         acceleration=spread(fields["acceleration"], np.float64),
         wiping=wiping,
-        names=_for_all(names, section),
+        names=_fill_names(names, section),
         tagged=tagged,
-        after=now,
+        after=state,
     )
 
 
 def printing(table: Table) -> NDArray[np.bool_]:
-    """Return whether each line extrudes on its way."""
-    found: NDArray[np.bool_] = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
-    return found
+    """Return (N,) bool, True for lines that extrude along a path."""
+    prints: NDArray[np.bool_] = (table.extruded > 0) & (table.given[:, 0] | table.given[:, 1])
+    return prints
 
 
-def _for_all(names: dict[int, str], section: Places) -> dict[int, str]:
-    """Return the names of all sections: where a section begins without a tag of its own, of the one before it."""
+def _fill_names(names: dict[int, str], section: Places) -> dict[int, str]:
+    """Return the names of all sections; a section that begins without a tag takes the name of the previous one."""
     name = ""
     filled = {}
     for number in np.unique(section).tolist():
@@ -243,15 +245,15 @@ def _for_all(names: dict[int, str], section: Places) -> dict[int, str]:
     return filled
 
 
-def _printed(tags: Tags) -> Tags:
-    """Return what holds after something was printed."""
+def _after_printing(tags: Tags) -> Tags:
+    """Return the state after something was printed."""
     on_object = tags.purging and tags.role != "wipe tower" and not tags.changing_tool
     if tags.printed and (tags.purged_on_object or not on_object):
-        return tags  # of most lines
+        return tags  # the most frequent case
     return tags._replace(printed=True, purged_on_object=tags.purged_on_object or on_object)
 
 
-def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
+def _apply_tag(tags: Tags, meaning: str, value: bytes) -> Tags:
     match meaning:
         case "role":
             role = role_of(value)
@@ -259,15 +261,15 @@ def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
                 return tags
             return tags._replace(role=role, wiping=False, changing_tool=False)
         case "layer":
-            return _begun(tags, value)
+            return _begin_layer(tags, value)
         case "object" | "object end":
             name = value.decode("utf-8", "replace") if meaning == "object" and value != b"NONMESH" else ""
             return tags._replace(part=tags.part + 1, name=name, wiping=False, changing_tool=False)
         case "width":
-            width = _length(value, tags.width)
+            width = _parse_length(value, tags.width)
             return tags if width == tags.width else tags._replace(width=width)
         case "height":
-            height = _length(value, tags.height)
+            height = _parse_length(value, tags.height)
             return tags if height == tags.height else tags._replace(height=height)
         case "wipe start" | "wipe end":
             return tags._replace(wiping=meaning == "wipe start")
@@ -279,13 +281,13 @@ def _said(tags: Tags, meaning: str, value: bytes) -> Tags:
             return tags
 
 
-def _begun(tags: Tags, value: bytes) -> Tags:
-    """Return what holds at a tag of a layer.
+def _begin_layer(tags: Tags, value: bytes) -> Tags:
+    """Return the state at a tag of a layer.
 
     A tool change before it whose purging has not ended purged nothing, unless nothing was printed since: then it
-    belongs to the new layer. One before the first layer selects the tool to begin with.
+    belongs to the new layer. A change before the first layer selects the initial tool.
     """
-    if tags.layer and not tags.printed and not _counts_on(tags.layer_tag, value):
+    if tags.layer and not tags.printed and not _differ_in_number(tags.layer_tag, value):
         return tags._replace(layer_tag=value)
     purging = tags.purging and not tags.purged_on_object and tags.layer > 0
     return tags._replace(
@@ -301,12 +303,12 @@ def _begun(tags: Tags, value: bytes) -> Tags:
     )
 
 
-def _counts_on(before: bytes, value: bytes) -> bool:
-    """Return whether two tags of layers are numbered, and differently: the layer between them is empty."""
+def _differ_in_number(before: bytes, value: bytes) -> bool:
+    """Return True if two tags of layers have different numbers: the layer between them is empty."""
     return bool(before) and bool(value) and before != value
 
 
-def _length(value: bytes, otherwise: float) -> float:
+def _parse_length(value: bytes, otherwise: float) -> float:
     try:
         length = float(value)
     except ValueError:
@@ -316,18 +318,18 @@ def _length(value: bytes, otherwise: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Strokes:
-    """The sparse infill of a table: runs of moves that extrude alike without a travel between them.
+    """The sparse infill of a table: runs of moves of equal filament per mm without a travel between them.
 
     Parameters
     ----------
     points : (N, 2) float64, mm
-        The strokes one after another, each with the point it begins at.
+        The strokes one after another, each with its start.
     first : (M + 1,) int
         Stroke k has the points `first[k]` to `first[k + 1]`.
     line : (N,) int
         The line that ends at each point; for the first point of a stroke, the line before its first move.
     filament : (M,) float64, mm
-        That the stroke extrudes.
+        Filament of each stroke.
     length : (M,) float64, mm
     """
 
@@ -342,68 +344,68 @@ class Strokes:
 
     @property
     def opens(self) -> Places:
-        """The line of the first move of every stroke."""
+        """Line of the first move of every stroke."""
         return self.line[self.first[:-1] + 1]
 
     @property
     def closes(self) -> Places:
-        """The line of its last move."""
+        """Line of the last move of every stroke."""
         return self.line[self.first[1:] - 1]
 
     @property
     def moves(self) -> Places:
-        """The lines of all their moves."""
+        """Lines of all moves of the strokes."""
         return np.delete(self.line, self.first[:-1])
 
 
 def strokes(table: Table, marks: Marks, role: str = SPARSE) -> Strokes:
-    """Return the strokes of `role`.
+    """Find the strokes of `role`.
 
     A stroke ends where the feed rate or the filament per mm changes, and at every line other than a comment or talk
     to the display. Lines with something odd (line numbers, relative moves, inches, a change of z) are in no stroke.
     """
-    x0, y0, z0 = (_shifted(getattr(table, name), getattr(table.before, name)) for name in "xyz")
+    x0, y0, z0 = (_shift(getattr(table, name), getattr(table.before, name)) for name in "xyz")
     length = np.hypot(table.x - x0, table.y - y0)
     with np.errstate(invalid="ignore"):
         drawn = (table.kind == MOVE) & (table.extruded > 0) & (length > 0) & np.isfinite(length)
     drawn &= (table.z == z0) | ~table.given[:, 2]
-    drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~table.unsure & ~_strange(table)
+    drawn &= marks.is_role(role) & ~marks.wiping & ~table.numbered & ~table.unsure & ~_is_unsupported(table)
     passive = ((table.kind == COMMENT) & ~marks.tagged) | (table.kind == BLANK)
     for command in table.commands:
         passive[command.line] |= command.code in TALK
-    feed = _shifted(table.f, table.before.f)
+    feed = _shift(table.f, table.before.f)
     with np.errstate(invalid="ignore"):
         passive |= (table.kind == MOVE) & ~table.moves & (table.f == feed)
-    here = np.flatnonzero(drawn)
+    rows = np.flatnonzero(drawn)
     broken = np.cumsum(~(drawn | passive))
-    rate = table.extruded[here] / length[here]
-    unsure = FILAMENT_UNIT / length[here]
-    one, other = here[:-1], here[1:]
-    joined = (broken[one] == broken[other]) & (table.f[one] == table.f[other])
+    rate = table.extruded[rows] / length[rows]
+    unsure = FILAMENT_UNIT / length[rows]
+    before_row, after_row = rows[:-1], rows[1:]
+    joined = (broken[before_row] == broken[after_row]) & (table.f[before_row] == table.f[after_row])
     joined &= np.abs(np.diff(rate)) <= ALIKE * rate[:-1] + unsure[:-1] + unsure[1:]
-    begins = np.flatnonzero(np.concatenate([[True], ~joined])[: len(here)])
-    number = np.diff(np.append(begins, len(here)))
-    # One point more for every stroke: where it begins.
-    order = np.insert(here, begins, -1) if len(here) else here
+    begins = np.flatnonzero(np.concatenate([[True], ~joined])[: len(rows)])
+    number = np.diff(np.append(begins, len(rows)))
+    # One additional point for every stroke: its start.
+    order = np.insert(rows, begins, -1) if len(rows) else rows
     at_start = order < 0
     line = order.copy()
-    line[at_start] = here[begins] - 1
+    line[at_start] = rows[begins] - 1
     points = np.empty((len(order), 2))
-    points[~at_start] = np.stack([table.x[here], table.y[here]], axis=1)
-    points[at_start] = np.stack([x0[here[begins]], y0[here[begins]]], axis=1)
-    first = np.concatenate([[0], np.cumsum(number + 1)])
-    sums = (np.add.reduceat(v[here], begins) if len(here) else np.empty(0) for v in (table.extruded, length))
+    points[~at_start] = np.stack([table.x[rows], table.y[rows]], axis=1)
+    points[at_start] = np.stack([x0[rows[begins]], y0[rows[begins]]], axis=1)
+    stroke_start = np.concatenate([[0], np.cumsum(number + 1)])
+    sums = (np.add.reduceat(v[rows], begins) if len(rows) else np.empty(0) for v in (table.extruded, length))
     filament, total = sums
-    return Strokes(points=points, first=first, line=line, filament=filament, length=total)
+    return Strokes(points=points, first=stroke_start, line=line, filament=filament, length=total)
 
 
-def _shifted(values: Floats, before: float) -> Floats:
-    """Return what held before each line."""
+def _shift(values: Floats, before: float) -> Floats:
+    """Return the value before each line."""
     return np.concatenate([[before], values[:-1]])[: len(values)]
 
 
-def _strange(table: Table) -> NDArray[np.bool_]:
-    """Return whether moves are meant in another way on a line: relative or in inches."""
+def _is_unsupported(table: Table) -> NDArray[np.bool_]:
+    """Return True for lines whose moves are relative or in inches."""
     strange = np.zeros(len(table), dtype=bool)
     relative, inches = table.before.relative, table.before.inches
     since = 0

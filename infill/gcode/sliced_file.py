@@ -1,4 +1,4 @@
-"""The file of a sliced print: text, binary G-code with text inside, or an archive of plates with a text each."""
+"""The file of a sliced print: text, binary G-code with text inside, or an archive with a text for each plate."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from typing import BinaryIO, Literal
 from infill.errors import FormatError, ParameterError
 from infill.files.whole_files import scratch
 
-HEAD = 4  # bytes that tell the forms apart
-LOOKED_AT = 1 << 18  # bytes that tell how lines end
+HEAD = 4  # bytes that identify the form
+LOOKED_AT = 1 << 18  # bytes in which line ends are checked
 Form = Literal["text", "binary", "archive"]
 
 
@@ -58,27 +58,29 @@ class SlicedFile:
 
     @property
     def parts(self) -> tuple[int | None, ...]:
-        """The prints in it: the plates of an archive, or None for its only one."""
+        """Prints in the file: the plates of an archive, or None for its only one."""
         return self.plates or (None,)
 
     def part(self, plate: int | None) -> int | None:
-        """Return which print is meant by a plate that may be left out: the first.
+        """Return the print of a plate; without a plate, the first.
 
         Raises
         ------
         ParameterError
-            There is no such plate.
+            The file does not have this plate.
         """
         if plate is None:
             return self.parts[0]
         if plate not in self.plates:
-            there = f"it has {', '.join(map(str, self.plates))}" if self.plates else "it has no plates; leave it out"
-            raise ParameterError(f"plate is {plate}, which is not in {self.name}; {there}")
+            available = (
+                f"it has {', '.join(map(str, self.plates))}" if self.plates else "it has no plates; leave it out"
+            )
+            raise ParameterError(f"plate is {plate}, which is not in {self.name}; {available}")
         return plate
 
     @contextlib.contextmanager
     def text(self, part: int | None, folder: Path | None = None) -> Iterator[SlicedText]:
-        """Give one of `parts`; text that is packed is unpacked to a file without a name in `folder`.
+        """Open one of `parts`; unpack packed text to a nameless file in `folder`.
 
         Raises
         ------
@@ -93,15 +95,15 @@ class SlicedFile:
             opening = self._binary(folder)
         else:
             opening = contextlib.nullcontext(SlicedText(text=self.file))
-        with opening as given:
-            _check_line_ends(given.text)
-            yield given
+        with opening as sliced_text:
+            _check_line_ends(sliced_text.text)
+            yield sliced_text
 
     @contextlib.contextmanager
     def _binary(self, folder: Path | None) -> Iterator[SlicedText]:
         from infill.gcode.binary import Kind, blocks, metadata, text_pieces
 
-        with _unpacked(text_pieces(self.file), folder) as text:
+        with _unpack_to_file(text_pieces(self.file), folder) as text:
             self.file.seek(0)
             settings: dict[str, str] = {}
             values: dict[str, str] = {}
@@ -113,7 +115,7 @@ class SlicedFile:
                     values.update(metadata(block))
                 elif block.kind == Kind.FILE_METADATA:
                     slicer = metadata(block).get("Producer", "")
-            pairs = tuple((_bytes(name), _bytes(value)) for name, value in values.items())
+            pairs = tuple((_encode_text(name), _encode_text(value)) for name, value in values.items())
             yield SlicedText(text=text, settings=settings, metadata=pairs, slicer=slicer)
 
     @contextlib.contextmanager
@@ -121,7 +123,7 @@ class SlicedFile:
         from infill.gcode.bambu_archive import plate_pieces
 
         try:
-            with _unpacked(plate_pieces(self.file, plate), folder) as text:
+            with _unpack_to_file(plate_pieces(self.file, plate), folder) as text:
                 yield SlicedText(text=text)
         except FormatError as error:
             raise FormatError(f"plate {plate}: {error}") from error
@@ -129,21 +131,21 @@ class SlicedFile:
 
 @contextlib.contextmanager
 def opened(source: Path) -> Iterator[SlicedFile]:
-    """Open the file of a sliced print, whatever it is called.
+    """Open the file of a sliced print, whatever its name.
 
     Raises
     ------
     FormatError
-        If it cannot be read. What is raised while it is open gets the name of the file.
+        If it cannot be read. Errors raised while it is open get the name of the file.
     """
     try:
         file = source.open("rb")
     except OSError as error:
-        said = error.strerror or str(error)
-        raise FormatError(f"cannot read {source}: {said[:1].lower()}{said[1:]}") from error
+        reason = error.strerror or str(error)
+        raise FormatError(f"cannot read {source}: {reason[:1].lower()}{reason[1:]}") from error
     try:
         with file:
-            form = _form(file.read(HEAD))
+            form = _detect_form(file.read(HEAD))
             numbers: tuple[int, ...] = ()
             if form == "archive":
                 from infill.gcode.bambu_archive import plates
@@ -165,8 +167,8 @@ def _check_line_ends(text: BinaryIO) -> None:
         )
 
 
-def _form(head: bytes) -> Form:
-    """Tell the form of a file by its first bytes; what reads a form is loaded only for it."""
+def _detect_form(head: bytes) -> Form:
+    """Return the form of a file from its first bytes; the reader of a form is imported only for it."""
     if head.startswith(b"PK"):
         from infill.gcode.bambu_archive import is_archive
 
@@ -177,12 +179,12 @@ def _form(head: bytes) -> Form:
 
 
 @contextlib.contextmanager
-def _unpacked(pieces: Iterable[bytes], folder: Path | None) -> Iterator[BinaryIO]:
+def _unpack_to_file(pieces: Iterable[bytes], folder: Path | None) -> Iterator[BinaryIO]:
     with scratch(folder) as text:
         text.writelines(pieces)
         text.seek(0)
         yield text
 
 
-def _bytes(text: str) -> bytes:
+def _encode_text(text: str) -> bytes:
     return text.encode("utf-8", "surrogateescape")

@@ -1,8 +1,8 @@
-"""Strokes drawn anew in the text of a print, and the proof that nothing else changed.
+"""New paths for strokes in the text of a print, and the proof that everything else is unchanged.
 
-The new moves of a stroke stand where its old ones stood: they begin and end where those did, at their feed rate, with
-their filament per mm. Every other line is copied. In files with absolute E, the counter is set to what the following
-lines expect, as slicers themselves do with G92.
+The new moves of a stroke replace its old ones: they begin and end at the same points, at the same feed rate, with
+the same filament per mm. Every other line is copied. In files with absolute E, the counter is set to the value that
+the next lines expect, as slicers themselves do with G92.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from infill.paths.corners import UNIT
 Floats = NDArray[np.float64]
 Places = NDArray[np.intp]
 
-RATE_TOLERANCE = 0.005  # of the filament per mm, beyond what decimals cost
+RATE_TOLERANCE = 0.005  # of the filament per mm, in addition to rounding
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,11 +36,11 @@ class Redrawn:
     points : (K, 2) float64, mm
         Multiples of `UNIT`, one stroke after another, each from the first to the last point of the old one.
     first : (S + 1,) int
-        Where each begins.
+        Start of each path.
     source : (K,) int
-        The old point, in the numbering of `Strokes.points`, that each stands for; ascending.
+        The old point, in the numbering of `Strokes.points`, for which each point stands; ascending.
     filament : (S,) float64, mm
-        That each extrudes.
+        Filament of each path.
     """
 
     which: Places
@@ -52,15 +52,15 @@ class Redrawn:
 
 @dataclass(frozen=True, kw_only=True)
 class Spliced:
-    """Text with strokes drawn anew.
+    """Text with new paths for some strokes.
 
     Parameters
     ----------
     text : bytes
     shift : (N + 1,) int
-        How many lines more there are before each old line; for lines that were replaced, it means nothing.
+        Number of lines added before each old line; invalid for lines that were replaced.
     same : (N,) bool
-        The lines that were copied and are not between the moves of a stroke that was drawn anew.
+        The lines that were copied and do not stand between the moves of a replaced stroke.
     """
 
     text: bytes
@@ -69,7 +69,7 @@ class Spliced:
 
 
 def spliced(table: Table, strokes: Strokes, new: Redrawn) -> Spliced:
-    """Return the text of a table with some of its strokes drawn anew."""
+    """Replace strokes of a table by new paths; return the new text."""
     ends = _line_end(table)
     starts = np.zeros(len(new.points), dtype=bool)
     starts[new.first[:-1]] = True
@@ -79,7 +79,7 @@ def spliced(table: Table, strokes: Strokes, new: Redrawn) -> Spliced:
     first_line, last_line = begin_line + 1, strokes.line[strokes.first[new.which + 1] - 1]
     counter, words = _filament_words(table, new, row, owner, begin_line)
     feed = np.full(len(row), np.nan)
-    # The first move tells the feed rate where the old one did.
+    # The first move states the feed rate where the old one did.
     opens = np.concatenate([[0], np.cumsum(np.diff(new.first) - 1)])
     moves = strokes.line[strokes.first[new.which] + 1]
     feed[opens[:-1]] = np.where(table.given[moves, 4], table.f[moves], np.nan)
@@ -88,28 +88,28 @@ def spliced(table: Table, strokes: Strokes, new: Redrawn) -> Spliced:
     expected = table.e[last_line]
     reset = ~table.relative_e[last_line] & (np.abs(counter - expected) >= FILAMENT_UNIT / 2)
     pieces: list[bytes] = []
-    done = 0  # old lines
+    copied_lines = 0  # old lines
     same = np.ones(len(table), dtype=bool)
     change = np.zeros(len(table) + 1, dtype=np.intp)
     for k in range(len(new.which)):
-        first, last = int(first_line[k]), int(last_line[k])
-        pieces.append(table.text(done, first))
+        first_old, last_old = int(first_line[k]), int(last_line[k])
+        pieces.append(table.text(copied_lines, first_old))
         low, high = int(opens[k]), int(opens[k + 1])
         old = int(strokes.first[new.which[k] + 1] - strokes.first[new.which[k]]) - 1
-        if last + 1 - first == old:
+        if last_old + 1 - first_old == old:
             pieces.append(rows.text[rows.start[low] : rows.start[high]])
         else:
-            _mixed(pieces, table, strokes, new, k, row[low:high], low, rows.text, rows.start)
+            _append_mixed(pieces, table, strokes, new, k, row[low:high], low, rows.text, rows.start)
         if reset[k]:
-            pieces.append(b"G92 E%s%s" % (_shortest(float(expected[k])), ends))
-        same[first : last + 1] = False
-        change[last + 1] += high - low - old + bool(reset[k])
-        done = last + 1
-    pieces.append(table.text(done, len(table)))
+            pieces.append(b"G92 E%s%s" % (_format_shortest(float(expected[k])), ends))
+        same[first_old : last_old + 1] = False
+        change[last_old + 1] += high - low - old + bool(reset[k])
+        copied_lines = last_old + 1
+    pieces.append(table.text(copied_lines, len(table)))
     return Spliced(text=b"".join(pieces), shift=np.cumsum(change), same=same)
 
 
-def _mixed(
+def _append_mixed(
     pieces: list[bytes],
     table: Table,
     strokes: Strokes,
@@ -120,88 +120,88 @@ def _mixed(
     text: bytes,
     start: NDArray[np.int64],
 ) -> None:
-    """Append the rows of a stroke with the lines that stood between its old moves, in their order."""
+    """Append the rows of a stroke with the lines that stood between its old moves, in order."""
     at = slice(int(strokes.first[new.which[k]]), int(strokes.first[new.which[k] + 1]))
     lines = strokes.line[at]
     source = new.source[row]
-    done = 0
+    copied_rows = 0
     for place in range(1, len(lines)):
         upto = len(row) if place == len(lines) - 1 else int(np.searchsorted(source, at.start + place, side="right"))
-        pieces.append(text[start[low + done] : start[low + upto]])
-        done = upto
+        pieces.append(text[start[low + copied_rows] : start[low + upto]])
+        copied_rows = upto
         if place < len(lines) - 1:
             pieces.append(table.text(int(lines[place]) + 1, int(lines[place + 1])))
     between = table.text(int(lines[0]) + 1, int(lines[1]))
-    if between:  # nothing stands before the first move
+    if between:  # no line stands before the first move
         raise AssertionError("a stroke begins with something other than a move")
 
 
 def _filament_words(
     table: Table, new: Redrawn, row: Places, owner: Places, begin_line: Places
 ) -> tuple[Floats, Floats]:
-    """Return what the counter shows after each stroke, and the E word of every row."""
+    """Return the counter after each stroke, and the E word of every row."""
     length = np.hypot(*(new.points[row] - new.points[row - 1]).T)
     owner = owner[row]
     total = np.bincount(owner, weights=length, minlength=len(new.which))
     rate = new.filament / total
     along = np.cumsum(length)
     base = np.concatenate([[0.0], np.cumsum(total)])[:-1]
-    pushed = (along - base[owner]) * rate[owner]  # since the stroke began
+    pushed = (along - base[owner]) * rate[owner]  # since the start of the stroke
     before = np.where(begin_line >= 0, table.e[np.maximum(begin_line, 0)], table.before.e)
     relative = table.relative_e[np.maximum(begin_line + 1, 0)]
     steps = np.rint(pushed / FILAMENT_UNIT)
-    first = np.concatenate([[True], np.diff(owner) != 0])[: len(owner)]
+    is_first = np.concatenate([[True], np.diff(owner) != 0])[: len(owner)]
     step = np.diff(steps, prepend=0.0)
-    step[first] = steps[first]
+    step[is_first] = steps[is_first]
     absolute = np.rint((before[owner] + pushed) / FILAMENT_UNIT) * FILAMENT_UNIT
     words = np.where(relative[owner], step * FILAMENT_UNIT, absolute)
-    last = np.concatenate([first[1:], [True]])[: len(owner)]
-    return words[last], words
+    is_last = np.concatenate([is_first[1:], [True]])[: len(owner)]
+    return words[is_last], words
 
 
 def _line_end(table: Table) -> bytes:
     return b"\r\n" if table.data[:4096].count(b"\r\n") > table.data[:4096].count(b"\n") / 2 else b"\n"
 
 
-def _shortest(value: float) -> bytes:
+def _format_shortest(value: float) -> bytes:
     text = f"{value:.5f}".rstrip("0").rstrip(".")
     return text.encode() if text not in ("", "-", "-0") else b"0"
 
 
-def unlike(table: Table, strokes: Strokes, new: Redrawn, done: Spliced) -> str:
-    """Replay old and new text from the same state, and say how they differ where they must not; nothing if they agree.
+def unlike(table: Table, strokes: Strokes, new: Redrawn, spliced_text: Spliced) -> str:
+    """Replay old and new text from the same state; describe the first forbidden difference, "" if there is none.
 
-    Compared are every line that was copied (kind, position, feed rate, filament), the state at the end, and the new
-    moves: each extrudes what its stroke extrudes per mm, above 0, at its feed rate, without a move of z.
+    Compare every copied line (kind, position, feed rate, filament), the state at the end, and the new moves: each has
+    the filament per mm of its stroke, above 0, its feed rate, and no move of z.
     """
-    other = read(done.text, table.before)
-    return differing(table, other, done) or _wrong_moves(table, strokes, new, done, other)
+    new_table = read(spliced_text.text, table.before)
+    return differing(table, new_table, spliced_text) or _find_wrong_move(table, strokes, new, spliced_text, new_table)
 
 
-def differing(table: Table, other: Table, done: Spliced) -> str:
-    """Say how the lines that were copied, or the state at the end, differ between old and new text."""
-    if len(other) != len(table) + int(done.shift[-1]):
+def differing(table: Table, new_table: Table, spliced_text: Spliced) -> str:
+    """Describe the first difference of the copied lines, or of the state at the end, between old and new text."""
+    if len(new_table) != len(table) + int(spliced_text.shift[-1]):
         return "the number of lines"
-    old = np.flatnonzero(done.same)
-    now = old + done.shift[old]
-    if not (table.kind[old] == other.kind[now]).all():
+    old_rows = np.flatnonzero(spliced_text.same)
+    new_rows = old_rows + spliced_text.shift[old_rows]
+    if not (table.kind[old_rows] == new_table.kind[new_rows]).all():
         return "what a line is"
     for name in ("x", "y", "z", "f"):
-        if not np.array_equal(getattr(table, name)[old], getattr(other, name)[now], equal_nan=True):
+        if not np.array_equal(getattr(table, name)[old_rows], getattr(new_table, name)[new_rows], equal_nan=True):
             return f"{name.upper()} after a line that was copied"
-    near = 2.1 * FILAMENT_UNIT
-    if np.abs(table.extruded[old] - other.extruded[now]).max(initial=0) > near:
+    tolerance = 2.1 * FILAMENT_UNIT
+    if np.abs(table.extruded[old_rows] - new_table.extruded[new_rows]).max(initial=0) > tolerance:
         return "the filament of a line that was copied"
-    absolute = ~table.relative_e[old]
-    if np.abs(table.e[old] - other.e[now])[absolute].max(initial=0) > near:
+    absolute = ~table.relative_e[old_rows]
+    if np.abs(table.e[old_rows] - new_table.e[new_rows])[absolute].max(initial=0) > tolerance:
         return "the counter of filament"
-    return "" if _alike(other.after, table.after) else "the state at the end"
+    return "" if _states_agree(new_table.after, table.after) else "the state at the end"
 
 
-def _alike(one: object, other: object) -> bool:
-    for name, value in vars(one).items():
-        second = vars(other)[name]
-        if name == "e" and vars(one)["relative_e"]:
+def _states_agree(state: object, expected: object) -> bool:
+    for name, value in vars(state).items():
+        second = vars(expected)[name]
+        if name == "e" and vars(state)["relative_e"]:
             continue
         if isinstance(value, str | tuple):
             if value != second:
@@ -212,32 +212,32 @@ def _alike(one: object, other: object) -> bool:
     return True
 
 
-def _wrong_moves(table: Table, strokes: Strokes, new: Redrawn, done: Spliced, other: Table) -> str:
-    """Say what is wrong with the new moves, if anything is."""
-    fresh = np.ones(len(other), dtype=bool)
-    old = np.flatnonzero(done.same)
-    fresh[old + done.shift[old]] = False
-    move = np.flatnonzero(fresh & (other.kind == MOVE) & (other.given[:, 0] | other.given[:, 1]))
+def _find_wrong_move(table: Table, strokes: Strokes, new: Redrawn, spliced_text: Spliced, new_table: Table) -> str:
+    """Describe the first fault of the new moves; "" if there is none."""
+    fresh = np.ones(len(new_table), dtype=bool)
+    old = np.flatnonzero(spliced_text.same)
+    fresh[old + spliced_text.shift[old]] = False
+    move = np.flatnonzero(fresh & (new_table.kind == MOVE) & (new_table.given[:, 0] | new_table.given[:, 1]))
     owner = np.repeat(np.arange(len(new.which)), np.diff(new.first) - 1)
     if len(move) != len(owner):
         return "the number of new moves"
     back = move - 1
-    x = np.where(back >= 0, other.x[back], other.before.x)
-    y = np.where(back >= 0, other.y[back], other.before.y)
-    z = np.where(back >= 0, other.z[back], other.before.z)
-    length = np.hypot(other.x[move] - x, other.y[move] - y)
-    if not (other.z[move] == z).all():
+    x = np.where(back >= 0, new_table.x[back], new_table.before.x)
+    y = np.where(back >= 0, new_table.y[back], new_table.before.y)
+    z = np.where(back >= 0, new_table.z[back], new_table.before.z)
+    length = np.hypot(new_table.x[move] - x, new_table.y[move] - y)
+    if not (new_table.z[move] == z).all():
         return "a new move in z"
-    extruded = other.extruded[move]
+    extruded = new_table.extruded[move]
     if not (extruded > 0).all():
         return "a new move without filament"
     feed = table.f[strokes.line[strokes.first[new.which] + 1]]
-    if (np.abs(other.f[move] - feed[owner]) > UNIT).any():
+    if (np.abs(new_table.f[move] - feed[owner]) > UNIT).any():
         return "the feed rate of a new move"
     rate = new.filament / np.bincount(owner, weights=length, minlength=len(new.which))
     if (np.abs(extruded - rate[owner] * length) > RATE_TOLERANCE * rate[owner] * length + 2 * FILAMENT_UNIT).any():
         return "the filament per mm of a new move"
     ends = strokes.points[strokes.first[new.which + 1] - 1]
-    last = move[np.append(np.flatnonzero(np.diff(owner)), len(owner) - 1)] if len(move) else move
-    reached = np.stack([other.x[last], other.y[last]], axis=1)
-    return "" if np.abs(reached - ends).max(initial=0) <= UNIT else "the end of a stroke"
+    last_move = move[np.append(np.flatnonzero(np.diff(owner)), len(owner) - 1)] if len(move) else move
+    end_points = np.stack([new_table.x[last_move], new_table.y[last_move]], axis=1)
+    return "" if np.abs(end_points - ends).max(initial=0) <= UNIT else "the end of a stroke"

@@ -8,8 +8,8 @@ from typing import BinaryIO
 
 from infill.errors import FormatError
 
-BATCH = 1 << 19  # bytes of text taken at a time, up to the next layer
-LONGEST_LINE = 8 << 20  # bytes; no slicer comes near
+BATCH = 1 << 19  # bytes of text read at a time, up to the next layer
+LONGEST_LINE = 8 << 20  # bytes; slicers stay far below
 LARGEST_LAYER = 64 << 20  # bytes; a larger one is cut between two lines
 LAYER_TAG = re.compile(rb"^(?:;LAYER_CHANGE|; CHANGE_LAYER|;LAYER:)", re.MULTILINE)
 
@@ -20,40 +20,40 @@ def batches(file: BinaryIO, size: int = BATCH) -> Iterator[bytes]:
     Parameters
     ----------
     file : binary file
-        Read from where it stands to its end.
+        Read from its current position to its end.
     size : int
-        Bytes to take at a time; a batch is longer where a layer is.
+        Bytes to read at a time; a batch is longer where a layer is.
 
     Raises
     ------
     FormatError
         If a line is longer than 8 MiB.
     """
-    held = b""
-    asked = size
+    pending = b""
+    wanted_bytes = size
     while True:
-        more = file.read(asked)
-        held += more
+        more = file.read(wanted_bytes)
+        pending += more
         if not more:
             break
-        cut = _last_layer(held)
-        if cut <= 0 and len(held) < LARGEST_LAYER:
-            asked = max(size, len(held))  # twice as much, so that a large layer is not searched again and again
-            _check_line(held)
+        cut = _find_last_layer(pending)
+        if cut <= 0 and len(pending) < LARGEST_LAYER:
+            wanted_bytes = max(size, len(pending))  # twice as much, so that a large layer is searched only a few times
+            _check_line(pending)
             continue
-        asked = size
-        cut = cut if cut > 0 else held.rfind(b"\n") + 1
-        _check_line(held)
+        wanted_bytes = size
+        cut = cut if cut > 0 else pending.rfind(b"\n") + 1
+        _check_line(pending)
         if cut > 0:
-            yield held[:cut]
-            held = held[cut:]
-    if held:
-        _check_line(held)
-        yield held
+            yield pending[:cut]
+            pending = pending[cut:]
+    if pending:
+        _check_line(pending)
+        yield pending
 
 
-def _last_layer(text: bytes) -> int:
-    """Return where the last layer of some text begins, -1 if none does."""
+def _find_last_layer(text: bytes) -> int:
+    """Return the begin of the last layer of a text, -1 if there is none."""
     return max(text.rfind(b"\n" + tag) + 1 for tag in (b";LAYER_CHANGE", b"; CHANGE_LAYER", b";LAYER:")) or -1
 
 

@@ -1,4 +1,4 @@
-"""A print at a glance: what sliced it, its settings, and some of its layers, read here and there."""
+"""Overview of a print: its slicer, its settings, and some of its layers, sampled across the file."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from infill.gcode.found_limits import filament_of, rule_of_e
 from infill.gcode.stream import LAYER_TAG, LONGEST_LINE
 from infill.gcode.table import State, read
 
-HEAD = 1 << 18  # bytes looked at for the header and the modes
-TAIL = 1 << 17  # bytes looked at for the settings
-WINDOW = 1 << 18  # bytes read at each place that is sampled
+HEAD = 1 << 18  # bytes read for the header and the modes
+TAIL = 1 << 17  # bytes read for the settings
+WINDOW = 1 << 18  # bytes read at each sampled place
 MOST_WINDOW = 16 << 20
 WHOLE = 3  # layers at each place
 WINDOWS, MORE_WINDOWS = 6, 16  # places
-SMALL, ALL_WINDOWS = 1 << 19, 24  # bytes: of a smaller file, nearly every layer is looked at
+SMALL, ALL_WINDOWS = 1 << 19, 24  # bytes: nearly every layer of a smaller file is read
 STAMP = b"; refilled by phasefill"
 _SETTING = re.compile(rb"^; ([a-z][a-z0-9_]*) = (.*?)\r?$", re.MULTILINE)
 _SLICER = re.compile(
     rb"(?:generated (?:by|with) |Sliced by |^; (?=BambuStudio ))([A-Za-z][\w.+-]*(?: (?!on\b)[\w.+-]+){0,3})",
     re.IGNORECASE | re.MULTILINE,
 )
-# What other files begin with.
+# First bytes of other kinds of files.
 OTHERS = {
     b"PK\x03\x04": "a zip or 3MF file",
     b"\x89PNG": "a picture",
@@ -39,22 +39,22 @@ OTHERS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Survey:
-    """What is known of a print before it is read through.
+    """Facts about a print before it is read completely.
 
     Parameters
     ----------
     size : int
         Bytes.
-    slicer : str
-        As it names itself; "" if it does not.
+    Its name for itself; "" if there is none.
     settings : dict
+    Its settings by its own names, as far as the file states them.
         Its settings by its own names, as far as the file tells them.
     begin : State
-        Modes at the first layer, its place unknown.
+        Modes at the first layer, with the position unknown.
     stamped : bool
         It was refilled before.
     resets_filament : bool
-        It sets its counter of filament by G92 itself.
+        The file itself sets its counter of filament by G92.
     windows : tuple of bytes
         Whole layers at several places of the file.
     """
@@ -69,17 +69,17 @@ class Survey:
 
     @property
     def small(self) -> bool:
-        """Nearly every layer was looked at."""
+        """True if nearly every layer was read."""
         return self.size <= SMALL
 
     @property
     def layers(self) -> float:
-        """About how many layers there are."""
-        there = sum(len(LAYER_TAG.findall(text)) for text in self.windows)
-        return self.size * there / max(1, sum(map(len, self.windows)))
+        """Approximate number of layers."""
+        tags = sum(len(LAYER_TAG.findall(text)) for text in self.windows)
+        return self.size * tags / max(1, sum(map(len, self.windows)))
 
     def number(self, *names: str) -> float | None:
-        """Return the first of several settings that is there, as a number; the first one of a list."""
+        """Return the first of several settings that is present, as a number; the first item of a list."""
         for name in names:
             try:
                 number = float(self.settings[name].split(",")[0].rstrip("%"))
@@ -91,38 +91,38 @@ class Survey:
 
 
 def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | None = None) -> Survey:
-    """Look at a print; the file is left at its beginning.
+    """Sample a print; leave the file at its beginning.
 
     Parameters
     ----------
     file : binary file
     more : bool
-        Look at more places: where layers differ, a few do not tell how much infill there is.
+        Read more places: where layers differ, a few do not show the amount of infill.
     settings : mapping, optional
-        What the slicer tells outside the text.
+        Settings of the slicer from outside the text.
 
     Raises
     ------
     FormatError
-        If it is no G-code, or has no layers that are marked.
+        If the file is not G-code, or has no marked layers.
     """
     size = file.seek(0, os.SEEK_END)
     file.seek(0)
     head = file.read(HEAD)
-    _check(head, size)
+    _check_is_gcode(head, size)
     file.seek(max(0, size - TAIL))
     tail = file.read(TAIL)
-    told = {
+    file_settings = {
         name.decode(): value.decode("utf-8", "replace").strip()
         for text in (head, tail if size > HEAD else b"")
         for name, value in _SETTING.findall(text)
     }
     slicer = _SLICER.search(head[:8192])
-    first = LAYER_TAG.search(head)
-    known = {**told, **(settings or {})}
-    volumetric, diameters = filament_of(head, known)
-    unmoved = State(volumetric=volumetric, diameters=diameters, firmware=rule_of_e(head, known))
-    before = read(head[: first.start()] if first else head[: head.rfind(b"\n") + 1], unmoved).after
+    first_tag = LAYER_TAG.search(head)
+    all_settings = {**file_settings, **(settings or {})}
+    volumetric, diameters = filament_of(head, all_settings)
+    unmoved = State(volumetric=volumetric, diameters=diameters, firmware=rule_of_e(head, all_settings))
+    before = read(head[: first_tag.start()] if first_tag else head[: head.rfind(b"\n") + 1], unmoved).after
     begin = State(
         relative=before.relative,
         relative_e=before.relative_e,
@@ -136,30 +136,30 @@ def survey(file: BinaryIO, *, more: bool = False, settings: Mapping[str, str] | 
         diameters=before.diameters,
     )
     windows = ALL_WINDOWS if size <= SMALL else MORE_WINDOWS if more else WINDOWS
-    found = tuple(text for text in (_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
+    samples = tuple(text for text in (_read_window(file, size, (k + 0.5) / windows) for k in range(windows)) if text)
     file.seek(0)
     return Survey(
         size=size,
         slicer=slicer[1].decode("latin-1").strip() if slicer else "",
-        settings={**told, **(settings or {})},
+        settings={**file_settings, **(settings or {})},
         begin=begin,
         stamped=STAMP in head,
-        resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in found),
-        windows=tuple(dict.fromkeys(found)),
+        resets_filament=b"G92 E" in head or any(b"G92 E" in text for text in samples),
+        windows=tuple(dict.fromkeys(samples)),
     )
 
 
 def joined(surveys: Sequence[Survey]) -> Survey:
-    """Return what is known of several prints as one: their bytes, and the settings that they share."""
-    first = surveys[0]
-    shared = set.intersection(*(set(each.settings.items()) for each in surveys))
-    settings = {name: value for name, value in first.settings.items() if (name, value) in shared}
-    stamped = all(each.stamped for each in surveys)
-    return replace(first, size=sum(each.size for each in surveys), settings=settings, stamped=stamped)
+    """Combine the surveys of several prints: the sum of their bytes, and their common settings."""
+    base = surveys[0]
+    shared = set.intersection(*(set(member.settings.items()) for member in surveys))
+    settings = {name: value for name, value in base.settings.items() if (name, value) in shared}
+    stamped = all(member.stamped for member in surveys)
+    return replace(base, size=sum(member.size for member in surveys), settings=settings, stamped=stamped)
 
 
-def _check(head: bytes, size: int) -> None:
-    """Raise FormatError if a file that begins like this is no text of G-code."""
+def _check_is_gcode(head: bytes, size: int) -> None:
+    """Raise FormatError if a file with this beginning is not G-code text."""
     if not size:
         raise FormatError("the file is empty; give the G-code that a slicer wrote")
     for magic, name in OTHERS.items():
@@ -173,17 +173,17 @@ def _check(head: bytes, size: int) -> None:
         raise FormatError("the file has no line of G-code in it; give the G-code that a slicer wrote")
 
 
-def _window(file: BinaryIO, size: int, share: float) -> bytes:
-    """Return three whole layers around a place, or fewer; none if there is no layer."""
+def _read_window(file: BinaryIO, size: int, share: float) -> bytes:
+    """Return up to three whole layers around a place; none if there is no layer."""
     file.seek(int(size * share))
     text = file.read(WINDOW)
     while len(text) < MOST_WINDOW:
-        tags = [found.start() for found in LAYER_TAG.finditer(text)]
+        tags = [match.start() for match in LAYER_TAG.finditer(text)]
         if len(tags) > WHOLE:
             return text[tags[0] : tags[WHOLE]]
         more = file.read(len(text))
         if not more:
             break
         text += more
-    tags = [found.start() for found in LAYER_TAG.finditer(text)]
+    tags = [match.start() for match in LAYER_TAG.finditer(text)]
     return text[tags[0] : tags[-1]] if len(tags) >= 2 else b""

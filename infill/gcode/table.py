@@ -1,8 +1,8 @@
-"""Lines of G-code as arrays: where the machine stands after each of them.
+"""Lines of G-code as arrays: the position of the machine after each of them.
 
-Moves are followed many at a time with NumPy; the rare lines that change how moves are meant (G90, M82, G92 …) are taken
-one by one, and cut the batch into stretches in which nothing changes. Offsets are those of the file: a position is what
-the words say, as the machine is told, in mm. E is what the file counts it in: mm of filament, or mm³.
+Moves are followed many at a time with NumPy; the rare lines that change the meaning of moves (G90, M82, G92 …) are
+read one by one, and cut the batch into stretches of constant modes. Offsets are those of the file: a position is as
+stated by the words sent to the machine, in mm. E is in the unit of the file: mm of filament, or mm³.
 """
 
 from __future__ import annotations
@@ -28,24 +28,24 @@ THICKEST, MOST_TOOLS, MOST_SAVED = 20.0, 64, 16  # mm; more is a mistake of the 
 
 @dataclass(frozen=True, kw_only=True)
 class State:
-    """Where the machine stands between two lines, and how it takes the next move.
+    """Position and modes of the machine between two lines.
 
     Parameters
     ----------
     x, y, z : float
         mm, NaN while unknown.
     e : float
-        What the extruder's counter shows, mm of filament, or mm³.
+        Value of the extruder's counter, mm of filament, or mm³.
     f : float
         Feed rate in force, mm/min; NaN before the first.
     retracted : float
-        mm of filament drawn back since the nozzle was last primed; 0 or more.
+        mm of filament retracted since the nozzle was last primed; 0 or more.
     firmware_retracted : bool
         A G10 is in force.
     relative, relative_e : bool
         G91 and M83.
     absolute_e : bool
-        M82 stood behind the G91 in force.
+        M82 came after the G91 in force.
     firmware : {"", "klipper", "reprapfirmware"}
         Whose rule of `steps_e` holds; "" for Marlin's.
     inches : bool
@@ -58,13 +58,13 @@ class State:
     diameters : tuple of float
         mm of filament by tool; further tools have the last one.
     letters : str
-        Which words push filament: "E", "AB" as in MakerBot's files, or "" as long as the file has had neither.
+        Words that push filament: "E", "AB" as in MakerBot's files, or "" while the file has used neither.
     counters : tuple of float
-        What A and B show.
+        Values of A and B.
     lost : str
-        The axes, of x and y, in which the file has not said where the nozzle is since a line that could not be read.
+        The axes, of x and y, whose position the file has not stated since a line that could not be read.
     saved : tuple of (name, relative, relative_e, absolute_e)
-        What SAVE_GCODE_STATE, or M120, has put aside.
+        States that SAVE_GCODE_STATE, or M120, has saved.
     """
 
     x: float = NAN
@@ -90,10 +90,10 @@ class State:
 
     @property
     def steps_e(self) -> bool:
-        """Whether E counts from the last move.
+        """True if E counts from the last move.
 
-        G91 takes E along. M82 behind it makes E absolute again in Marlin (its pages of G91 and M82), and not in
-        Klipper, where G91 or M83 suffices. RepRapFirmware's E follows M82 and M83 alone.
+        G91 includes E. M82 after it makes E absolute again in Marlin (its pages of G91 and M82), and not in Klipper,
+        where G91 or M83 suffices. RepRapFirmware's E follows M82 and M83 alone.
         """
         if self.firmware == "reprapfirmware":
             return self.relative_e
@@ -101,18 +101,18 @@ class State:
 
     @property
     def diameter(self) -> float:
-        """Of the filament in use, mm."""
+        """Diameter of the filament in use, mm."""
         return self.diameters[min(self.tool, len(self.diameters) - 1)]
 
     @property
     def section(self) -> float:
-        """Of the filament in use, mm²."""
+        """Cross-section of the filament in use, mm²."""
         return math.pi / 4 * self.diameter**2
 
 
 @dataclass(frozen=True, kw_only=True)
 class Table:
-    """A batch of lines, line by line.
+    """A batch of lines, as columns.
 
     Parameters
     ----------
@@ -133,9 +133,9 @@ class Table:
     f : (N,) float64
         Feed rate in force after the line, mm/min.
     extruded : (N,) float64
-        mm of filament that the line pushes; negative draws back.
+        mm of filament that the line pushes; negative retracts.
     given : (N, 7) bool
-        Which of the words X, Y, Z, E, F, I, J the line has.
+        The words among X, Y, Z, E, F, I, J that the line has.
     i, j : (N,) float64
         Centre of an arc relative to its start; NaN if not given.
     commands : tuple of Command
@@ -143,17 +143,17 @@ class Table:
     before, after : State
         At the beginning and at the end.
     relative_e : (N,) bool
-        Whether E is relative on the line.
+        True if E is relative on the line.
     plane : (N,) uint8
         17, 18 or 19.
     section : (N,) float64
-        Of the filament in use, mm².
+        Cross-section of the filament in use, mm².
     volumetric : (N,) bool
-        Whether E counts mm³.
+        True if E counts mm³.
     unread : (N,) bool
         Lines that may move or extrude and could not be read.
     unsure : (N,) bool
-        Lines before which x or y is not known since such a move.
+        Lines before which x or y is unknown since such a move.
     further : dict of int to dict of str to float
         By line, the words K, R and P of unusual arcs.
     """
@@ -188,10 +188,10 @@ class Table:
 
     @property
     def moves(self) -> NDArray[np.bool_]:
-        """Whether each line has a word that moves something: X, Y, Z or E."""
-        given = self.given
-        something: NDArray[np.bool_] = given[:, 0] | given[:, 1] | given[:, 2] | given[:, 3]
-        return something
+        """True for lines with a word that moves an axis: X, Y, Z or E."""
+        has_word = self.given
+        moves_axis: NDArray[np.bool_] = has_word[:, 0] | has_word[:, 1] | has_word[:, 2] | has_word[:, 3]
+        return moves_axis
 
     @property
     def filament(self) -> Floats:
@@ -201,7 +201,7 @@ class Table:
         return np.where(self.volumetric, self.extruded / self.section, self.extruded)
 
     def text(self, first: int, last: int) -> bytes:
-        """Return lines `first` to `last` (exclusive) as they stand in the file."""
+        """Return lines `first` to `last` (exclusive) as bytes of the file."""
         return self.data[self.start[first] : self.start[last]]
 
 
@@ -213,7 +213,7 @@ def read(data: bytes, state: State) -> Table:
     data : bytes
         Lines with their line ends; only the last may lack one.
     state : State
-        Where the machine stands before the first line.
+        Position and modes of the machine before the first line.
 
     Returns
     -------
@@ -224,42 +224,46 @@ def read(data: bytes, state: State) -> Table:
     ([0, 1, 1], [nan, 2.0, 3.0], [0.0, 0.5, 0.0])
     """
     lines = lines_of(data)
-    return _replayed(data, lines, state)
+    return _replay(data, lines, state)
 
 
-def _replayed(data: bytes, lines: Lines, before: State) -> Table:
-    """Follow the moves from `before`, stretch by stretch between commands that change how they are meant."""
-    before_lettered, commands, lines = _lettered(lines, before)
-    values, given, further, count = lines.values, lines.given, lines.further, len(lines)
+def _replay(data: bytes, lines: Lines, before: State) -> Table:
+    """Follow the moves from `before`, stretch by stretch between commands that change their meaning."""
+    before_lettered, commands, lines = _convert_extruders(lines, before)
+    values, has_word, further, count = lines.values, lines.given, lines.further, len(lines)
     if before.inches or any(command.code == "G20" for command in commands):
-        values, further = _in_millimetres(lines, before)
+        values, further = _convert_inches(lines, before)
     where = {name: np.empty(count) for name in ("x", "y", "z", "e")}
     extruded = np.zeros(count)
     relative_e = np.zeros(count, dtype=bool)
     volumetric = np.zeros(count, dtype=bool)
     plane = np.empty(count, dtype=np.uint8)
     section = np.empty(count)
-    feed = _held(values[:, 4], before.f)
-    state, first = before_lettered, 0
+    feed = _fill_forward(values[:, 4], before.f)
+    state, first_line = before_lettered, 0
     for command in (*commands, None):
         if command is not None and not _changes_moves(command):
             continue
-        last = count if command is None else command.line
-        state = _stretch(slice(first, last), values, where, extruded, state)
-        until = last
+        last_line = count if command is None else command.line
+        state = _follow_stretch(slice(first_line, last_line), values, where, extruded, state)
+        until = last_line
         if command is not None:
-            after = _changed(state, command)
+            after = _apply_command(state, command)
             for name in where:
-                where[name][last] = getattr(after, name)
-            relative_e[last] = after.steps_e
-            until = last + 1
-        relative_e[first:last] = state.steps_e
-        volumetric[first:until], plane[first:until], section[first:until] = state.volumetric, state.plane, state.section
+                where[name][last_line] = getattr(after, name)
+            relative_e[last_line] = after.steps_e
+            until = last_line + 1
+        relative_e[first_line:last_line] = state.steps_e
+        volumetric[first_line:until], plane[first_line:until], section[first_line:until] = (
+            state.volumetric,
+            state.plane,
+            state.section,
+        )
         if command is not None:
-            state, first = after, last + 1
-    unsure, lost = _unsure(lines, before.lost)
+            state, first_line = after, last_line + 1
+    unsure, lost = _find_unsure(lines, before.lost)
     after = replace(state, f=float(feed[-1]) if count else before.f, lost=lost)
-    after = replace(after, **_retraction(before, extruded, commands))
+    after = replace(after, **_retraction_state(before, extruded, commands))
     return Table(
         data=data,
         start=lines.start,
@@ -269,7 +273,7 @@ def _replayed(data: bytes, lines: Lines, before: State) -> Table:
         **where,
         f=feed,
         extruded=extruded,
-        given=given,
+        given=has_word,
         i=values[:, 5],
         j=values[:, 6],
         relative_e=relative_e,
@@ -285,8 +289,8 @@ def _replayed(data: bytes, lines: Lines, before: State) -> Table:
     )
 
 
-def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], Lines]:
-    """Return what pushes filament, and the lines and commands with A and B put into E, where these are the extruders.
+def _convert_extruders(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], Lines]:
+    """Return the state, the commands and the lines, with A and B moved into E where these are the extruders.
 
     A file whose first word of either kind is an E has A and B as axes, which are left out.
     """
@@ -297,7 +301,7 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
         state = replace(state, letters=letters)
     if letters != EXTRUDERS:
         return state, lines.commands, lines
-    values, given = lines.values.copy(), lines.given.copy()
+    values, has_word = lines.values.copy(), lines.given.copy()
     counters = dict(zip(EXTRUDERS, state.counters, strict=True))
     modes = state
     column = WORDS.index("E")
@@ -305,7 +309,7 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
     for number, command in enumerate(lines.commands):
         match command.code:
             case "G90" | "G91" | "M82" | "M83":
-                modes = _changed(modes, command)
+                modes = _apply_command(modes, command)
             case "G92":
                 reset = command.words or dict.fromkeys(EXTRUDERS)  # without a word, all
                 counters |= {letter: reset[letter] or 0.0 for letter in EXTRUDERS if letter in reset}
@@ -317,13 +321,13 @@ def _lettered(lines: Lines, state: State) -> tuple[State, tuple[Command, ...], L
             step = modes.steps_e
             counters |= {letter: value + (counters[letter] if step else 0.0) for letter, value in pushed.items()}
             values[command.line, column] = sum(pushed.values()) if step else sum(counters.values())
-            given[command.line, column] = True
-    done = replace(lines, values=values, given=given)
-    return replace(state, counters=(counters["A"], counters["B"])), tuple(changed), done
+            has_word[command.line, column] = True
+    converted = replace(lines, values=values, given=has_word)
+    return replace(state, counters=(counters["A"], counters["B"])), tuple(changed), converted
 
 
-def _in_millimetres(lines: Lines, before: State) -> tuple[Floats, dict[int, dict[str, float]]]:
-    """Return the words of lines in mm, where some are in inches."""
+def _convert_inches(lines: Lines, before: State) -> tuple[Floats, dict[int, dict[str, float]]]:
+    """Convert the words of lines to mm, where some are in inches."""
     inches = np.zeros(len(lines), dtype=bool)
     since, on = 0, before.inches
     for command in lines.commands:
@@ -338,8 +342,8 @@ def _in_millimetres(lines: Lines, before: State) -> tuple[Floats, dict[int, dict
     return np.where(inches[:, None], lines.values * INCH, lines.values), further
 
 
-def _unsure(lines: Lines, lost: str) -> tuple[NDArray[np.bool_], str]:
-    """Return the lines before which x or y is not known since a move that cannot be read, and the last `State.lost`."""
+def _find_unsure(lines: Lines, lost: str) -> tuple[NDArray[np.bool_], str]:
+    """Return the lines before which x or y is unknown since an unreadable move, and the last `State.lost`."""
     count = len(lines)
     unsure = np.zeros(count, dtype=bool)
     unread = np.flatnonzero(lines.unread) + 1
@@ -348,41 +352,41 @@ def _unsure(lines: Lines, lost: str) -> tuple[NDArray[np.bool_], str]:
     still = ""
     for axis, name in enumerate("XY"):
         begins = np.insert(unread, 0, 0) if name in lost else unread
-        said = np.append(np.flatnonzero(lines.given[:, axis]), count)
-        ends = said[np.searchsorted(said, np.minimum(begins, count))]
+        stated = np.append(np.flatnonzero(lines.given[:, axis]), count)
+        ends = stated[np.searchsorted(stated, np.minimum(begins, count))]
         steps = np.bincount(begins, minlength=count + 2) - np.bincount(ends + 1, minlength=count + 2)
         unsure |= np.cumsum(steps)[:count] > 0
         still += name if (ends == count).any() else ""
     return unsure, still
 
 
-def _stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: Floats, state: State) -> State:
-    """Follow the moves of some lines in which nothing else changes, and return the state after them."""
+def _follow_stretch(lines: slice, values: Floats, where: dict[str, Floats], extruded: Floats, state: State) -> State:
+    """Follow the moves of lines with constant modes; return the state after them."""
     if lines.start >= lines.stop:
         return state
-    now: dict[str, Any] = {}
+    position: dict[str, Any] = {}
     for axis, name in enumerate("xyz"):
         column = values[lines, axis]
         if state.relative:
             place = getattr(state, name) + np.cumsum(np.nan_to_num(column))
         else:
-            place = _held(column, getattr(state, name))
+            place = _fill_forward(column, getattr(state, name))
         where[name][lines] = place
-        now[name] = float(place[-1])
+        position[name] = float(place[-1])
     column = values[lines, 3]
     if state.steps_e:
         pushed = np.nan_to_num(column)
         counter = state.e + np.cumsum(pushed)
     else:
-        counter = _held(column, state.e)
+        counter = _fill_forward(column, state.e)
         pushed = np.diff(counter, prepend=state.e)
     where["e"][lines] = counter
     extruded[lines] = pushed
-    return replace(state, **now, e=float(counter[-1]))
+    return replace(state, **position, e=float(counter[-1]))
 
 
-def _held(values: Floats, before: float) -> Floats:
-    """Return each value, or the last one before it where there is none."""
+def _fill_forward(values: Floats, before: float) -> Floats:
+    """Return each value, or the previous one where it is missing."""
     if not len(values):
         return values.copy()
     at = np.where(np.isnan(values), -1, np.arange(len(values)))
@@ -398,8 +402,8 @@ def _changes_moves(command: Command) -> bool:
     return command.code in _MODES or command.code[:1] == "T"
 
 
-def _changed(state: State, command: Command) -> State:
-    """Return the state after a command that changes how moves are meant."""
+def _apply_command(state: State, command: Command) -> State:
+    """Return the state after a command that changes the meaning of moves."""
     match command.code:
         case "G20" | "G21":
             return replace(state, inches=command.code == "G20")
@@ -412,16 +416,19 @@ def _changed(state: State, command: Command) -> State:
         case "M200":
             return filament_counted(state, command.words)
         case "SAVE_GCODE_STATE" | "M120":
-            kept = tuple(each for each in state.saved if each[0] != command.name or command.code == "M120")
+            remaining = tuple(
+                saved_state for saved_state in state.saved if saved_state[0] != command.name or command.code == "M120"
+            )
             return replace(
-                state, saved=(*kept[-MOST_SAVED:], (command.name, state.relative, state.relative_e, state.absolute_e))
+                state,
+                saved=(*remaining[-MOST_SAVED:], (command.name, state.relative, state.relative_e, state.absolute_e)),
             )
         case "RESTORE_GCODE_STATE" | "M121":
-            return _restored(state, command.name, once=command.code == "M121")
+            return _restore_state(state, command.name, once=command.code == "M121")
         case "G92":
-            named = [letter for letter in "XYZE" if letter in command.words] or list("XYZE")  # without a word, all
+            letters = [letter for letter in "XYZE" if letter in command.words] or list("XYZE")  # without a word, all
             unit = INCH if state.inches else 1.0
-            reset: dict[str, Any] = {letter.lower(): (command.words.get(letter) or 0.0) * unit for letter in named}
+            reset: dict[str, Any] = {letter.lower(): (command.words.get(letter) or 0.0) * unit for letter in letters}
             return replace(state, **reset)
         case "G28":
             homed = [letter for letter in AXES if letter in command.words] or list(AXES)
@@ -434,9 +441,9 @@ def _changed(state: State, command: Command) -> State:
 
 
 def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
-    """Return the state after M200: D, the diameter of the filament of tool T, 0 for E in mm; S, whether E is in mm³.
+    """Return the state after M200: D, the diameter of the filament of tool T, 0 for E in mm; S, 1 if E is in mm³.
 
-    Limits alone (L) change nothing.
+    M200 with limits alone (L) changes nothing.
     """
     volumetric, diameters = state.volumetric, state.diameters
     diameter = words.get("D")
@@ -448,7 +455,7 @@ def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
             if tool is None:
                 diameters = (diameter,)
             elif 0 <= tool < MOST_TOOLS:
-                several = [diameters[min(each, len(diameters) - 1)] for each in range(max(tool + 2, len(diameters)))]
+                several = [diameters[min(index, len(diameters) - 1)] for index in range(max(tool + 2, len(diameters)))]
                 several[tool] = diameter
                 diameters = tuple(several)
     if "S" in words:
@@ -456,8 +463,8 @@ def filament_counted(state: State, words: Mapping[str, float | None]) -> State:
     return replace(state, volumetric=volumetric, diameters=diameters)
 
 
-def _restored(state: State, name: str, *, once: bool) -> State:
-    """Return the state with the modes that were put aside under a name, if any were."""
+def _restore_state(state: State, name: str, *, once: bool) -> State:
+    """Return the state with the modes that were saved under a name, if any were."""
     for place in reversed(range(len(state.saved))):
         if state.saved[place][0] == name:
             _, relative, relative_e, absolute_e = state.saved[place]
@@ -467,9 +474,9 @@ def _restored(state: State, name: str, *, once: bool) -> State:
 
 
 def firmware_retraction(command: Command, firmware: str = "") -> bool | None:
-    """Return whether a command retracts (G10) or primes (G11) by firmware; None for all others.
+    """Return True if a command retracts (G10), False if it primes (G11) by firmware; None for all others.
 
-    Marlin's G10 S1 draws back as far as for a change of tools. With any other word, and with S too in RepRapFirmware,
+    Marlin's G10 S1 retracts as far as for a change of tools. With any other word, and with S too in RepRapFirmware,
     G10 sets a temperature, an offset of a tool or an origin.
 
     Parameters
@@ -485,8 +492,8 @@ def firmware_retraction(command: Command, firmware: str = "") -> bool | None:
     return command.code == "G10"
 
 
-def _retraction(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, Any]:
-    """Return how far the filament is drawn back at the end, and whether by firmware."""
+def _retraction_state(before: State, extruded: Floats, commands: tuple[Command, ...]) -> dict[str, Any]:
+    """Return the retracted filament at the end, and True if it was retracted by firmware, as fields of `State`."""
     total = np.cumsum(np.append(-before.retracted, extruded))
     retracted = round(float(max(0.0, total.max()) - total[-1]), 9)
     firmware = before.firmware_retracted

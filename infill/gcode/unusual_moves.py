@@ -1,8 +1,8 @@
-"""Moves that are spelled in an unusual way, read one line at a time.
+"""Moves in an unusual spelling, read one line at a time.
 
-`infill.gcode.lines` reads plain moves many at a time. What it is not sure of comes here: several blanks before a
-number, remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and B. A
-line that firmwares would take in different ways is not read at all, and callers count it.
+`infill.gcode.lines` reads plain moves many at a time. It passes doubtful ones to this module: several blanks before
+a number, remarks in brackets between words, words that a planner may ignore, arcs by radius, extruders called A and
+B. A line whose meaning differs between firmwares is not read at all, and callers count it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Final
 from infill.checks import FARTHEST
 
 LARGEST: Final = 1e7  # mm, or mm/min: a larger number is a mistake of the file
-# What RepRapFirmware, Marlin, Klipper and Sailfish let stand on a move without changing where it goes: an endstop (H),
+# Words that RepRapFirmware, Marlin, Klipper and Sailfish accept on a move without changing its path: an endstop (H),
 # a laser (S), pins (P, of straight moves), and axes beyond the third.
 IGNORED: Final = frozenset("HSUVWCD")
 FURTHER_AXES: Final = frozenset("UVWCDAB")
@@ -23,13 +23,13 @@ _HEAD: Final = re.compile(rb"\s*(?:[Nn]\d+\s*)?[Gg]0*([0-3])(?![\d.])")
 _REMARK: Final = re.compile(rb"\([^()]*\)")
 _NUMBER: Final = rb"[-+]?(?:\d+\.?\d*|\.\d+)"
 _WORD: Final = re.compile(rb"\s*([A-Za-z])\s*(%s(?::%s)*)?" % (_NUMBER, _NUMBER))
-# An exponent, or a word E? Firmwares do not agree.
+# An exponent, or a word E? Firmwares disagree.
 _EXPONENT: Final = re.compile(rb"[\d.](?:[eE][-+]0\d|[eE]\+\d)")
 _SMALL_EXPONENT: Final = re.compile(rb"[\d.]e")
 _CHECKSUM: Final = re.compile(rb"\*\s*\d+\s*$")
 
-# Codes that neither move the tool along a path nor change how the path is meant, or that the machine does on its own
-# without telling where: homing, levelling, dwelling, offsets of tools.
+# Codes that neither move the tool along a path nor change the meaning of paths, or that the machine does by itself
+# without stating a path: homing, levelling, dwelling, offsets of tools.
 STILL_CODES: Final = frozenset(
     word
     for line in (
@@ -39,7 +39,7 @@ STILL_CODES: Final = frozenset(
     )
     for word in line.split()
 )
-# Their text may hold anything.
+# Codes whose text is free.
 _TEXTS: Final = frozenset(
     word
     for line in (
@@ -52,8 +52,8 @@ _INNER_MOVE: Final = re.compile(rb"[\s\d][Gg]\s*0*[0-35](?![\d.])")
 _AXIS_FIRST: Final = re.compile(
     rb"\s*(?:[Nn]\d+\s*)?(?:[XYZEAB]\s*[-+.\d\[{]|[Gg]\s+0*[0-35]\b|[XYZEAB]\d*=)", re.IGNORECASE
 )
-# A block that a switch of the machine skips (/), the mark of a text's encoding, a remark: some firmwares obey what
-# stands behind it, others do not.
+# A block that a switch of the machine skips (/), the byte order mark of a text, a remark: some firmwares obey the rest
+# of the line, others do not.
 _HIDDEN: Final = re.compile(
     rb"\s*(?:[Nn]\d+\s*)?(?:(?:/\d*|\xef\xbb\xbf)\s*(?:[Nn]\d+\s*)?[GMT]\s*\d"
     rb"|(?:\([^()]*\)\s*|[^\sA-Za-z;(]+\s*)+(?:[Nn]\d+\s*)?[Gg]\s*0*[0-35](?![\d.]))",
@@ -70,7 +70,7 @@ _STILL_MACROS: Final = re.compile(
 
 
 def read_move(text: bytes) -> tuple[int, dict[str, float]] | None:
-    r"""Read one line as a move or an arc, or return None where it cannot be read for certain.
+    r"""Read one line as a move or an arc; return None if its meaning is uncertain.
 
     Parameters
     ----------
@@ -100,12 +100,12 @@ def read_move(text: bytes) -> tuple[int, dict[str, float]] | None:
     words: dict[str, float] = {}
     place = 0
     while place < len(body):
-        found = _WORD.match(body, place)
-        if found is None:
+        match = _WORD.match(body, place)
+        if match is None:
             return None
-        place = found.end()
-        letter = found[1].decode().upper()
-        value = _value(found[2], letter)
+        place = match.end()
+        letter = match[1].decode().upper()
+        value = _read_value(match[2], letter)
         if letter in words or (value is None and letter not in IGNORED):
             return None
         words[letter] = value or 0.0
@@ -114,7 +114,7 @@ def read_move(text: bytes) -> tuple[int, dict[str, float]] | None:
     return None if _is_unsure(code, words) else (code, {k: v for k, v in words.items() if k in "XYZEFIJKRPAB"})
 
 
-def _value(number: bytes | None, letter: str) -> float | None:
+def _read_value(number: bytes | None, letter: str) -> float | None:
     """Return the number of a word; of several extruders, which RepRapFirmware separates by colons, the sum."""
     if number is None:
         return None
@@ -125,9 +125,9 @@ def _value(number: bytes | None, letter: str) -> float | None:
 
 
 def _is_unsure(code: int, words: Mapping[str, float]) -> bool:
-    """Return whether the words of a move mean something else than a path from here to there."""
-    known = "XYZEFIJKRPAB" if code > 1 else "XYZEFIJPAB"
-    if not set(words) <= {*known, *IGNORED}:
+    """Return True if the words of a move mean something other than a path from the current position."""
+    expected = "XYZEFIJKRPAB" if code > 1 else "XYZEFIJPAB"
+    if not set(words) <= {*expected, *IGNORED}:
         return True
     if code > 1 and not is_arc(words):
         return True
@@ -136,12 +136,12 @@ def _is_unsure(code: int, words: Mapping[str, float]) -> bool:
 
 
 def is_arc(words: Mapping[str, float]) -> bool:
-    """Return whether the words say where an arc goes; without a centre, or a radius and an end, firmware draws none."""
+    """Return True if the words define an arc; without a centre, or a radius and an end, firmware draws none."""
     return bool({"I", "J", "K"} & set(words)) or bool(words.get("R") and {"X", "Y", "Z"} & set(words))
 
 
 def may_move(code: str, text: bytes) -> bool:
-    """Return whether a line that is no plain move could move or extrude along a path that is not planned.
+    """Return True if a line other than a plain move could move or extrude along a path that is not planned.
 
     Parameters
     ----------
@@ -168,13 +168,13 @@ def may_move(code: str, text: bytes) -> bool:
 
 
 def _has_inner_move(text: bytes) -> bool:
-    """Return whether a second command on a line is a move: RepRapFirmware and milling machines obey both."""
+    """Return True if a second command on a line is a move: RepRapFirmware and milling machines obey both."""
     words = _REMARK.sub(b" ", text.split(b";", 1)[0])
     return words.upper().count(b"G") + words.upper().count(b"M") > 1 and _INNER_MOVE.search(words) is not None
 
 
 def is_macro(code: str) -> bool:
-    """Return whether a command is one that only the printer knows, and that may move: PRINT_START.
+    """Return True if a command is known to the printer alone, and may move: PRINT_START.
 
     >>> is_macro("PRINT_START"), is_macro("SET_PRESSURE_ADVANCE"), is_macro("M204")
     (True, False, False)

@@ -1,1 +1,1 @@
-"""Compiled loops and nothing else: the only package that imports numba."""
+"""Compiled loops: the only package that imports numba."""

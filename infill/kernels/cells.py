@@ -14,12 +14,12 @@ from infill.kernels.compiling import njit
 
 @njit(nogil=True, cache=True, error_model="numpy", inline="always")
 def local(ratio, step, i, j, k):
-    """Return the number at a cell, from nodes that are `step` cells apart; straight in between.
+    """Interpolate the number at a cell linearly, from nodes that are `step` cells apart.
 
     Parameters
     ----------
     ratio : (n, m, l) float32
-        A single node says it for all cells.
+        A single node holds for all cells.
     """
     n, m, l = ratio.shape  # noqa: E741
     if n == 1 and m == 1 and l == 1:
@@ -38,14 +38,14 @@ def local(ratio, step, i, j, k):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_period(depth, least, table, turn, start, period, sign, half, ratio, step, out, thread, threads):
-    """Fill `out` with the lesser of the depth and the distance into the void beside a surface that repeats, in cells.
+def from_period(depth, threshold, table, turn, start, period, sign, half, ratio, step, out, thread, threads):
+    """Fill `out` with the lesser of the depth and the distance into the void beside a periodic surface, in cells.
 
     Parameters
     ----------
     depth : (nx, ny, nz) float32
-        Cells below the wall. Where it is at most `least`, it is taken as it is.
-    least : float
+        Cells below the wall. A depth of at most `threshold` is copied.
+    threshold : float
     table : (n, n, n) float32
         Distances from the surface in one period, in periods; the nodes are at i / n.
     turn : (3, 3) float64
@@ -53,16 +53,16 @@ def from_period(depth, least, table, turn, start, period, sign, half, ratio, ste
     start : (3,) float64
         Of cell (0, 0, 0), in the pattern, in cells.
     period : float
-        In cells.
+        Of one period, in cells.
     sign : float
         1 for the side where the table is above 0, -1 for the other.
     half : float
         Of the width of the walls, in cells.
     ratio, step
-        Of the width of the walls at a cell to that: see `local`.
+        Ratio of the local width of the walls to that one: see `local`.
     out : (nx, ny, nz) float32
     thread, threads : int
-        This call fills every `threads`-th layer, and returns how many cells the void fills.
+        This call fills every `threads`-th layer, and returns the volume of its void, in cells.
     """
     nx, ny, nz = depth.shape
     n = len(table)
@@ -71,7 +71,7 @@ def from_period(depth, least, table, turn, start, period, sign, half, ratio, ste
         for j in range(ny):
             for k in range(nz):
                 deep = depth[i, j, k]
-                if deep <= least:
+                if deep <= threshold:
                     out[i, j, k] = deep
                     continue
                 x = (start[0] + turn[0, 0] * i + turn[0, 1] * j + turn[0, 2] * k) / period
@@ -95,27 +95,27 @@ def from_period(depth, least, table, turn, start, period, sign, half, ratio, ste
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_bars(depth, least, edges, first, which, turn, start, period, half, ratio, step, out, thread, threads):
-    """Fill `out` with the lesser of the depth and the distance from round bars that repeat, in cells.
+def from_bars(depth, threshold, edges, bar_start, which, turn, start, period, half, ratio, step, out, thread, threads):
+    """Fill `out` with the lesser of the depth and the distance from periodic round bars, in cells.
 
     Parameters
     ----------
     edges : (E, 2, 3) float64
-        The axes of the bars that may be the nearest in one period, in periods.
-    first : (n³ + 1,) int32
+        Axes of the bars that may be the nearest in one period, in periods.
+    bar_start : (n³ + 1,) int32
     which : (M,) int32
         The bars that may be the nearest in each of n³ equal cubes: those of cube c are which[first[c]:first[c + 1]].
-    depth, least, turn, start, period, half, ratio, step, out, thread, threads
+    depth, threshold, turn, start, period, half, ratio, step, out, thread, threads
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
-    n = round((len(first) - 1) ** (1 / 3))
+    n = round((len(bar_start) - 1) ** (1 / 3))
     filled = 0.0
     for i in range(thread, nx, threads):
         for j in range(ny):
             for k in range(nz):
                 deep = depth[i, j, k]
-                if deep <= least:
+                if deep <= threshold:
                     out[i, j, k] = deep
                     continue
                 x = (start[0] + turn[0, 0] * i + turn[0, 1] * j + turn[0, 2] * k) / period
@@ -124,7 +124,7 @@ def from_bars(depth, least, edges, first, which, turn, start, period, half, rati
                 x, y, z = x - math.floor(x), y - math.floor(y), z - math.floor(z)
                 cube = (min(int(x * n), n - 1) * n + min(int(y * n), n - 1)) * n + min(int(z * n), n - 1)
                 nearest = np.inf
-                for at in range(first[cube], first[cube + 1]):
+                for at in range(bar_start[cube], bar_start[cube + 1]):
                     e = which[at]
                     ux, uy, uz = (
                         edges[e, 1, 0] - edges[e, 0, 0],
@@ -143,20 +143,20 @@ def from_bars(depth, least, edges, first, which, turn, start, period, half, rati
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_planes(depth, least, slopes, start, apart, bits, half, ratio, step, out, thread, threads):
+def from_planes(depth, threshold, slopes, start, apart, bits, half, ratio, step, out, thread, threads):
     """Fill `out` with the lesser of the depth and the distance into every other slab between planes, in cells.
 
     Parameters
     ----------
     slopes : (F, 3) float64
-        How many planes of a family are met in a step of a cell along x, y and z.
+        Planes of each family crossed in a step of one cell along x, y and z.
     start : (F,) float64
-        How many lie before cell (0, 0, 0).
+        Planes of each family before cell (0, 0, 0).
     apart : (F,) float64
-        How far apart the planes of a family are, in cells.
+        Distance between the planes of a family, in cells.
     bits : int
-        Bit f says which slabs of family f count: 0 those between planes 0 and 1, 2 and 3, and so on.
-    depth, least, half, ratio, step, out, thread, threads
+        Bit f selects the slabs of family f: 0 those between planes 0 and 1, 2 and 3, and so on.
+    depth, threshold, half, ratio, step, out, thread, threads
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
@@ -165,18 +165,18 @@ def from_planes(depth, least, slopes, start, apart, bits, half, ratio, step, out
         for j in range(ny):
             for k in range(nz):
                 deep = depth[i, j, k]
-                if deep <= least:
+                if deep <= threshold:
                     out[i, j, k] = deep
                     continue
                 nearest = np.inf
                 for f in range(len(apart)):
                     at = start[f] + slopes[f, 0] * i + slopes[f, 1] * j + slopes[f, 2] * k
                     slab = math.floor(at)
-                    away = at - slab
-                    away = min(away, 1.0 - away) * apart[f]
+                    to_plane = at - slab
+                    to_plane = min(to_plane, 1.0 - to_plane) * apart[f]
                     if (int(slab) ^ (bits >> f)) & 1:
-                        away = -away
-                    nearest = min(nearest, away)
+                        to_plane = -to_plane
+                    nearest = min(nearest, to_plane)
                 value = min(nearest - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
@@ -185,9 +185,9 @@ def from_planes(depth, least, slopes, start, apart, bits, half, ratio, step, out
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def from_polyhedra(
-    depth, least, turn, start, normals, halves, period, middles, half, ratio, step, out, thread, threads
+    depth, threshold, turn, start, normals, halves, period, middles, half, ratio, step, out, thread, threads
 ):
-    """Fill `out` with the lesser of the depth and the distance into polyhedra that repeat, in cells.
+    """Fill `out` with the lesser of the depth and the distance into periodic polyhedra, in cells.
 
     Parameters
     ----------
@@ -196,12 +196,12 @@ def from_polyhedra(
     start : (3,) float64
         Of cell (0, 0, 0), in the pattern, in cells.
     normals, halves : (F, 3), (F,) float64
-        Of the faces in pairs, and how far these are from the middle, in cells.
+        Of the faces in pairs, and their distance from the middle, in cells.
     period : (3,) float64
         In cells.
     middles : (K, 3) float64
         In cells; each repeats.
-    depth, least, half, ratio, step, out, thread, threads
+    depth, threshold, half, ratio, step, out, thread, threads
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
@@ -210,7 +210,7 @@ def from_polyhedra(
         for j in range(ny):
             for k in range(nz):
                 deep = depth[i, j, k]
-                if deep <= least:
+                if deep <= threshold:
                     out[i, j, k] = deep
                     continue
                 x = start[0] + turn[0, 0] * i + turn[0, 1] * j + turn[0, 2] * k
@@ -224,8 +224,8 @@ def from_polyhedra(
                     c -= period[2] * math.floor(c / period[2] + 0.5)
                     nearest = np.inf
                     for f in range(len(halves)):
-                        away = halves[f] - abs(normals[f, 0] * a + normals[f, 1] * b + normals[f, 2] * c)
-                        nearest = min(nearest, away)
+                        to_face = halves[f] - abs(normals[f, 0] * a + normals[f, 1] * b + normals[f, 2] * c)
+                        nearest = min(nearest, to_face)
                     inside = max(inside, nearest)
                 value = min(inside - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
@@ -235,7 +235,7 @@ def from_polyhedra(
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def from_plane(depth, plane, half, ratio, step, out, thread, threads):
-    """Fill `out` with the lesser of the depth and a distance that is the same at every height, in cells.
+    """Fill `out` with the lesser of the depth and a distance that does not depend on height, in cells.
 
     Parameters
     ----------
@@ -245,15 +245,15 @@ def from_plane(depth, plane, half, ratio, step, out, thread, threads):
     half, ratio, step
         As in `from_period`.
     thread, threads : int
-        This call fills every `threads`-th layer, and returns how many cells the void fills.
+        This call fills every `threads`-th layer, and returns the volume of its void, in cells.
     """
     nx, ny, nz = depth.shape
     filled = 0.0
     for i in range(thread, nx, threads):
         for j in range(ny):
-            here = plane[i, j]
+            to_lines = plane[i, j]
             for k in range(nz):
-                value = min(here - half * local(ratio, step, i, j, k), depth[i, j, k])
+                value = min(to_lines - half * local(ratio, step, i, j, k), depth[i, j, k])
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))
     return filled
@@ -287,15 +287,15 @@ def lower_to_segments(segments, reach, squared) -> None:
 def colour_of_cube(level, a, b, c):
     """Return the number, 0 to 15, of the colour of cube (a, b, c) of a level: cubes of one colour do not touch.
 
-    Those of a level do not, as all numbers of one are even where those of the other are; nor do those of two levels, if
-    cubes that touch differ by one level at most.
+    Those of a level do not, since all their numbers have the same parity; nor do those of two levels, if cubes that
+    touch differ by at most one level.
     """
     return (level & 1) << 3 | ((a >> level) & 1) << 2 | ((b >> level) & 1) << 1 | (c >> level) & 1
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def colours_of_cubes(depth, doubled, turn, start, thread, threads):
-    """Return which colours cubes have that hold the centre of a cell below the wall, (16,) bool.
+    """Find the colours of the cubes that hold the centre of a cell below the wall, (16,) bool.
 
     Parameters
     ----------
@@ -316,16 +316,16 @@ def colours_of_cubes(depth, doubled, turn, start, thread, threads):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, ratio, step, out, thread, threads):
+def from_cubes(depth, threshold, doubled, turn, start, period, reach, colour, half, ratio, step, out, thread, threads):
     """Fill `out` with the lesser of the depth and the distance into the cubes of a colour, in cells.
 
-    The cubes are of several sizes, and fill space. Outside of them, the distance is the largest of those along the
+    The cubes are of several sizes, and fill space. Outside them, the distance is the largest of those along the
     three axes, up to `reach`.
 
     Parameters
     ----------
     doubled : (n, m, l) uint8
-        How often the cube is doubled in which each of the smallest ones lies, to one of these beyond the grid; a cube
+        Number of doublings of the cube around each of the smallest ones, to one of these beyond the grid; a cube
         lies at a multiple of its side.
     turn : (3, 3) float64
         From the part to the pattern, in the smallest cubes for each cell.
@@ -337,7 +337,7 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
         In the smallest cubes; at most half of the side of any.
     colour : int
         See `colour_of_cube`.
-    depth, least, half, ratio, step, out, thread, threads
+    depth, threshold, half, ratio, step, out, thread, threads
         As in `from_period`.
     """
     nx, ny, nz = depth.shape
@@ -347,7 +347,7 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
         for j in range(ny):
             for k in range(nz):
                 deep = depth[i, j, k]
-                if deep <= least:
+                if deep <= threshold:
                     out[i, j, k] = deep
                     continue
                 for axis in range(3):
@@ -357,10 +357,10 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
                 side = 1 << level
                 inside = np.inf
                 for axis in range(3):
-                    beside = at[axis] - ((low[axis] >> level) << level)
-                    inside = min(inside, beside, side - beside)
+                    from_side = at[axis] - ((low[axis] >> level) << level)
+                    inside = min(inside, from_side, side - from_side)
                 if colour_of_cube(level, low[0], low[1], low[2]) != colour:
-                    away = reach
+                    outside = reach
                     if inside < reach:
                         # At most two of the smallest cubes within reach follow one another along an axis.
                         for axis in range(3):
@@ -374,8 +374,8 @@ def from_cubes(depth, least, doubled, turn, start, period, reach, colour, half, 
                                         x = at[0] - ((a >> level) << level)
                                         y = at[1] - ((b >> level) << level)
                                         z = at[2] - ((c >> level) << level)
-                                        away = min(away, max(-x, x - side, -y, y - side, -z, z - side, 0.0))
-                    inside = -away
+                                        outside = min(outside, max(-x, x - side, -y, y - side, -z, z - side, 0.0))
+                    inside = -outside
                 value = min(inside * period - half * local(ratio, step, i, j, k), deep)
                 out[i, j, k] = value
                 filled += min(1.0, max(0.0, 0.5 + value))

@@ -1,4 +1,4 @@
-"""Edges collapsed, the cheapest first, in a mesh that stays closed, keeps its volume and stays near what it was."""
+"""Edges collapsed, the cheapest first, in a mesh that stays closed, keeps its volume and stays near the original."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
 # Compiled lines are invisible to coverage tools.
@@ -16,32 +16,32 @@ from infill.kernels.quadrics import best_place, shape_of, solved, squared_length
 
 BUCKETS = 96  # of costs, two for each factor of two
 UNIT = 72  # the bucket of costs of one unit
-SLENDER = 0.02  # shape, 1 for equal sides and 0 for a line: no triangle becomes worse than this and than all were
-THIN = 0.005  # shape of a triangle whose own normal is not to be trusted
+SLENDER = 0.02  # shape, 1 for equal sides and 0 for a line: triangles stay better than this or than the worst before
+THIN = 0.005  # shape of a triangle whose own normal is unreliable
 TURNED = 0.2  # cosine of the angle by which a triangle may turn
-SHORT = 1e-3  # of squared tolerance and squared length: among collapses that cost nothing, short edges go first
+SHORT = 1e-3  # of squared tolerance and squared length: among collapses of no cost, short edges go first
 NARROW = 1e-6  # of squared lengths: a ring whose faces cancel out has no side on which volume is gained
-# How far places at which new edges are looked at are from one another: squared mean edges and squared tolerances.
+# Distance between the sample points of new edges: squared mean edges and squared tolerances.
 APART, WIDE = 0.05, 4.0
 HELD = 1 << 16  # points on the faces around an edge: where there are more, it stays
-ROUND = 0.005  # of the triangles: as long as more than these go, edges that stayed are tried once more
+ROUND = 0.005  # of the triangles: while at least this share is removed, edges that stayed are tried again
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _enter(c, bucket, queue, ends):
-    """Put an edge at the end of a bucket: `queue` holds the one after each edge, the one before, and its bucket."""
-    last = ends[bucket, 1]
-    queue[c, 0], queue[c, 1], queue[c, 2] = NONE, last, bucket
-    if last == NONE:
+def _enqueue(c, bucket, queue, ends):
+    """Put an edge at the end of a bucket: `queue` holds the next edge, the previous one and the bucket."""
+    tail = ends[bucket, 1]
+    queue[c, 0], queue[c, 1], queue[c, 2] = NONE, tail, bucket
+    if tail == NONE:
         ends[bucket, 0] = c
     else:
-        queue[last, 0] = c
+        queue[tail, 0] = c
     ends[bucket, 1] = c
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _leave(c, queue, ends):
-    """Take an edge out of its bucket, if it is in one."""
+def _dequeue(c, queue, ends):
+    """Remove an edge from its bucket, if it is in one."""
     bucket = queue[c, 2]
     if bucket == NONE:
         return
@@ -58,38 +58,38 @@ def _leave(c, queue, ends):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _rated(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place):
-    """Put an edge into the bucket of its cost, or into none if it is not to be collapsed; return the bucket."""
+def _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place):
+    """Put an edge into the bucket of its cost, or into none if it must not be collapsed; return the bucket."""
     c = min(c, twin[c])
-    _leave(c, queue, ends)
+    _dequeue(c, queue, ends)
     u, v = start[c], start[following(c)]
     if fixed[u] or fixed[v]:
         return BUCKETS
     cost = best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
     if cost > bound * s[10]:
         return BUCKETS
-    near = bound if math.isfinite(bound) else 1e-4 * edge
-    cost += SHORT * near * squared_length(vertices[u], vertices[v])
+    squared_bound = bound if math.isfinite(bound) else 1e-4 * edge
+    cost += SHORT * squared_bound * squared_length(vertices[u], vertices[v])
     bucket = 0
     if cost > 0:
-        bucket = min(BUCKETS - 1, max(0, int(2 * math.log2(cost / (near * edge)) + UNIT)))
-    _enter(c, bucket, queue, ends)
+        bucket = min(BUCKETS - 1, max(0, int(2 * math.log2(cost / (squared_bound * edge)) + UNIT)))
+    _enqueue(c, bucket, queue, ends)
     return bucket
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _keep_volume(c, vertices, start, twin, ring, many, other, others, s, place):
-    """Move the place of the collapsed vertex along the quadric's valley so that the volume stays as it is.
+def _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place):
+    """Move the place of the collapsed vertex along the quadric's valley so that the volume stays constant.
 
-    The volume below a ring of faces (p, a, b) is p (a x b) / 6 summed up, linear in p: a plane in which p has to lie
-    (Lindstrom and Turk 1998). Where that plane is not determined, or further away than the edge is long, the place
-    stays as it is.
+    The volume below a ring of faces (p, a, b) is the sum of p (a x b) / 6, linear in p: p must lie in a plane
+    (Lindstrom and Turk 1998). Where that plane is undetermined, or further away than the edge is long, the place
+    stays unchanged.
     """
     u, v = vertices[start[c]], vertices[start[following(c)]]
-    gx, gy, gz, wanted = 0.0, 0.0, 0.0, 0.0
+    gx, gy, gz, target = 0.0, 0.0, 0.0, 0.0
     for side in range(2):
-        for n in range(many if side == 0 else others):
-            corner = ring[n] if side == 0 else other[n]
+        for n in range(ring_size if side == 0 else end_ring_size):
+            corner = ring[n] if side == 0 else end_ring[n]
             shared = corner // 3 == c // 3 or corner // 3 == twin[c] // 3
             if shared and side == 1:
                 continue
@@ -97,12 +97,12 @@ def _keep_volume(c, vertices, start, twin, ring, many, other, others, s, place):
             ax, ay, az = a[0] - u[0], a[1] - u[1], a[2] - u[2]
             bx, by, bz = b[0] - u[0], b[1] - u[1], b[2] - u[2]
             nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-            wanted += (o[0] - u[0]) * nx + (o[1] - u[1]) * ny + (o[2] - u[2]) * nz
+            target += (o[0] - u[0]) * nx + (o[1] - u[1]) * ny + (o[2] - u[2]) * nz
             if not shared:
                 gx, gy, gz = gx + nx, gy + ny, gz + nz
-    off = wanted - (gx * (place[0] - u[0]) + gy * (place[1] - u[1]) + gz * (place[2] - u[2]))
-    dx, dy, dz, found = solved(s, 0.0, 0.0, 0.0, gx, gy, gz)
-    if not found:
+    off = target - (gx * (place[0] - u[0]) + gy * (place[1] - u[1]) + gz * (place[2] - u[2]))
+    dx, dy, dz, is_solved = solved(s, 0.0, 0.0, 0.0, gx, gy, gz)
+    if not is_solved:
         return
     rise, length = gx * dx + gy * dy + gz * dz, squared_length(u, v)
     if not rise > 0 or gx * gx + gy * gy + gz * gz < NARROW * length * length:
@@ -113,25 +113,25 @@ def _keep_volume(c, vertices, start, twin, ring, many, other, others, s, place):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _reshaped(c, vertices, start, twin, ring, many, other, others, place, moved, chosen):
-    """Set the faces around an edge as they would be without it; return how many, or -1 if one turns or is a sliver."""
+def _reshape_faces(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen):
+    """Set the faces around an edge after its collapse; return their number, or -1 if one turns or is a sliver."""
     worst, sx, sy, sz = 1.0, 0.0, 0.0, 0.0
     for side in range(2):
-        for n in range(many if side == 0 else others):
-            corner = ring[n] if side == 0 else other[n]
+        for n in range(ring_size if side == 0 else end_ring_size):
+            corner = ring[n] if side == 0 else end_ring[n]
             a, b = vertices[start[following(corner)]], vertices[start[preceding(corner)]]
             nx, ny, nz, shape = shape_of(vertices[start[corner]], a, b)
             sx, sy, sz, worst = sx + nx, sy + ny, sz + nz, min(worst, shape)
     changed = 0
     for side in range(2):
-        for n in range(many if side == 0 else others):
-            corner = ring[n] if side == 0 else other[n]
+        for n in range(ring_size if side == 0 else end_ring_size):
+            corner = ring[n] if side == 0 else end_ring[n]
             if corner // 3 == c // 3 or corner // 3 == twin[c] // 3:
                 continue
             a, b = vertices[start[following(corner)]], vertices[start[preceding(corner)]]
             ox, oy, oz, shape = shape_of(vertices[start[corner]], a, b)
-            nx, ny, nz, now = shape_of(place, a, b)
-            if now < min(SLENDER, worst):
+            nx, ny, nz, new_shape = shape_of(place, a, b)
+            if new_shape < min(SLENDER, worst):
                 return -1
             if shape < THIN:
                 ox, oy, oz = sx, sy, sz
@@ -146,94 +146,98 @@ def _reshaped(c, vertices, start, twin, ring, many, other, others, place, moved,
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, near, bound, fewest, into):
-    """Collapse edges, cheapest first, while the mesh stays closed and near; return how many faces are left.
+def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corner, tolerance, bound, fewest, into):
+    """Collapse edges, cheapest first, while the mesh stays closed and near; return the number of faces that remain.
 
     Parameters
     ----------
     vertices : (V, 3) float64
-        Are moved.
+        Changed in place.
     start, twin : (3 F,) int32
-        Are changed: of a face that is gone, all corners are -1.
+        Changed in place: all corners of a removed face become -1.
     leaving : (V,) int32
         One corner of each vertex.
     name : (V,) int32
         Vertices with the same name lie at one place: see `infill.kernels.corners.part_fans`.
     fixed : (V,) bool
-        Vertices that stay, and whose edges do.
+        Vertices that stay, with their edges.
     quadric : (V, 11) float64
-        See `infill.kernels.quadrics`; are added up.
+        See `infill.kernels.quadrics`; summed up in place.
     points : (P, 3) float64
-        Of the mesh as it was given, its vertices first, then points along edges; none at all if nothing has to be near.
+        Of the original mesh, its vertices first, then points along edges; empty if the mesh need not stay near.
     corner : (P,) int32
         The corner of each vertex, and the edge on which each of the others lies.
-    near : float
-        The square of how far the mesh may be from these points, and from what lies around them.
+    tolerance : float
+        The square of the largest distance of the mesh from these points, and from the surface around them.
     bound : float
-        No collapse whose mean squared distance from the planes it replaces is larger is done; may be infinite.
+        Largest mean squared distance of a collapse from the planes it replaces; may be infinite.
     fewest : int
         Faces at which to stop.
     into : (V,) int32
-        Of each vertex that is gone, becomes the one that it was collapsed into, which may be gone too.
+        Set for each removed vertex to the one that it was collapsed into, which may be removed too.
     """
     faces, bounded = len(start) // 3, len(points) > 0
     first_point, next_point = np.full(faces, NONE, dtype=np.int32), np.empty(len(points), dtype=np.int32)
     for p in range(len(points)):
         f = corner[p] // 3
         next_point[p], first_point[f] = first_point[f], p
-    given, was_twin, was_leaving = np.empty((0, 3)), twin, leaving
+    original_corners, was_twin, was_leaving = np.empty((0, 3)), twin, leaving
     if bounded:
-        given, was_twin, was_leaving = vertices[start], twin.copy(), leaving.copy()
+        original_corners, was_twin, was_leaving = vertices[start], twin.copy(), leaving.copy()
     edge = 0.0
     for c in range(len(start)):
         edge += squared_length(vertices[start[c]], vertices[start[following(c)]])
     edge /= max(1, len(start))
-    apart = min(APART * edge, WIDE * near)
+    sample_step = min(APART * edge, WIDE * tolerance)
     queue, ends = np.full((len(start), 3), NONE, dtype=np.int32), np.full((BUCKETS, 2), NONE, dtype=np.int32)
     marked = np.full(name.max() + 1, NONE, dtype=np.int32)
     s, place = np.empty(11), np.empty(3)
-    ring, other = np.empty(MOST, dtype=np.int32), np.empty(MOST, dtype=np.int32)
+    ring, end_ring = np.empty(MOST, dtype=np.int32), np.empty(MOST, dtype=np.int32)
     moved, chosen = np.empty((2 * MOST, 3, 3)), np.empty(2 * MOST + 2, dtype=np.int32)
     goes, goes_to = np.empty(HELD, dtype=np.int32), np.empty(HELD, dtype=np.int32)
     for c in range(len(start)):
         if c < twin[c]:
-            _rated(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
-    left, before, lowest, step = faces, faces, 0, 0
-    while left > fewest:
+            _update_bucket(c, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+    remaining, before, lowest, step = faces, faces, 0, 0
+    while remaining > fewest:
         while lowest < BUCKETS and ends[lowest, 0] == NONE:
             lowest += 1
         if lowest == BUCKETS:
-            if before - left < ROUND * left:
+            if before - remaining < ROUND * remaining:
                 break
-            before = left
+            before = remaining
             for e in range(len(start)):
                 if start[e] != NONE and e < twin[e]:
-                    bucket = _rated(e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+                    bucket = _update_bucket(
+                        e, vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place
+                    )
                     lowest = min(lowest, bucket)
             continue
         c = ends[lowest, 0]
-        _leave(c, queue, ends)
+        _dequeue(c, queue, ends)
         step += 1
         u, v, d = start[c], start[following(c)], twin[c]
-        many, others = corners_of(u, twin, leaving, ring), corners_of(v, twin, leaving, other)
-        if many < 0 or others < 0 or not 3 <= many + others - 4 <= MOST:
+        ring_size, end_ring_size = corners_of(u, twin, leaving, ring), corners_of(v, twin, leaving, end_ring)
+        if ring_size < 0 or end_ring_size < 0 or not 3 <= ring_size + end_ring_size - 4 <= MOST:
             continue
-        if not linked(c, start, twin, leaving, name, ring, many, other, others, marked, step):
+        if not linked(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
             continue
         best_place(vertices[u], vertices[v], quadric[u], quadric[v], s, place)
         changed, taken = NONE, 0
         for attempt in range(3 if bounded else 1):  # where the best place is too far, one of the ends may be near
             if attempt > 0:
                 place[:] = vertices[u] if attempt == 1 else vertices[v]
-            _keep_volume(c, vertices, start, twin, ring, many, other, others, s, place)
-            changed = _reshaped(c, vertices, start, twin, ring, many, other, others, place, moved, chosen)
+            _keep_volume(c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, s, place)
+            changed = _reshape_faces(
+                c, vertices, start, twin, ring, ring_size, end_ring, end_ring_size, place, moved, chosen
+            )
             if changed == NONE or not bounded:
                 continue
             chosen[changed], chosen[changed + 1] = c // 3, d // 3
-            taken = handed_on(first_point, next_point, points, near, moved, chosen, changed, goes, goes_to)
+            taken = handed_on(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to)
             if taken > 0:
-                was = given, was_twin, was_leaving
-                if all_near(place, moved, changed, apart, points, near, goes, taken, corner, was):
+                was = original_corners, was_twin, was_leaving
+                if all_near(place, moved, changed, sample_step, points, tolerance, goes, taken, corner, was):
                     break
             changed = NONE
         if changed == NONE:
@@ -244,16 +248,16 @@ def collapse(vertices, start, twin, leaving, name, fixed, quadric, points, corne
             for n in range(taken):
                 p, f = goes[n], goes_to[n]
                 next_point[p], first_point[f] = first_point[f], p
-        for n in range(many):
-            _leave(min(ring[n], twin[ring[n]]), queue, ends)
-        for n in range(others):
-            _leave(min(other[n], twin[other[n]]), queue, ends)
-        join(c, start, twin, leaving, other, others)
+        for n in range(ring_size):
+            _dequeue(min(ring[n], twin[ring[n]]), queue, ends)
+        for n in range(end_ring_size):
+            _dequeue(min(end_ring[n], twin[end_ring[n]]), queue, ends)
+        join(c, start, twin, leaving, end_ring, end_ring_size)
         quadric[u] = s
         vertices[u] = place
         into[v] = u
-        left -= 2
+        remaining -= 2
         for n in range(corners_of(u, twin, leaving, ring)):
-            bucket = _rated(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
+            bucket = _update_bucket(ring[n], vertices, start, twin, fixed, quadric, bound, edge, queue, ends, s, place)
             lowest = min(lowest, bucket)
-    return left
+    return remaining

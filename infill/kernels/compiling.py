@@ -1,4 +1,4 @@
-"""Compiling: what to do where the result cannot be kept on disk, and reporting it when it has to be waited for."""
+"""Compilation: functions without a disk cache where none is writable, and messages about waiting for the compiler."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from contextvars import ContextVar
 from typing import Any
 
 LOG = logging.getLogger("infill")
-TOLD = threading.Event()  # set once compiling was reported in this process
-OURS = threading.Event()  # set if nobody else compiles in this process
+TOLD = threading.Event()  # set once compilation was reported in this process
+OURS = threading.Event()  # set if no other thread compiles in this process
 BLAS = "scipy.linalg.cython_blas"
 _WATCHED = ContextVar("watched", default=False)
 
 
 def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401 - hands on
-    """Return numba's decorator; where no folder can hold compiled code, the code is not kept."""
+    """Return numba's decorator; without a writable folder, compiled code is not cached."""
     import numba
 
     if OURS.is_set() and "numba.np.arraymath" not in sys.modules:
@@ -34,25 +34,25 @@ def njit(**options: Any) -> Callable[[Callable[..., Any]], Any]:  # noqa: ANN401
 
 
 def _load_without_blas() -> None:
-    """Load what numba says about arrays, but not the BLAS that matrix products need, of which there are none here.
+    """Load numba's array functions without the BLAS of matrix products, which this package does not use.
 
-    With BLAS come SciPy's linear algebra and much more: 0.2 s, a tenth of what a short command takes.
+    BLAS loads SciPy's linear algebra and much more: 0.2 s, a tenth of the time of a short command.
     """
-    known = BLAS in sys.modules
-    if not known:
+    is_loaded = BLAS in sys.modules
+    if not is_loaded:
         sys.modules.update({BLAS: None})  # type: ignore[dict-item]
     try:
         import numba.np.arraymath  # noqa: F401
     finally:
-        if not known:
+        if not is_loaded:
             sys.modules.pop(BLAS, None)
 
 
 @contextmanager
 def told_of_compiling(what: str) -> Iterator[None]:
-    """Report to the log "infill" as soon as something inside is being compiled rather than found compiled on disk.
+    """Report to the log "infill" as soon as code inside is compiled rather than loaded from disk.
 
-    Done once per process, by the outermost of nested uses; also works as a decorator. `what` follows "compiling".
+    Report once per process, in the outermost of nested uses; also works as a decorator. `what` follows "compiling".
     """
     if _WATCHED.get() or TOLD.is_set():
         yield
@@ -60,7 +60,7 @@ def told_of_compiling(what: str) -> Iterator[None]:
     from numba.core import event
 
     class Listener(event.Listener):
-        def on_start(self, event: object) -> None:  # noqa: ARG002 - what is compiled does not matter
+        def on_start(self, event: object) -> None:  # noqa: ARG002 - any compilation counts
             if not TOLD.is_set():
                 TOLD.set()
                 LOG.warning("compiling %s: up to a minute, and kept for later runs", what)

@@ -1,14 +1,14 @@
-"""What `infill.isosurfaces.components` does to rows of bits and to triangles, compiled.
+"""Loops of `infill.isosurfaces.components` over rows of bits and over triangles, compiled.
 
-A row of a brick is sixteen bits, set where a cell is of the kind being labelled. The things labelled are not cells but
-runs of set bits, found by a few operations on the whole row:
+A row of a brick is sixteen bits, set where a cell is of the kind to label. Labels belong not to cells but to
+runs of set bits, found by a few operations on the entire row:
 
     bits         0 1 1 1 0 0 1 0 1 1 0 0 0 0 1 1      k ->
     beginnings   0 1 0 0 0 0 1 0 1 0 0 0 0 0 1 0      bits & ~(bits shifted by one)
     run          . 0 0 0 . . 1 . 2 2 . . . . 3 3      beginnings up to here, counted, less one
 
 The number of the run at cell k of a row is therefore `bricks` (runs in earlier bricks) + `starts` (in earlier rows) +
-that count minus one: nothing is stored per cell. A brick with a single value is a node by itself (`alone`).
+that count minus one: nothing is stored per cell. A brick with a single value is one node (`alone`).
 
 Runs are joined by union-find. `parent` leads from every node to an earlier one of its set, and from the first node of
 the set to itself; `root` follows it, halving the path as it goes, and `join` puts the later root under the earlier one,
@@ -30,7 +30,7 @@ from infill.kernels.lanes import lowest, ones
 from infill.kernels.sparse import B0, B1, B2, CELLS, OUTSIDE, VOID_BRICK, place_beside
 from infill.kernels.sparse_marching import FULL, ROWS, within
 
-BEYOND = -9  # what lies outside the lattice: neither solid nor void
+BEYOND = -9  # outside the lattice: neither solid nor void
 
 
 @njit(cache=True)
@@ -60,15 +60,15 @@ def beginnings(bits):
 
 @njit(cache=True)
 def run_length(bits, k):
-    """Return how many consecutive bits are set from bit `k` on."""
+    """Count the consecutive bits that are set from bit `k` on."""
     gaps = ~(np.int64(bits) >> k)
     return ones(((gaps & -gaps) - 1) & FULL)
 
 
 @njit(nogil=True, cache=True)
 def number_runs(bits, bricks, starts):
-    """Set where the numbering of runs begins in every brick and in each of its rows; return the number of runs."""
-    count = np.int64(1)  # run 0 is whatever lies beyond the grid
+    """Set the first number of every brick and of each of its rows; return the number of runs."""
+    count = np.int64(1)  # run 0 is everything beyond the grid
     for s in range(len(bits)):
         bricks[s] = count
         inner = 0
@@ -88,7 +88,7 @@ def run_at(bits, bricks, starts, s, row, k):
 
 @njit(cache=True)
 def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
-    """Return the node of a cell of any brick of the lattice, or -1 if the cell is not of the kind being labelled."""
+    """Return the node of a cell of any brick of the lattice, or -1 if the cell is not of the kind to label."""
     slot = slots[p, q, r]
     if slot < 0:
         return np.int64(alone[p, q, r])
@@ -99,7 +99,7 @@ def node_at(alone, slots, p, q, r, row, k, bits, bricks, starts):
 
 @njit(inline="always", cache=True)
 def slot_in(slots, p, q, r):
-    """Return what the lattice holds at a place, which may be beyond its ends: nothing, of either kind."""
+    """Return the slot of the lattice at a place, BEYOND outside its ends."""
     if p < 0 or q < 0 or r < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return BEYOND
     return slots[p, q, r]
@@ -107,23 +107,23 @@ def slot_in(slots, p, q, r):
 
 @njit(inline="always", cache=True)
 def is_full(rows):
-    """Return whether all cells of a brick are set."""
-    every = np.uint16(FULL)
+    """Return True if all cells of a brick are set."""
+    common = np.uint16(FULL)
     for row in range(ROWS):
-        every &= rows[row]
-    return every == FULL
+        common &= rows[row]
+    return common == FULL
 
 
 @njit(inline="always", cache=True)
 def is_mixed(slots, full, p, q, r):
-    """Return whether a brick is kept and not set throughout."""
+    """Return True if a brick is kept and has unset cells."""
     slot = slot_in(slots, p, q, r)
     return slot >= 0 and not full[slot]
 
 
 @njit(nogil=True, cache=True)
 def join_full(slots, where, bricks, alone, parent, full):
-    """Join the runs of bricks that are set throughout, and those bricks with one another and with whole ones."""
+    """Join the runs of fully set bricks, and those bricks with one another and with bricks of one value."""
     for s in range(len(where)):
         if not full[s]:
             continue
@@ -143,7 +143,7 @@ def join_full(slots, where, bricks, alone, parent, full):
 
 @njit(nogil=True, cache=True)
 def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
-    """Join whatever touches by a face, or by an edge if `diagonal`, in all kept bricks."""
+    """Join all runs that touch by a face, or by an edge if `diagonal`, in all kept bricks."""
     m0, m1, m2 = slots.shape
     full = np.empty(len(where), dtype=np.bool_)
     for s in range(len(where)):
@@ -156,19 +156,19 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
         open_i, open_j = is_mixed(slots, full, p + 1, q, r), is_mixed(slots, full, p, q + 1, r)
         for row in range(ROWS):
             i, j = row // B1, row % B1
-            own = bits[s, row]
-            if own == 0 or (settled and not (open_k or (open_i and i == B0 - 1) or (open_j and j == B1 - 1))):
+            row_bits = bits[s, row]
+            if row_bits == 0 or (settled and not (open_k or (open_i and i == B0 - 1) or (open_j and j == B1 - 1))):
                 continue
             # Along k, runs end at the brick boundary.
             for step in range(-1, 2, 2):
                 c = r + step
                 edge = B2 - 1 if step > 0 else 0
-                if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
+                if 0 <= c < m2 and (row_bits >> np.uint16(edge)) & np.uint16(1):
                     if step < 0 and slots[p, q, c] >= 0:
                         continue  # that brick looks ahead at this one
-                    other = node_at(alone, slots, p, q, c, row, B2 - 1 - edge, bits, bricks, starts)
-                    if other >= 0:
-                        join(parent, run_at(bits, bricks, starts, s, row, edge), other)
+                    node = node_at(alone, slots, p, q, c, row, B2 - 1 - edge, bits, bricks, starts)
+                    if node >= 0:
+                        join(parent, run_at(bits, bricks, starts, s, row, edge), node)
             for di in range(-1, 2):
                 for dj in range(-1, 2):
                     if (di == 0 and dj == 0) or (di != 0 and dj != 0 and not diagonal):
@@ -184,17 +184,17 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                     slot = slots[a, b, r]
                     if slot < 0:
                         if alone[a, b, r] >= 0:
-                            left = np.int64(beginnings(own))
-                            while left:
-                                k = lowest(left)
-                                left &= left - 1
+                            remaining = np.int64(beginnings(row_bits))
+                            while remaining:
+                                k = lowest(remaining)
+                                remaining &= remaining - 1
                                 join(parent, run_at(bits, bricks, starts, s, row, k), np.int64(alone[a, b, r]))
                     elif ahead:  # the other brick never looks back at this one
                         theirs = bits[slot, x * B1 + y]
-                        left = np.int64(beginnings(own & theirs))
-                        while left:
-                            k = lowest(left)
-                            left &= left - 1
+                        remaining = np.int64(beginnings(row_bits & theirs))
+                        while remaining:
+                            k = lowest(remaining)
+                            remaining &= remaining - 1
                             join(
                                 parent,
                                 run_at(bits, bricks, starts, s, row, k),
@@ -203,13 +203,13 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                         if diagonal and (di == 0 or dj == 0):
                             for shift in range(-1, 2, 2):  # touching at an edge but not by a face
                                 if shift > 0:
-                                    own_next, theirs_next = own >> np.uint16(1), theirs >> np.uint16(1)
+                                    own_next, theirs_next = row_bits >> np.uint16(1), theirs >> np.uint16(1)
                                 else:
-                                    own_next, theirs_next = own << np.uint16(1), theirs << np.uint16(1)
-                                left = np.int64(own & theirs_next & ~theirs & ~own_next) & FULL
-                                while left:
-                                    k = lowest(left)
-                                    left &= left - 1
+                                    own_next, theirs_next = row_bits << np.uint16(1), theirs << np.uint16(1)
+                                remaining = np.int64(row_bits & theirs_next & ~theirs & ~own_next) & FULL
+                                while remaining:
+                                    k = lowest(remaining)
+                                    remaining &= remaining - 1
                                     join(
                                         parent,
                                         run_at(bits, bricks, starts, s, row, k),
@@ -219,10 +219,10 @@ def join_runs(slots, where, bits, bricks, starts, alone, parent, diagonal):
                         for step in range(-1, 2, 2):
                             c = r + step
                             edge = B2 - 1 if step > 0 else 0
-                            if 0 <= c < m2 and (own >> np.uint16(edge)) & np.uint16(1):
-                                other = node_at(alone, slots, a, b, c, x * B1 + y, B2 - 1 - edge, bits, bricks, starts)
-                                if other >= 0:
-                                    join(parent, run_at(bits, bricks, starts, s, row, edge), other)
+                            if 0 <= c < m2 and (row_bits >> np.uint16(edge)) & np.uint16(1):
+                                node = node_at(alone, slots, a, b, c, x * B1 + y, B2 - 1 - edge, bits, bricks, starts)
+                                if node >= 0:
+                                    join(parent, run_at(bits, bricks, starts, s, row, edge), node)
 
 
 @njit(nogil=True, cache=True)
@@ -232,41 +232,41 @@ def join_alone(alone, parent):
     for p in range(m0):
         for q in range(m1):
             for r in range(m2):
-                own = alone[p, q, r]
-                if own < 0:
+                node = alone[p, q, r]
+                if node < 0:
                     continue
                 if p + 1 < m0 and alone[p + 1, q, r] >= 0:
-                    join(parent, np.int64(own), np.int64(alone[p + 1, q, r]))
+                    join(parent, np.int64(node), np.int64(alone[p + 1, q, r]))
                 if q + 1 < m1 and alone[p, q + 1, r] >= 0:
-                    join(parent, np.int64(own), np.int64(alone[p, q + 1, r]))
+                    join(parent, np.int64(node), np.int64(alone[p, q + 1, r]))
                 if r + 1 < m2 and alone[p, q, r + 1] >= 0:
-                    join(parent, np.int64(own), np.int64(alone[p, q, r + 1]))
+                    join(parent, np.int64(node), np.int64(alone[p, q, r + 1]))
 
 
 @njit(nogil=True, cache=True)
 def join_beyond(where, bits, bricks, starts, shape, parent):
-    """Join every run of void that extends beyond the grid with what lies there."""
+    """Join every run of void that extends beyond the grid with the outside."""
     for s in range(len(where)):
         for row in range(ROWS):
             inside = within(where[s, 0], where[s, 1], where[s, 2], row, shape)
-            left = np.int64(bits[s, row] & ~inside)
-            while left:
-                k = lowest(left)
-                left &= left - 1
+            remaining = np.int64(bits[s, row] & ~inside)
+            while remaining:
+                k = lowest(remaining)
+                remaining &= remaining - 1
                 join(parent, np.int64(0), np.int64(run_at(bits, bricks, starts, s, row, k)))
 
 
 @njit(nogil=True, cache=True)
 def name_sets(parent, names):
-    """Name the sets 0, 1, 2 … in the order of their first members; return how many there are."""
+    """Name the sets 0, 1, 2 … in the order of their first members; return their number."""
     count = 0
     for n in range(len(parent)):
-        first = root(parent, n)
-        if first == n:
+        first_member = root(parent, n)
+        if first_member == n:
             names[n] = count
             count += 1
         else:
-            names[n] = names[first]
+            names[n] = names[first_member]
     return count
 
 
@@ -275,12 +275,12 @@ def count_cells(where, bits, bricks, starts, shape, names, cells):
     """Add the cells of every run within the grid to the count of its component."""
     for s in range(len(where)):
         for row in range(ROWS):
-            own = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
-            left = np.int64(beginnings(own))
-            while left:
-                k = lowest(left)
-                left &= left - 1
-                cells[names[run_at(bits, bricks, starts, s, row, k)]] += run_length(own, k)
+            row_bits = bits[s, row] & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            remaining = np.int64(beginnings(row_bits))
+            while remaining:
+                k = lowest(remaining)
+                remaining &= remaining - 1
+                cells[names[run_at(bits, bricks, starts, s, row, k)]] += run_length(row_bits, k)
 
 
 @njit(nogil=True, cache=True)
@@ -288,34 +288,34 @@ def mark_runs(bits, bricks, starts, names, chosen, marked):
     """Mark the components that contain `chosen` cells."""
     for s in range(len(bits)):
         for row in range(ROWS):
-            left = np.int64(beginnings(bits[s, row] & chosen[s, row]))
-            while left:
-                k = lowest(left)
-                left &= left - 1
+            remaining = np.int64(beginnings(bits[s, row] & chosen[s, row]))
+            while remaining:
+                k = lowest(remaining)
+                remaining &= remaining - 1
                 marked[names[run_at(bits, bricks, starts, s, row, k)]] = True
 
 
 @njit(nogil=True, cache=True)
 def overlaps(bits, bricks, starts, names, other_bits, other_bricks, other_starts, other_names):
     """Return (component, other component, cells) for every stretch of a row that lies in both."""
-    many = 0
+    count = 0
     for s in range(len(bits)):
         for row in range(ROWS):
-            many += ones(beginnings(bits[s, row] & other_bits[s, row]))
-    found = np.empty((many, 3), dtype=np.int64)
-    many = 0
+            count += ones(beginnings(bits[s, row] & other_bits[s, row]))
+    stretches = np.empty((count, 3), dtype=np.int64)
+    count = 0
     for s in range(len(bits)):
         for row in range(ROWS):
             both = bits[s, row] & other_bits[s, row]
-            left = np.int64(beginnings(both))
-            while left:
-                k = lowest(left)
-                left &= left - 1
-                found[many, 0] = names[run_at(bits, bricks, starts, s, row, k)]
-                found[many, 1] = other_names[run_at(other_bits, other_bricks, other_starts, s, row, k)]
-                found[many, 2] = run_length(both, k)
-                many += 1
-    return found
+            remaining = np.int64(beginnings(both))
+            while remaining:
+                k = lowest(remaining)
+                remaining &= remaining - 1
+                stretches[count, 0] = names[run_at(bits, bricks, starts, s, row, k)]
+                stretches[count, 1] = other_names[run_at(other_bits, other_bricks, other_starts, s, row, k)]
+                stretches[count, 2] = run_length(both, k)
+                count += 1
+    return stretches
 
 
 @njit(nogil=True, cache=True)
@@ -375,7 +375,7 @@ def lower_to_levels(
 
 @njit(inline="always", cache=True)
 def any_row(slot, row, bits, kind):
-    """Return a row of what the lattice holds; a brick of one value is full if it is of the given `kind`."""
+    """Return a row of a slot of the lattice; a brick of one value is full if it is of the given `kind`."""
     if slot >= 0:
         return np.uint32(bits[slot, row])
     full = slot == kind or (slot == OUTSIDE and kind == VOID_BRICK)
@@ -386,23 +386,30 @@ def any_row(slot, row, bits, kind):
 def meet_or_spread(slots, where, bits, kind, meet, way, out, thread, threads):
     """Set cells where all (`meet`) or any of 2 x 2 x 2 cells are set: from the cell on (`way` 1), or up to it (-1)."""
     pairs = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)  # of cells along k, of the brick's rows and the next ones
-    one, last = np.uint32(1), np.uint32(B2 - 1)
+    one_bit, last_bit = np.uint32(1), np.uint32(B2 - 1)
     behind = 1 if way < 0 else 0
     for s in range(thread, len(where), threads):
         p, q, r = where[s]
         for side in range(4):
             up, right = side & 1, side >> 1
-            here = slot_in(slots, p + way * up, q + way * right, r)
-            beside = slot_in(slots, p + way * up, q + way * right, r + way)
+            slot = slot_in(slots, p + way * up, q + way * right, r)
+            next_slot = slot_in(slots, p + way * up, q + way * right, r + way)
             for x in range(1 if up else B0):
                 i = (B0 - 1) * behind if up else x
                 u = B0 * (1 - behind) if up else x + behind
                 for y in range(1 if right else B1):
                     j = (B1 - 1) * behind if right else y
                     v = B1 * (1 - behind) if right else y + behind
-                    own, other = any_row(here, i * B1 + j, bits, kind), any_row(beside, i * B1 + j, bits, kind)
-                    next_to = own << one | other >> last if behind else own >> one | (other & one) << last
-                    pairs[u, v] = own & next_to if meet else own | next_to
+                    row_bits, next_bits = (
+                        any_row(slot, i * B1 + j, bits, kind),
+                        any_row(next_slot, i * B1 + j, bits, kind),
+                    )
+                    next_to = (
+                        row_bits << one_bit | next_bits >> last_bit
+                        if behind
+                        else row_bits >> one_bit | (next_bits & one_bit) << last_bit
+                    )
+                    pairs[u, v] = row_bits & next_to if meet else row_bits | next_to
         for i in range(B0):
             for j in range(B1):
                 a, b, c, d = pairs[i, j], pairs[i + 1, j], pairs[i, j + 1], pairs[i + 1, j + 1]
@@ -414,10 +421,10 @@ def erase(values, where, bits, bricks, starts, names, marked, void):
     """Make the cells of marked components void."""
     for s in range(len(where)):
         for row in range(ROWS):
-            left = np.int64(bits[s, row])
-            while left:
-                k = lowest(left)
-                left &= left - 1
+            remaining = np.int64(bits[s, row])
+            while remaining:
+                k = lowest(remaining)
+                remaining &= remaining - 1
                 if marked[names[run_at(bits, bricks, starts, s, row, k)]]:
                     x, y = where[s, 0] * B0 + row // B1 - 1, where[s, 1] * B1 + row % B1 - 1
                     values[x, y, where[s, 2] * B2 + k - 1] = void

@@ -1,4 +1,4 @@
-"""A closed mesh as a table of corners, and one edge of it collapsed.
+"""A closed mesh as a table of corners, and the collapse of one of its edges.
 
 Corner c = 3 f + k is also the edge of face f from its k-th corner to the next, `start[c]` the vertex there, `twin[c]`
 the same edge of the neighbour, in the opposite direction, and `leaving[v]` one corner of each vertex (Rossignac 2001).
@@ -13,7 +13,7 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 
-MOST = 48  # corners at a vertex: nothing is collapsed into one that would have more
+MOST = 48  # corners at a vertex: collapses that would exceed it are rejected
 NONE = -1
 
 
@@ -31,7 +31,7 @@ def preceding(corner):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def pair(start, count, twin):
-    """Set the twin of each corner; return whether every edge has exactly one.
+    """Set the twin of each corner; return True if every edge has exactly one.
 
     Parameters
     ----------
@@ -41,12 +41,12 @@ def pair(start, count, twin):
         Vertices.
     twin : (3 F,) int32
     """
-    first = np.zeros(count + 1, dtype=np.int64)
+    begin = np.zeros(count + 1, dtype=np.int64)
     for c in range(len(start)):
-        first[start[c] + 1] += 1
+        begin[start[c] + 1] += 1
     for v in range(count):
-        first[v + 1] += first[v]
-    leaving, filled = np.empty(len(start), dtype=np.int32), first[:-1].copy()
+        begin[v + 1] += begin[v]
+    leaving, filled = np.empty(len(start), dtype=np.int32), begin[:-1].copy()
     for c in range(len(start)):
         leaving[filled[start[c]]] = c
         filled[start[c]] += 1
@@ -54,21 +54,21 @@ def pair(start, count, twin):
         a, b = start[c], start[following(c)]
         if a == b:
             return False
-        found = -1
-        for at in range(first[b], first[b + 1]):
+        match = -1
+        for at in range(begin[b], begin[b + 1]):
             if start[following(leaving[at])] == a:
-                if found >= 0:
+                if match >= 0:
                     return False
-                found = leaving[at]
-        if found < 0:
+                match = leaving[at]
+        if match < 0:
             return False
-        twin[c] = found
+        twin[c] = match
     return True
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def part_fans(start, twin, count, name):
-    """Give each fan of faces around a vertex that has several a vertex of its own; return how many vertices there are.
+    """Give each additional fan of faces around a vertex a vertex of its own; return the number of vertices.
 
     Parameters
     ----------
@@ -76,9 +76,9 @@ def part_fans(start, twin, count, name):
     count : int
         Vertices.
     name : (3 F,) int32
-        Is set to the vertex of which each vertex is a copy; there are never more vertices than corners.
+        Set to the vertex of which each vertex is a copy; there are never more vertices than corners.
     """
-    seen, known = np.zeros(len(start), dtype=np.bool_), np.zeros(count, dtype=np.bool_)
+    seen, is_used = np.zeros(len(start), dtype=np.bool_), np.zeros(count, dtype=np.bool_)
     for v in range(count):
         name[v] = v
     total = count
@@ -86,21 +86,21 @@ def part_fans(start, twin, count, name):
         if seen[c]:
             continue
         v = start[c]
-        own = v
-        if known[v]:
-            own, name[total], total = total, v, total + 1
-        known[v] = True
+        fan_vertex = v
+        if is_used[v]:
+            fan_vertex, name[total], total = total, v, total + 1
+        is_used[v] = True
         at = c
         while not seen[at]:
             seen[at] = True
-            start[at] = own
+            start[at] = fan_vertex
             at = twin[preceding(at)]
     return total
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def corners_of(vertex, twin, leaving, ring):
-    """Set the corners of a vertex; return how many there are, or -1 if they are too many."""
+    """Set the corners of a vertex; return their number, or -1 if there are too many."""
     at, count = leaving[vertex], 0
     while True:
         if count == MOST:
@@ -114,7 +114,7 @@ def corners_of(vertex, twin, leaving, ring):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _has_three(vertex, twin, leaving):
-    """Return whether a vertex has no more than three faces."""
+    """Return True if a vertex has at most three faces."""
     at = leaving[vertex]
     for _ in range(3):
         at = twin[preceding(at)]
@@ -122,13 +122,13 @@ def _has_three(vertex, twin, leaving):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def linked(c, start, twin, leaving, name, ring, many, other, others, marked, step):
-    """Return whether the ends of an edge have only the corners opposite to it as common neighbours, and more faces."""
-    for n in range(many):
+def linked(c, start, twin, leaving, name, ring, ring_size, end_ring, end_ring_size, marked, step):
+    """Return True if the ends of an edge share only the corners opposite to it as neighbours, and have more faces."""
+    for n in range(ring_size):
         marked[name[start[following(ring[n])]]] = step
     common = 0
-    for n in range(others):
-        common += marked[name[start[following(other[n])]]] == step
+    for n in range(end_ring_size):
+        common += marked[name[start[following(end_ring[n])]]] == step
     if common != 2:
         return False
     opposite, beyond = start[preceding(c)], start[preceding(twin[c])]
@@ -136,16 +136,16 @@ def linked(c, start, twin, leaving, name, ring, many, other, others, marked, ste
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def join(c, start, twin, leaving, other, others):
-    """Collapse an edge in the table: its end becomes its start, two faces are gone, and their other edges are twins."""
+def join(c, start, twin, leaving, end_ring, end_ring_size):
+    """Collapse an edge in the table: its end becomes its start, two faces go, and their other edges become twins."""
     u, d = start[c], twin[c]
-    for n in range(others):
-        start[other[n]] = u
+    for n in range(end_ring_size):
+        start[end_ring[n]] = u
     for n in range(2):
         at = c if n == 0 else d
-        one, two = twin[following(at)], twin[preceding(at)]
-        twin[one], twin[two] = two, one
-        leaving[start[one]], leaving[start[two]] = one, two
+        outer_a, outer_b = twin[following(at)], twin[preceding(at)]
+        twin[outer_a], twin[outer_b] = outer_b, outer_a
+        leaving[start[outer_a]], leaving[start[outer_b]] = outer_a, outer_b
     for n in range(2):
         f = 3 * ((c if n == 0 else d) // 3)
         start[f], start[f + 1], start[f + 2] = NONE, NONE, NONE

@@ -37,7 +37,7 @@ def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: 
     for row in prange(n0 * n1):
         i, j = row // n1, row % n1
         below, above = max(i - 1, 0), min(i + 1, n0 - 1)
-        left, right = max(j - 1, 0), min(j + 1, n1 - 1)
+        before_j, after_j = max(j - 1, 0), min(j + 1, n1 - 1)
         if masked:
             for k in range(n2):
                 if not inside[i, j, k]:
@@ -48,19 +48,23 @@ def sweep(u, f, inside, new, numbers):  # type: ignore[no-untyped-def]  # noqa: 
                     c,
                     u[below, j, k] if inside[below, j, k] else c,
                     u[above, j, k] if inside[above, j, k] else c,
-                    u[i, left, k] if inside[i, left, k] else c,
-                    u[i, right, k] if inside[i, right, k] else c,
+                    u[i, before_j, k] if inside[i, before_j, k] else c,
+                    u[i, after_j, k] if inside[i, after_j, k] else c,
                     u[i, j, before] if inside[i, j, before] else c,
                     u[i, j, after] if inside[i, j, after] else c,
                     np.float32(f[i, j, k]),
                     numbers,
                 )
         else:
-            own, data, out = u[i, j], f[i, j], new[i, j]
-            a, b, d, e = u[below, j], u[above, j], u[i, left], u[i, right]
-            last = n2 - 1
-            for k in range(1, last):
-                out[k] = advanced(own[k], a[k], b[k], d[k], e[k], own[k - 1], own[k + 1], np.float32(data[k]), numbers)
-            for k in (0, last):
-                before, after = max(k - 1, 0), min(k + 1, last)
-                out[k] = advanced(own[k], a[k], b[k], d[k], e[k], own[before], own[after], np.float32(data[k]), numbers)
+            line, data, out = u[i, j], f[i, j], new[i, j]
+            a, b, d, e = u[below, j], u[above, j], u[i, before_j], u[i, after_j]
+            last_k = n2 - 1
+            for k in range(1, last_k):
+                out[k] = advanced(
+                    line[k], a[k], b[k], d[k], e[k], line[k - 1], line[k + 1], np.float32(data[k]), numbers
+                )
+            for k in (0, last_k):
+                before, after = max(k - 1, 0), min(k + 1, last_k)
+                out[k] = advanced(
+                    line[k], a[k], b[k], d[k], e[k], line[before], line[after], np.float32(data[k]), numbers
+                )

@@ -1,9 +1,9 @@
-"""How far points lie from triangles: for all cells that are near some, and for single points the nearest of many.
+"""Distances of points from triangles: for all cells near some of them, and from single points to the nearest of many.
 
-`lower_to_triangles` visits the cells around each triangle, row by row of its dilated box, and keeps the least distance.
+`lower_to_triangles` visits the cells around each triangle, row by row of its dilated box, and keeps the minimum.
 
-`nearest_triangles` goes down a tree of boxes, the nearer box first, and leaves out those that are further away than the
-nearest triangle so far.
+`nearest_triangles` descends a tree of boxes, the nearer box first, and skips boxes further away than the nearest
+triangle so far.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -17,9 +17,9 @@ import numpy as np
 
 from infill.kernels.compiling import njit
 
-DEEPEST = 64  # boxes that wait, going down a tree
+DEEPEST = 64  # size of the stack of boxes in a tree
 THICK = 16  # layers of cells along x that one thread fills at a time
-FLAT = 1e-12  # of a squared length: what is shorter is a point, and what is lower is a line
+FLAT = 1e-12  # of a squared length: shorter edges are points, and lower triangles are lines
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -31,7 +31,7 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
     corners : (F, 3, 3) float64
         Triangles in cells: the centre of cell (0, 0, 0) is the origin.
     reach : float
-        Cells further away than this are left as they are.
+        Cells further away than this stay unchanged.
     squared : (nx, ny, nz) float32
     thread, threads : int
         This call fills every `threads`-th slab of layers.
@@ -69,26 +69,26 @@ def lower_to_triangles(corners, reach, squared, thread, threads):
                 upright[side, 2] = normal[0] * ey - normal[1] * ex
             offset = normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2]
             for x in range(max(begin, math.ceil(low_x)), min(end, math.floor(high_x) + 1)):
-                first_y, last_y = _span(a, b, c, x - reach, x + reach)
+                first_y, last_y = _y_range(a, b, c, x - reach, x + reach)
                 for y in range(
                     max(0, math.ceil(max(low_y, first_y - reach))), min(ny, math.floor(min(high_y, last_y + reach)) + 1)
                 ):
-                    first, last = low_z, high_z
+                    bottom, top = low_z, high_z
                     if not flat and abs(normal[2]) > 1e-3:
                         middle = (offset - normal[0] * x - normal[1] * y) / normal[2]
                         room = reach / abs(normal[2])
-                        first, last = max(first, middle - room), min(last, middle + room)
-                    begin_z, end_z = max(0, math.ceil(first)), min(nz, math.floor(last) + 1)
+                        bottom, top = max(bottom, middle - room), min(top, middle + room)
+                    begin_z, end_z = max(0, math.ceil(bottom)), min(nz, math.floor(top) + 1)
                     if begin_z < end_z:
                         _lower_row(x, y, begin_z, end_z, a, edges, scale, upright, normal, flat, squared)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared):
-    """Lower the squared distances of some cells of a row to that of a triangle, without a branch.
+    """Lower the squared distances of a range of cells in a row to that of a triangle, without a branch.
 
     The distance is that of the plane, where the point lies on the inner side of all three edges, else of the nearest
-    edge. All is linear in z but where a foot is held back at the ends of its edge.
+    edge. All is linear in z except where a foot is clamped to the ends of its edge.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared
     normal : (3,) float64
         Of length 1.
     flat : bool
-        Whether the triangle is a line or a point.
+        True if the triangle is a line or a point.
     """
     e0x, e0y, e0z = edges[0, 0], edges[0, 1], edges[0, 2]
     e1x, e1y, e1z = edges[1, 0], edges[1, 1], edges[1, 2]
@@ -120,7 +120,7 @@ def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared
     in2 = rx * upright[2, 0] + ry * upright[2, 1]
     u0, u1, u2 = upright[0, 2], upright[1, 2], upright[2, 2]
     level, rise = px * normal[0] + py * normal[1], normal[2]
-    least = math.inf if flat else 0.0
+    inner_limit = math.inf if flat else 0.0
     row, base = squared[x, y, begin:end], begin - a[2]
     for n in range(len(row)):
         pz = base + n
@@ -129,27 +129,27 @@ def _lower_row(x, y, begin, end, a, edges, scale, upright, normal, flat, squared
         t = (along0 + pz * e0z) * s0
         t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
         dx, dy, dz = px - t * e0x, py - t * e0y, pz - t * e0z
-        found = dx * dx + dy * dy + dz * dz
+        nearest = dx * dx + dy * dy + dz * dz
         t = (along1 + qz * e1z) * s1
         t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
         dx, dy, dz = qx - t * e1x, qy - t * e1y, qz - t * e1z
-        other = dx * dx + dy * dy + dz * dz
-        found = other if other < found else found
+        edge_distance = dx * dx + dy * dy + dz * dz
+        nearest = edge_distance if edge_distance < nearest else nearest
         t = (along2 + rz * e2z) * s2
         t = 0.0 if t < 0.0 else (1.0 if t > 1.0 else t)
         dx, dy, dz = rx - t * e2x, ry - t * e2y, rz - t * e2z
-        other = dx * dx + dy * dy + dz * dz
-        found = other if other < found else found
+        edge_distance = dx * dx + dy * dy + dz * dz
+        nearest = edge_distance if edge_distance < nearest else nearest
         height = level + pz * rise
-        inner = (in0 + pz * u0 >= least) & (in1 + qz * u1 >= least) & (in2 + rz * u2 >= least)
-        found = np.float32(height * height if inner else found)
-        row[n] = found if found < row[n] else row[n]
+        inner = (in0 + pz * u0 >= inner_limit) & (in1 + qz * u1 >= inner_limit) & (in2 + rz * u2 >= inner_limit)
+        nearest = np.float32(height * height if inner else nearest)
+        row[n] = nearest if nearest < row[n] else row[n]
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _span(a, b, c, low, high):
+def _y_range(a, b, c, low, high):
     """Return the lowest and the highest y of the part of a triangle between two values of x."""
-    first, last = math.inf, -math.inf
+    lowest, highest = math.inf, -math.inf
     for edge in range(3):
         p, q = (a, b) if edge == 0 else ((b, c) if edge == 1 else (c, a))
         if p[0] > q[0]:
@@ -160,15 +160,15 @@ def _span(a, b, c, low, high):
         for end in range(2):
             x = max(low, p[0]) if end == 0 else min(high, q[0])
             y = p[1] + (q[1] - p[1]) * ((x - p[0]) / along) if along > 0 else (p[1] if end == 0 else q[1])
-            first, last = min(first, y), max(last, y)
-    return first, last
+            lowest, highest = min(lowest, y), max(highest, y)
+    return lowest, highest
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def squared_distance(x, y, z, a, b, c):
     """Return the squared distance of a point from a triangle.
 
-    The regions of the plane of the triangle are told apart by barycentric coordinates: see Ericson, Real-Time Collision
+    Barycentric coordinates distinguish the regions of the plane of the triangle: see Ericson, Real-Time Collision
     Detection (2005), section 5.1.5.
     """
     abx, aby, abz = b[0] - a[0], b[1] - a[1], b[2] - a[2]
@@ -202,14 +202,14 @@ def squared_distance(x, y, z, a, b, c):
                 w = (d4 - d3) / side if side > 0 else 0.0
                 v = 1 - w
             else:
-                whole = va + vb + vc
-                v, w = (vb / whole, vc / whole) if whole > 0 else (0.0, 0.0)
+                total = va + vb + vc
+                v, w = (vb / total, vc / total) if total > 0 else (0.0, 0.0)
     qx, qy, qz = apx - v * abx - w * acx, apy - v * aby - w * acy, apz - v * abz - w * acz
     return qx * qx + qy * qy + qz * qz
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _to_box(x, y, z, low, high):
+def _squared_distance_to_box(x, y, z, low, high):
     """Return the squared distance of a point from a box."""
     dx = max(low[0] - x, x - high[0], 0.0)
     dy = max(low[1] - y, y - high[1], 0.0)
@@ -218,43 +218,46 @@ def _to_box(x, y, z, low, high):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, near):
-    """Return the squared distance of a point from the nearest triangle, and which one that is.
+def nearest_triangle(x, y, z, guess, corners, low, high, leaf, enough, stack, box_distance):
+    """Find the triangle nearest to a point; return its squared distance and its index.
 
     Parameters
     ----------
     guess : int
-        A triangle that may be near.
+        A triangle that is probably near.
     corners, low, high, leaf, enough
         See `nearest_triangles`.
-    stack, near : (DEEPEST,) int64, (DEEPEST,) float64
-        Room to work in.
+    stack, box_distance : (DEEPEST,) int64, (DEEPEST,) float64
+        Work space.
     """
-    first = (len(low) - 1) // 2
-    found = guess
-    best = squared_distance(x, y, z, corners[found, 0], corners[found, 1], corners[found, 2])
-    stack[0], near[0], count = 0, 0.0, 1
+    first_leaf = (len(low) - 1) // 2
+    nearest = guess
+    best = squared_distance(x, y, z, corners[nearest, 0], corners[nearest, 1], corners[nearest, 2])
+    stack[0], box_distance[0], count = 0, 0.0, 1
     while count > 0 and best > enough:
         count -= 1
-        if near[count] >= best:
+        if box_distance[count] >= best:
             continue
         box = stack[count]
-        if box >= first:
-            begin = (box - first) * leaf
+        if box >= first_leaf:
+            begin = (box - first_leaf) * leaf
             for at in range(begin, min(begin + leaf, len(corners))):
-                other = squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2])
-                if other < best:
-                    best, found = other, at
+                candidate = squared_distance(x, y, z, corners[at, 0], corners[at, 1], corners[at, 2])
+                if candidate < best:
+                    best, nearest = candidate, at
             continue
-        one, two = 2 * box + 1, 2 * box + 2
-        d1, d2 = _to_box(x, y, z, low[one], high[one]), _to_box(x, y, z, low[two], high[two])
-        if d1 < d2:  # the nearer one is looked at first: it lies on top
-            one, two, d1, d2 = two, one, d2, d1
+        near_child, far_child = 2 * box + 1, 2 * box + 2
+        d1, d2 = (
+            _squared_distance_to_box(x, y, z, low[near_child], high[near_child]),
+            _squared_distance_to_box(x, y, z, low[far_child], high[far_child]),
+        )
+        if d1 < d2:  # the nearer one is visited first: it lies on top
+            near_child, far_child, d1, d2 = far_child, near_child, d2, d1
         if d1 < best:
-            stack[count], near[count], count = one, d1, count + 1
+            stack[count], box_distance[count], count = near_child, d1, count + 1
         if d2 < best:
-            stack[count], near[count], count = two, d2, count + 1
-    return best, found
+            stack[count], box_distance[count], count = far_child, d2, count + 1
+    return best, nearest
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -271,24 +274,24 @@ def nearest_triangles(points, corners, low, high, leaf, enough, squared, face, t
     leaf : int
         Triangles in a leaf.
     enough : float
-        A squared distance: the first triangle that is no further away than this may stand for the nearest.
+        A squared distance: the first triangle found within it may stand for the nearest.
     squared : (N,) float64, face : (N,) int64
-        What is found.
+        The results.
     """
-    stack, near = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
-    found = 0  # what was nearest to the point before is a good guess: points that follow one another are often near
+    stack, box_distance = np.empty(DEEPEST, dtype=np.int64), np.empty(DEEPEST)
+    nearest = 0  # the result of the previous point is a good guess: successive points are often close together
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
-        squared[n], found = nearest_triangle(x, y, z, found, corners, low, high, leaf, enough, stack, near)
-        face[n] = found
+        squared[n], nearest = nearest_triangle(x, y, z, nearest, corners, low, high, leaf, enough, stack, box_distance)
+        face[n] = nearest
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def wind(points, corners, sign, found, thread, threads):
-    """Set how often triangles (F, 3, 3), counted with their sign (F,), wind around every `threads`-th point.
+def wind(points, corners, sign, windings, thread, threads):
+    """Count the windings of triangles (F, 3, 3), with their sign (F,), around every `threads`-th point.
 
-    Triangles above a point count, those that face upwards positively: over a closed surface, that is how often it winds
-    around the point. Of an edge that two triangles share and that passes exactly over a point, one of them has it.
+    Triangles above a point count, those that face upwards positively: over a closed surface, the sum is its winding
+    number around the point. If an edge shared by two triangles passes exactly over a point, one of them counts.
     """
     for n in range(thread, len(points), threads):
         x, y, z = points[n]
@@ -301,18 +304,18 @@ def wind(points, corners, sign, found, thread, threads):
             if (ay > 0 and by > 0 and cy > 0) or (ay <= 0 and by <= 0 and cy <= 0):
                 continue
             around = 0
-            around += _passed(ax, ay, bx, by) + _passed(bx, by, cx, cy) + _passed(cx, cy, ax, ay)
+            around += _axis_crossing(ax, ay, bx, by) + _axis_crossing(bx, by, cx, cy) + _axis_crossing(cx, cy, ax, ay)
             if around == 0:
                 continue
             u, v, w = bx * cy - cx * by, cx * ay - ax * cy, ax * by - bx * ay
-            whole = u + v + w
-            if whole != 0 and (u * corners[f, 0, 2] + v * corners[f, 1, 2] + w * corners[f, 2, 2]) / whole > z:
+            area = u + v + w
+            if area != 0 and (u * corners[f, 0, 2] + v * corners[f, 1, 2] + w * corners[f, 2, 2]) / area > z:
                 total += around * sign[f]
-        found[n] = total
+        windings[n] = total
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _passed(px, py, qx, qy):
+def _axis_crossing(px, py, qx, qy):
     """Return +1 or -1 where an edge passes the positive x axis, upwards or downwards, else 0."""
     if (py > 0) == (qy > 0):
         return 0

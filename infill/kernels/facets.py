@@ -1,4 +1,4 @@
-"""The triangles of a surface as STL has them, compiled: see `infill.formats.stl`."""
+"""The triangles of a surface in the layout of STL, compiled: see `infill.formats.stl`."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.

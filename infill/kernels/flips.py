@@ -1,4 +1,4 @@
-"""Cells that change sign one after the other, compiled: see `infill.inspection.sign_changes`.
+"""Cells that change sign one by one, compiled: see `infill.inspection.sign_changes`.
 
 The 27 cells around one are numbered 9 (i + 1) + 3 (j + 1) + k + 1; number 13 is the cell itself.
 """
@@ -18,7 +18,7 @@ AROUND, MIDDLE = 27, 13
 
 @njit(cache=True)
 def is_set(slots, bits, x, y, z):
-    """Return whether a cell of the lattice is solid."""
+    """Return True if a cell of the lattice is solid."""
     p, q, r = x // B0, y // B1, z // B2
     if x < 0 or y < 0 or z < 0 or p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return False
@@ -29,32 +29,32 @@ def is_set(slots, bits, x, y, z):
 
 
 @njit(cache=True)
-def steps_apart(one, other):
-    """Return along how many axes two of the 27 cells differ by one, or 4 if by more."""
-    found = 0
+def steps_apart(cell_a, cell_b):
+    """Count the axes along which two of the 27 cells differ by one; return 4 if they differ by more."""
+    steps = 0
     for size in (9, 3, 1):
-        away = abs(one // size % 3 - other // size % 3)
-        if away > 1:
+        distance = abs(cell_a // size % 3 - cell_b // size % 3)
+        if distance > 1:
             return 4
-        found += away
-    return found
+        steps += distance
+    return steps
 
 
 @njit(cache=True)
-def parts_beside(cells, most):
-    """Return how many parts of some of the 27 cells touch the middle; cells touch if at most `most` steps apart."""
+def parts_beside(cells, max_steps):
+    """Count the parts of the set cells, of 27, that touch the middle; cells touch if at most `max_steps` apart."""
     seen, stack, count = np.zeros(AROUND, dtype=np.bool_), np.empty(AROUND, dtype=np.int64), 0
-    for first in range(AROUND):
-        if not cells[first] or seen[first] or first == MIDDLE or steps_apart(first, MIDDLE) > most:
+    for seed in range(AROUND):
+        if not cells[seed] or seen[seed] or seed == MIDDLE or steps_apart(seed, MIDDLE) > max_steps:
             continue
         count += 1
-        stack[0], depth = first, 1
-        seen[first] = True
+        stack[0], depth = seed, 1
+        seen[seed] = True
         while depth:
             depth -= 1
             at = stack[depth]
             for n in range(AROUND):
-                if n != MIDDLE and cells[n] and not seen[n] and steps_apart(at, n) <= most:
+                if n != MIDDLE and cells[n] and not seen[n] and steps_apart(at, n) <= max_steps:
                     seen[n] = True
                     stack[depth] = n
                     depth += 1
@@ -63,7 +63,7 @@ def parts_beside(cells, most):
 
 @njit(cache=True)
 def simple(cells):
-    """Return whether the middle of 27 cells may change sign and nothing is connected differently.
+    """Return True if the middle of 27 cells may change sign without a change of connections.
 
     Solid touches by faces, void by faces and edges.
     """
@@ -72,12 +72,12 @@ def simple(cells):
 
 @njit(nogil=True, cache=True)
 def flip_simple(slots, bits, places):
-    """Flip those cells (N, 3) of the lattice that are simple by then, until no more are; return how many are left."""
+    """Flip the cells (N, 3) of the lattice that are simple, until none is; return the number that remains."""
     cells = np.empty(AROUND, dtype=np.bool_)
-    left = len(places)
-    waiting = np.ones(left, dtype=np.bool_)
+    remaining = len(places)
+    waiting = np.ones(remaining, dtype=np.bool_)
     going_on = True
-    while going_on and left:
+    while going_on and remaining:
         going_on = False
         for n in range(len(places)):
             if not waiting[n]:
@@ -88,31 +88,31 @@ def flip_simple(slots, bits, places):
             if simple(cells):
                 bits[slots[x // B0, y // B1, z // B2], (x % B0) * B1 + y % B1] ^= np.uint16(1 << (z % B2))
                 waiting[n] = False
-                left -= 1
+                remaining -= 1
                 going_on = True
-    return left
+    return remaining
 
 
 @njit(nogil=True, cache=True)
 def lonely(slots, bits, places):
-    """Return how many cells (N, 3) of the lattice have no solid cell among the 27 around them."""
+    """Count the cells (N, 3) of the lattice without a solid cell among the 27 around them."""
     count = 0
     for n in range(len(places)):
         x, y, z = places[n]
-        found = False
+        has_solid = False
         for t in range(AROUND):
-            found |= is_set(slots, bits, x + t // 9 - 1, y + t // 3 % 3 - 1, z + t % 3 - 1)
-        count += not found
+            has_solid |= is_set(slots, bits, x + t // 9 - 1, y + t // 3 % 3 - 1, z + t % 3 - 1)
+        count += not has_solid
     return count
 
 
 @njit(nogil=True, cache=True)
-def faces_in(vertices, faces, spacing, slots, bits, found, thread, threads):
-    """Set which triangles lie in cubes of which `bits` are set, by their lowest corners on the lattice."""
+def faces_in(vertices, faces, spacing, slots, bits, is_inside, thread, threads):
+    """Mark the triangles in cubes whose `bits` are set, by their lowest corners on the lattice."""
     for f in range(thread, len(faces), threads):
         a, b, c = faces[f]
         x = int(np.floor((vertices[a, 0] + vertices[b, 0] + vertices[c, 0]) / (3 * spacing[0]) + 0.5))
         y = int(np.floor((vertices[a, 1] + vertices[b, 1] + vertices[c, 1]) / (3 * spacing[1]) + 0.5))
         z = int(np.floor((vertices[a, 2] + vertices[b, 2] + vertices[c, 2]) / (3 * spacing[2]) + 0.5))
         slot = slots[x // B0, y // B1, z // B2]
-        found[f] = slot >= 0 and (bits[slot, (x % B0) * B1 + y % B1] >> np.uint16(z % B2)) & np.uint16(1) != 0
+        is_inside[f] = slot >= 0 and (bits[slot, (x % B0) * B1 + y % B1] >> np.uint16(z % B2)) & np.uint16(1) != 0

@@ -1,7 +1,7 @@
 """Sixteen cells at once: compared, copied and set by vector instructions.
 
 Loops over sixteen cells of two arrays are compiled to the same instructions, but ask each time whether the arrays
-overlap. What a comparison says is a number of sixteen bits; `ones` and `lowest` are about such numbers.
+overlap. Comparisons return a number of sixteen bits; `ones` and `lowest` work on such numbers.
 """
 # mypy: disable-error-code="no-untyped-def, no-untyped-call, call-arg"
 # ruff: noqa: ANN001, ANN201, ANN202, ANN204, ARG001
@@ -25,14 +25,14 @@ NUMBER = ir.IntType(32)
 
 @intrinsic
 def above(context, values, at, limit):
-    """Return which of sixteen numbers, from `at` on, are above the limit, the first one as the lowest bit."""
-    return _compared(">", values)
+    """Return a number with bit n set where number `at` + n of sixteen is above the limit."""
+    return _build_comparison(">", values)
 
 
 @intrinsic
 def equal(context, values, at, limit):
-    """Return which of sixteen numbers, from `at` on, equal the limit, the first one as the lowest bit."""
-    return _compared("==", values)
+    """Return a number with bit n set where number `at` + n of sixteen equals the limit."""
+    return _build_comparison("==", values)
 
 
 @intrinsic
@@ -41,8 +41,8 @@ def copy(context, target, to, source, at):
 
     def code(context, builder, signature, arguments):
         first, second = signature.args[0], signature.args[2]
-        out, align = _place(context, builder, first, arguments[0], arguments[1])
-        start, _ = _place(context, builder, second, arguments[2], arguments[3])
+        out, align = _vector_pointer(context, builder, first, arguments[0], arguments[1])
+        start, _ = _vector_pointer(context, builder, second, arguments[2], arguments[3])
         builder.store(builder.load(start, align=align), out, align=align)
         return context.get_dummy_value()
 
@@ -54,15 +54,15 @@ def spread(context, target, to, value):
     """Set sixteen numbers of a flat array to one value."""
 
     def code(context, builder, signature, arguments):
-        out, align = _place(context, builder, signature.args[0], arguments[0], arguments[1])
-        builder.store(_everywhere(builder, arguments[2]), out, align=align)
+        out, align = _vector_pointer(context, builder, signature.args[0], arguments[0], arguments[1])
+        builder.store(_broadcast(builder, arguments[2]), out, align=align)
         return context.get_dummy_value()
 
     return types.void(target, types.int64, target.dtype), code
 
 
 class Lanes:
-    """Sixteen numbers of single precision in a function that is being compiled: its operators build instructions."""
+    """Sixteen numbers of single precision in a function during compilation: its operators build instructions."""
 
     def __init__(self, builder, value):
         self.builder, self.value = builder, value
@@ -87,14 +87,14 @@ class Lanes:
 
 
 def lanes_of(formula):
-    """Return a function of numbers, compiled or not, as one of `Lanes`; of mathematics, it may use `math.sqrt`."""
+    """Turn a formula on numbers, compiled or not, into a function of `Lanes`; its only call may be `math.sqrt`."""
     plain = getattr(formula, "py_func", formula)
     return FunctionType(plain.__code__, {"math": SimpleNamespace(sqrt=Lanes.root)})
 
 
 def load_lanes(context, builder, kind, array, at):
-    """Return sixteen numbers of an array, of single precision or whole, from `at` on."""
-    start, align = _place(context, builder, kind, array, at)
+    """Load sixteen numbers of an array, of single precision or integer, from `at` on."""
+    start, align = _vector_pointer(context, builder, kind, array, at)
     value = builder.load(start, align=align)
     if not isinstance(kind.dtype, types.Float):
         value = builder.sitofp(value, ir.VectorType(ir.FloatType(), SIXTEEN))
@@ -102,42 +102,42 @@ def load_lanes(context, builder, kind, array, at):
 
 
 def store_lanes(context, builder, kind, array, at, lanes):
-    """Set sixteen numbers of an array, from `at` on."""
-    start, align = _place(context, builder, kind, array, at)
+    """Store sixteen numbers of an array, from `at` on."""
+    start, align = _vector_pointer(context, builder, kind, array, at)
     builder.store(lanes.value, start, align=align)
 
 
 def same_lanes(builder, number):
-    """Return a number sixteen times."""
-    return Lanes(builder, _everywhere(builder, number))
+    """Return a vector that repeats a number sixteen times."""
+    return Lanes(builder, _broadcast(builder, number))
 
 
-def _compared(how, values):
+def _build_comparison(how, values):
     """Return the signature and the code of a comparison with a number of the array's own type."""
     kind = values.dtype
 
     def code(context, builder, signature, arguments):
-        start, align = _place(context, builder, signature.args[0], arguments[0], arguments[1])
+        start, align = _vector_pointer(context, builder, signature.args[0], arguments[0], arguments[1])
         compare = builder.fcmp_ordered if isinstance(kind, types.Float) else builder.icmp_signed
-        found = compare(how, builder.load(start, align=align), _everywhere(builder, arguments[2]))
-        return builder.bitcast(found, ir.IntType(SIXTEEN))
+        matches = compare(how, builder.load(start, align=align), _broadcast(builder, arguments[2]))
+        return builder.bitcast(matches, ir.IntType(SIXTEEN))
 
     return types.uint16(values, types.int64, kind), code
 
 
-def _place(context, builder, kind, array, at):
-    """Return where sixteen numbers of an array begin, as a vector, and how they are aligned."""
+def _vector_pointer(context, builder, kind, array, at):
+    """Return a pointer to sixteen numbers of an array, as a vector, and their alignment."""
     vector = ir.VectorType(context.get_data_type(kind.dtype), SIXTEEN)
     start = builder.gep(context.make_array(kind)(context, builder, array).data, [at])
     return builder.bitcast(start, vector.as_pointer()), kind.dtype.bitwidth // 8
 
 
-def _everywhere(builder, value):
+def _broadcast(builder, value):
     """Return a vector of one value."""
     vector = ir.VectorType(value.type, SIXTEEN)
     none = ir.Constant(vector, ir.Undefined)
-    first = builder.insert_element(none, value, NUMBER(0))
-    return builder.shuffle_vector(first, none, ir.Constant(ir.VectorType(NUMBER, SIXTEEN), [0] * SIXTEEN))
+    single = builder.insert_element(none, value, NUMBER(0))
+    return builder.shuffle_vector(single, none, ir.Constant(ir.VectorType(NUMBER, SIXTEEN), [0] * SIXTEEN))
 
 
 @intrinsic

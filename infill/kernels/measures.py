@@ -1,4 +1,4 @@
-"""What a surface of many triangles is asked for again and again, compiled: see `infill.meshes.measuring`."""
+"""Sums over the triangles of a surface that are needed often, compiled: see `infill.meshes.measuring`."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
@@ -10,55 +10,56 @@ import numpy as np
 from infill.kernels.compiling import njit
 
 BLOCK = 4096  # faces whose volumes and areas make one sum, so that sums do not depend on the number of threads
-AHEAD, BACK = 1, 2  # which faces along an edge were seen: one from its lower vertex, one from its higher vertex
+AHEAD, BACK = 1, 2  # faces seen along an edge: one from its lower vertex, one from its higher vertex
 
 
 @njit(nogil=True, cache=True)
-def begin_edges(faces, first):
-    """Set where the edges of each vertex begin that lead to higher ones, if each has two faces: (V + 1,), zeros so far.
+def begin_edges(faces, edge_start):
+    """Set the begin of each vertex's edges to higher vertices, if each edge has two faces: (V + 1,), initially zeros.
 
+    Return True if they may: faces have three different vertices, and vertices an even number of sides.
     Return whether they may: no face has a vertex twice, and no vertex an odd number of sides.
     """
     for f in range(len(faces)):
         a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
         if a == b or b == c or c == a:
             return False
-        first[min(a, b) + 1] += 1
-        first[min(b, c) + 1] += 1
-        first[min(c, a) + 1] += 1
+        edge_start[min(a, b) + 1] += 1
+        edge_start[min(b, c) + 1] += 1
+        edge_start[min(c, a) + 1] += 1
     count = 0
-    for v in range(1, len(first)):
-        if first[v] % 2:
+    for v in range(1, len(edge_start)):
+        if edge_start[v] % 2:
             return False
-        count += first[v] // 2
-        first[v] = count
+        count += edge_start[v] // 2
+        edge_start[v] = count
     return True
 
 
 @njit(nogil=True, cache=True)
-def match_sides(faces, first, higher, thread, threads):
-    """Return whether the edges of a share of the vertices have one face that runs along them each way.
+def match_sides(faces, edge_start, higher, thread, threads):
+    """Return True if the edges of a share of the vertices have one face in each direction.
 
     Parameters
     ----------
     faces : (F, 3) int
-    first : (V + 1,) int
+    edge_start : (V + 1,) int
         See `begin_edges`.
     higher : (E,) int
-        Room for their other vertices, times four, and which of their faces were seen: -1 so far.
+        Work space for their other vertices, times four, and the faces seen: initially -1.
     """
-    size = (len(first) - 1 + threads - 1) // threads
-    low, high = thread * size, min(len(first) - 1, (thread + 1) * size)
+    size = (len(edge_start) - 1 + threads - 1) // threads
+    low, high = thread * size, min(len(edge_start) - 1, (thread + 1) * size)
     for f in range(len(faces)):
         for k in range(3):
             start, end = faces[f, k], faces[f, (k + 1) % 3]
             a, b, way = min(start, end), max(start, end), AHEAD + (start > end)
             if a < low or a >= high:
                 continue
-            at, last = first[a], first[a + 1]
-            while at < last and higher[at] >= 0 and higher[at] >> 2 != b:
+            at, stop = edge_start[a], edge_start[a + 1]
+            while at < stop and higher[at] >= 0 and higher[at] >> 2 != b:
                 at += 1
-            if at == last:
+            if at == stop:
                 return False
             if higher[at] < 0:
                 higher[at] = b << 2 | way
@@ -67,7 +68,7 @@ def match_sides(faces, first, higher, thread, threads):
             else:
                 higher[at] |= way
     for a in range(low, high):
-        for at in range(first[a], first[a + 1]):
+        for at in range(edge_start[a], edge_start[a + 1]):
             if higher[at] & 3 != AHEAD | BACK:
                 return False
     return True
@@ -120,9 +121,9 @@ def sum_flows(vertices, faces, names, sums):
 
 
 @njit(nogil=True, cache=True)
-def within_heights(vertices, faces, low, high, found):
-    """Set which faces (F,) have the middle of their lowest and their highest place between two heights."""
+def within_heights(vertices, faces, low, high, is_within):
+    """Mark the faces (F,) whose mean of lowest and highest place lies between two heights."""
     for f in range(len(faces)):
         a, b, c = vertices[faces[f, 0], 2], vertices[faces[f, 1], 2], vertices[faces[f, 2], 2]
         middle = (min(a, b, c) + max(a, b, c)) / 2
-        found[f] = low <= middle < high
+        is_within[f] = low <= middle < high

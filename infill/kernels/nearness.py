@@ -1,6 +1,6 @@
-"""Whether a mesh whose edges are collapsed stays near the mesh it was: points of that one go from triangle to triangle.
+"""Distance of a mesh under edge collapse from the original: points of the original move from triangle to triangle.
 
-Points are the vertices of the mesh as it was given, and some along the edges at which it bends.
+Points are the vertices of the original mesh, and some along the edges at which it bends.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -15,24 +15,24 @@ from infill.kernels.corners import NONE, following, preceding
 from infill.kernels.distances import squared_distance
 from infill.kernels.quadrics import shape_of, squared_length
 
-PARTS = 64  # at most, of an edge whose distance is looked at
-KEPT = 0.25  # of a squared tolerance: a point this near stays with its triangle
+PARTS = 64  # largest number of samples on an edge
+KEPT = 0.25  # of a squared tolerance: a point within this stays with its triangle
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def edge_points(vertices, start, twin, height, apart, most, points, owner):
-    """Set points along the edges at which the surface bends; return how many there are (count only: no room needed).
+def edge_points(vertices, start, twin, height, apart, max_points, points, owner):
+    """Set points along the edges at which the surface bends; return their number (without room, only count).
 
     Parameters
     ----------
     vertices, start, twin
         See `infill.kernels.collapsing.collapse`.
     height : float
-        An edge bends if without it the surface might move by more than this.
+        An edge bends if the surface without it might move by more than this.
     apart : float
-        How far points are from one another at most, unless there are `most` of them on an edge.
+        Largest distance between points, unless an edge has `max_points` of them.
     points, owner : (P, 3) float64, (P,) int32
-        What is found; with no room, points are counted only.
+        The results; without room, points are only counted.
     """
     count = 0
     for c in range(len(start)):
@@ -42,17 +42,17 @@ def edge_points(vertices, start, twin, height, apart, most, points, owner):
         a, b = vertices[start[c]], vertices[start[following(c)]]
         ox, oy, oz, _ = shape_of(a, b, vertices[start[preceding(c)]])
         nx, ny, nz, _ = shape_of(b, a, vertices[start[preceding(d)]])
-        one, two = math.sqrt(ox * ox + oy * oy + oz * oz), math.sqrt(nx * nx + ny * ny + nz * nz)
+        length_a, length_b = math.sqrt(ox * ox + oy * oy + oz * oz), math.sqrt(nx * nx + ny * ny + nz * nz)
         length = math.sqrt(squared_length(a, b))
-        if length == 0 or one == 0 or two == 0:
+        if length == 0 or length_a == 0 or length_b == 0:
             continue
-        bend = math.sqrt(max(0.0, 0.5 - 0.5 * (ox * nx + oy * ny + oz * nz) / (one * two)))
-        if bend * min(one, two) <= height * length:
+        bend = math.sqrt(max(0.0, 0.5 - 0.5 * (ox * nx + oy * ny + oz * nz) / (length_a * length_b)))
+        if bend * min(length_a, length_b) <= height * length:
             continue
-        here = max(1, min(most, int(length / apart)))
-        for n in range(here):
+        count_here = max(1, min(max_points, int(length / apart)))
+        for n in range(count_here):
             if count < len(points):
-                share = (n + 1) / (here + 1)
+                share = (n + 1) / (count_here + 1)
                 for k in range(3):
                     points[count, k] = a[k] + share * (b[k] - a[k])
                 owner[count] = c
@@ -61,45 +61,45 @@ def edge_points(vertices, start, twin, height, apart, most, points, owner):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def handed_on(first_point, next_point, points, near, moved, chosen, changed, goes, goes_to):
-    """Find for each point of some faces, two of which will be gone, which of the others will be nearest.
+def handed_on(first_point, next_point, points, tolerance, moved, chosen, changed, goes, goes_to):
+    """Find for each point of some faces, two of which will go, the nearest of the remaining faces.
 
     Parameters
     ----------
     first_point, next_point : (F,) int32, (P,) int32
         The points of each face, as a chain.
     points : (P, 3) float64
-    near : float
-        The square of how far they may be away.
+    tolerance : float
+        The square of the largest allowed distance.
     moved : (N, 3, 3) float64
-        The faces as they will be.
+        The faces after the collapse.
     chosen : (N + 2,) int32
-        Which faces they are, and the two that will be gone.
+        Indices of these faces, and of the two that go.
     changed : int
         N.
     goes, goes_to : (M,) int32
-        Are set to the points and the face to which each goes.
+        Set to the points and the new face of each.
 
     Returns
     -------
     int
-        How many points there are; -1 if one will be too far, or if there is no room for them.
+        Number of points; -1 if one would be too far, or if there is not enough room.
     """
     count = 0
-    for own in range(changed + 2):
-        p = first_point[chosen[own]]
+    for face in range(changed + 2):
+        p = first_point[chosen[face]]
         while p != NONE:
             x, y, z = points[p]
-            least, nearest = math.inf, NONE
-            if own < changed:
-                least, nearest = squared_distance(x, y, z, moved[own, 0], moved[own, 1], moved[own, 2]), own
-            if least > KEPT * near:
+            best, nearest = math.inf, NONE
+            if face < changed:
+                best, nearest = squared_distance(x, y, z, moved[face, 0], moved[face, 1], moved[face, 2]), face
+            if best > KEPT * tolerance:
                 for m in range(changed):
-                    if m != own:
-                        found = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
-                        if found < least:
-                            least, nearest = found, m
-            if least > near or count == len(goes):
+                    if m != face:
+                        squared = squared_distance(x, y, z, moved[m, 0], moved[m, 1], moved[m, 2])
+                        if squared < best:
+                            best, nearest = squared, m
+            if best > tolerance or count == len(goes):
                 return NONE
             goes[count], goes_to[count] = p, chosen[nearest]
             count += 1
@@ -108,50 +108,50 @@ def handed_on(first_point, next_point, points, near, moved, chosen, changed, goe
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _at_point(x, y, z, point, bound, corner, was):
-    """Return a corner of a face, as it was given, that is near a place and at a point; -1 if there is none."""
-    given, twin, leaving = was
+def _find_near_corner_at(x, y, z, point, bound, corner, was):
+    """Return a corner of an original face that is near a place and at a point; -1 if there is none."""
+    original_corners, twin, leaving = was
     on_edge = point >= len(leaving)
-    first = corner[point]
-    at = first
+    begin = corner[point]
+    at = begin
     while True:
         f = 3 * (at // 3)
-        if squared_distance(x, y, z, given[f], given[f + 1], given[f + 2]) <= bound:
+        if squared_distance(x, y, z, original_corners[f], original_corners[f + 1], original_corners[f + 2]) <= bound:
             return at
         at = twin[at] if on_edge else twin[preceding(at)]
-        if at == first:
+        if at == begin:
             return NONE
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def _near_given(x, y, z, points, near, goes, count, corner, was):
-    """Return a corner of a face, as it was given, that is near a place; -1 if there is none.
+def _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was):
+    """Return a corner of an original face that is near a place; -1 if there is none.
 
-    Faces at the point that is nearest to the place are looked at first, then those at all others.
+    Faces at the point nearest to the place are tried first, then those at all other points.
     """
-    least, nearest = math.inf, goes[0]
+    best, nearest = math.inf, goes[0]
     for n in range(count):
         p = goes[n]
-        found = (points[p, 0] - x) ** 2 + (points[p, 1] - y) ** 2 + (points[p, 2] - z) ** 2
-        if found < least:
-            least, nearest = found, p
-    at = _at_point(x, y, z, nearest, near, corner, was)
+        squared = (points[p, 0] - x) ** 2 + (points[p, 1] - y) ** 2 + (points[p, 2] - z) ** 2
+        if squared < best:
+            best, nearest = squared, p
+    at = _find_near_corner_at(x, y, z, nearest, tolerance, corner, was)
     n = 0
     while at == NONE and n < count:
-        at = _at_point(x, y, z, goes[n], near, corner, was)
+        at = _find_near_corner_at(x, y, z, goes[n], tolerance, corner, was)
         n += 1
     return at
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def all_near(place, moved, changed, apart, points, near, goes, count, corner, was):
-    """Return whether the new edges are near the surface as it was given, looked at every `apart`, a squared length.
+def all_near(place, moved, changed, apart, points, tolerance, goes, count, corner, was):
+    """Return True if the new edges are near the original surface, sampled every `apart`, a squared length.
 
-    That suffices: a face between them is flat, and so are what was given and lies on it. `was` holds the places of the
-    corners as they were given (3 F, 3), their twins and one corner of each vertex; see `handed_on` for the others.
+    That suffices: a face between them is flat, and so is the original that lies on it. `was` holds the original
+    corners (3 F, 3), their twins and one corner of each vertex; see `handed_on` for the others.
     """
-    given = was[0]
-    middle = _near_given(place[0], place[1], place[2], points, near, goes, count, corner, was)
+    original_corners = was[0]
+    middle = _find_near_corner(place[0], place[1], place[2], points, tolerance, goes, count, corner, was)
     if middle == NONE:
         return False
     for m in range(changed):
@@ -163,8 +163,11 @@ def all_near(place, moved, changed, apart, points, near, goes, count, corner, wa
             y = place[1] + share * (a[1] - place[1])
             z = place[2] + share * (a[2] - place[2])
             f = 3 * (at // 3)
-            if squared_distance(x, y, z, given[f], given[f + 1], given[f + 2]) > near:
-                at = _near_given(x, y, z, points, near, goes, count, corner, was)
+            if (
+                squared_distance(x, y, z, original_corners[f], original_corners[f + 1], original_corners[f + 2])
+                > tolerance
+            ):
+                at = _find_near_corner(x, y, z, points, tolerance, goes, count, corner, was)
                 if at == NONE:
                     return False
     return True

@@ -1,4 +1,4 @@
-"""How far places lie from a surface that is known by points and normals: `infill.voxels.point_fields` for many places.
+"""Signed distance from a surface known by points and normals: `infill.voxels.point_fields` for many places.
 
 Points are sorted by the bin they lie in, so that those near a place are found in the 27 bins around it.
 """
@@ -14,8 +14,10 @@ from infill.kernels.compiling import njit
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def signed_distances(places, points, normals, first, shape, sigma, reach, sharpness, passes, found, thread, threads):
-    """Set the distance of each place from the surface of the points: below 0 inside, NaN where no point is near.
+def signed_distances(
+    places, points, normals, bin_start, shape, sigma, reach, sharpness, passes, distances, thread, threads
+):
+    """Set the distance of each place from the surface of the points: negative inside, NaN where all points are far.
 
     Parameters
     ----------
@@ -23,7 +25,7 @@ def signed_distances(places, points, normals, first, shape, sigma, reach, sharpn
         Cells; the centre of the first is 0.
     points, normals : (N, 3) float64
         In cells, sorted by their bin; bins are `reach` wide, and the first begins at -`reach`.
-    first : (B + 1,) int64
+    bin_start : (B + 1,) int64
         First point of each bin.
     shape : (3,) int64
         Bins along each axis.
@@ -31,7 +33,7 @@ def signed_distances(places, points, normals, first, shape, sigma, reach, sharpn
         Standard deviation of the weights, and the distance up to which points count, cells.
     sharpness, passes
         See `infill.voxels.point_fields.distance_from_points`.
-    found : (M,) float32
+    distances : (M,) float32
     """
     for m in range(thread, len(places), threads):
         x, y, z = float(places[m, 0]), float(places[m, 1]), float(places[m, 2])
@@ -49,8 +51,8 @@ def signed_distances(places, points, normals, first, shape, sigma, reach, sharpn
             for i in range(max(0, bx - 1), min(shape[0], bx + 2)):
                 for j in range(max(0, by - 1), min(shape[1], by + 2)):
                     row = (i * shape[1] + j) * shape[2]
-                    begin = first[row + min(shape[2], max(0, bz - 1))]
-                    end = first[row + min(shape[2], bz + 2)]
+                    begin = bin_start[row + min(shape[2], max(0, bz - 1))]
+                    end = bin_start[row + min(shape[2], bz + 2)]
                     for p in range(begin, end):
                         dx, dy, dz = x - points[p, 0], y - points[p, 1], z - points[p, 2]
                         squared = dx * dx + dy * dy + dz * dz
@@ -59,8 +61,8 @@ def signed_distances(places, points, normals, first, shape, sigma, reach, sharpn
                         ax, ay, az = normals[p, 0], normals[p, 1], normals[p, 2]
                         exponent = squared / (2.0 * sigma * sigma)
                         if turn > 0:
-                            off = (ax - mx) ** 2 + (ay - my) ** 2 + (az - mz) ** 2
-                            exponent += off / (sharpness * sharpness)
+                            squared_offset = (ax - mx) ** 2 + (ay - my) ** 2 + (az - mz) ** 2
+                            exponent += squared_offset / (sharpness * sharpness)
                         weight = math.exp(-exponent)
                         total += weight
                         nx, ny, nz = nx + weight * ax, ny + weight * ay, nz + weight * az
@@ -70,4 +72,4 @@ def signed_distances(places, points, normals, first, shape, sigma, reach, sharpn
             if turn > 0:
                 distance = summed / total
             mx, my, mz = nx, ny, nz
-        found[m] = distance
+        distances[m] = distance

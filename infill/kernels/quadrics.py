@@ -1,4 +1,4 @@
-"""Quadrics: how far a point lies from many planes at once, and where that is least.
+"""Quadrics: distance of a point from many planes at once, and the point where it is smallest.
 
 A quadric holds the sum of planes n x + d = 0 with weights w, for squared distances (Garland and Heckbert 1997): w nn
 (xx, xy, xz, yy, yz, zz), w d n (three), w d d, and w itself.
@@ -13,7 +13,7 @@ import math
 
 from infill.kernels.compiling import njit
 
-PULL = 1e-5  # of the trace of a quadric: towards a point, where planes leave the place open
+PULL = 1e-5  # of the trace of a quadric: pull towards a point, where planes leave the place undetermined
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -77,37 +77,37 @@ def value_of(q, x, y, z):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def solved(s, mx, my, mz, rx, ry, rz):
-    """Return the solution of (A + pull) p = r, with A the matrix of a quadric, and whether there is one.
+    """Solve (A + pull) p = r, with A the matrix of a quadric; return the solution, and True if there is one.
 
-    With r = pull m - b it is where the quadric is least, drawn a little towards m: on a plane or along a crease, the
-    point of it that is nearest to m.
+    With r = pull m - b the solution is the minimum of the quadric, drawn a little towards m: on a plane or along a
+    crease, the point of it nearest to m.
     """
     pull = PULL * (s[0] + s[3] + s[5])
     a, b, c, d, e, f = s[0] + pull, s[1], s[2], s[3] + pull, s[4], s[5] + pull
     xx, xy, xz = d * f - e * e, c * e - b * f, b * e - c * d
-    whole = a * xx + b * xy + c * xz
-    if not whole > 0:
+    determinant = a * xx + b * xy + c * xz
+    if not determinant > 0:
         return 0.0, 0.0, 0.0, False
     yy, yz, zz = a * f - c * c, b * c - a * e, a * d - b * b
     rx, ry, rz = rx + pull * mx, ry + pull * my, rz + pull * mz
-    x = (xx * rx + xy * ry + xz * rz) / whole
-    y = (xy * rx + yy * ry + yz * rz) / whole
-    z = (xz * rx + yz * ry + zz * rz) / whole
+    x = (xx * rx + xy * ry + xz * rz) / determinant
+    y = (xy * rx + yy * ry + yz * rz) / determinant
+    z = (xz * rx + yz * ry + zz * rz) / determinant
     return x, y, z, True
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def best_place(u, v, p, q, s, place):
-    """Set the place at which the sum of two quadrics is least for the vertex of a collapsed edge; return its value.
+    """Set the best place for the vertex of a collapsed edge, the minimum of the sum of two quadrics; return its value.
 
     Where the planes do not determine a point, or one further away than the edge is long, the best of both ends and the
-    middle is taken. `s` is set to the sum.
+    middle is used. `s` is set to the sum.
     """
     for k in range(11):
         s[k] = p[k] + q[k]
     mx, my, mz = (u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2
-    x, y, z, found = solved(s, mx, my, mz, -s[6], -s[7], -s[8])
-    if found and (x - mx) ** 2 + (y - my) ** 2 + (z - mz) ** 2 <= squared_length(u, v):
+    x, y, z, is_solved = solved(s, mx, my, mz, -s[6], -s[7], -s[8])
+    if is_solved and (x - mx) ** 2 + (y - my) ** 2 + (z - mz) ** 2 <= squared_length(u, v):
         place[0], place[1], place[2] = x, y, z
         return value_of(s, x, y, z)
     place[0], place[1], place[2] = mx, my, mz

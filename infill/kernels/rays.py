@@ -1,4 +1,4 @@
-"""Along rays through bricks, compiled: see `infill.inspection.thickness`."""
+"""Values along rays through bricks, compiled: see `infill.inspection.thickness`."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
@@ -19,8 +19,8 @@ def follow(slots, values, shape, start, direction, distance, size, level, out):
         x, y, z = start[ray, 0] / size[0], start[ray, 1] / size[1], start[ray, 2] / size[2]
         dx, dy, dz = direction[ray, 0] / size[0], direction[ray, 1] / size[1], direction[ray, 2] / size[2]
         for place in range(len(distance)):
-            far = distance[place]
-            i, j, k = math.floor(x + far * dx), math.floor(y + far * dy), math.floor(z + far * dz)
+            travelled = distance[place]
+            i, j, k = math.floor(x + travelled * dx), math.floor(y + travelled * dy), math.floor(z + travelled * dz)
             out[ray, place] = -1.0
             if i < 0 or j < 0 or k < 0 or i >= n0 or j >= n1 or k >= n2:
                 continue

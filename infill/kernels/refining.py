@@ -1,4 +1,4 @@
-"""What `infill.phasefield.refining` does to bricks, compiled.
+"""Loops of `infill.phasefield.refining` over bricks, compiled.
 
 Loops run over whole bricks, so that they are compiled to vector code.
 
@@ -82,8 +82,8 @@ def step(
         if changing == NONE:
             next_flat[s] = flat[s]
             continue
-        own, old = phi[s], before[s]
-        surround(own, faces, flat, beside[s], wide)
+        brick, old = phi[s], before[s]
+        surround(brick, faces, flat, beside[s], wide)
         for i in range(B0):
             for j in range(B1):
                 if not changing & bit(i * B1 + j):
@@ -95,24 +95,24 @@ def step(
                     g, h = wide[m - 1 + k], wide[m + 1 + k]
                     change = w0 * ((a - c) + (b - c)) + w1 * ((d - c) + (e - c)) + w2 * ((g - c) + (h - c))
                     v = c + (momentum * (c - old[at + k]) + change)
-                    own[at + k] = v / math.sqrt(decay + rest * (v * v))
+                    brick[at + k] = v / math.sqrt(decay + rest * (v * v))
                     old[at + k] = c
         if edge:
-            repeat_edges(own, where[s], shape)
-        emit(own, next_faces[s], next_flat[s], next_rows[s], changing)
+            repeat_edges(brick, where[s], shape)
+        emit(brick, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
 @njit(nogil=True, cache=True)
-def add_snapshot(phi, held, total, weight, known, so_far, count, thread, threads):
-    """Add weight times phi to `total`; bricks from `known` on were uniform, like their data, in every one so far."""
+def add_snapshot(phi, data, total, weight, known_count, so_far, count, thread, threads):
+    """Add weight times phi to `total`; bricks from `known_count` on were always uniform, like their data."""
     for s in range(thread, count, threads):
-        own, out = phi[s], total[s]
-        if s < known:
+        brick, out = phi[s], total[s]
+        if s < known_count:
             for t in range(CELLS):
-                out[t] += weight * own[t]
+                out[t] += weight * brick[t]
         else:
             for t in range(CELLS):
-                out[t] = so_far * np.float32(held[s, t]) + weight * own[t]
+                out[t] = so_far * np.float32(data[s, t]) + weight * brick[t]
 
 
 @njit(nogil=True, cache=True)
@@ -159,35 +159,37 @@ def fetch(sums, slots, place, rim, out):
 def blur(sums, slots, where, out, thread, threads):
     """Average the coarse cells with those around them, using `TAPS` along each axis."""
     _, _, n0, n1, n2 = sums.shape
-    far, near, own = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
-    whole = np.empty((SUMS, n0 + 4, n1 + 4, n2 + 4), dtype=np.float32)
+    outer_tap, inner_tap, centre_tap = np.float32(TAPS[0]), np.float32(TAPS[1]), np.float32(TAPS[2])
+    block = np.empty((SUMS, n0 + 4, n1 + 4, n2 + 4), dtype=np.float32)
     for s in range(thread, len(sums), threads):
-        fetch(sums, slots, where[s], 2, whole)
+        fetch(sums, slots, where[s], 2, block)
         for m in range(SUMS):
-            u = whole[m]
+            u = block[m]
             for i in range(n0):  # in place: what is written is not read again
                 for j in range(n1 + 4):
                     for k in range(n2 + 4):
-                        outer = far * (u[i, j, k] + u[i + 4, j, k])
-                        u[i, j, k] = outer + near * (u[i + 1, j, k] + u[i + 3, j, k]) + own * u[i + 2, j, k]
+                        outer = outer_tap * (u[i, j, k] + u[i + 4, j, k])
+                        u[i, j, k] = outer + inner_tap * (u[i + 1, j, k] + u[i + 3, j, k]) + centre_tap * u[i + 2, j, k]
             for i in range(n0):
                 for j in range(n1):
                     for k in range(n2 + 4):
-                        outer = far * (u[i, j, k] + u[i, j + 4, k])
-                        u[i, j, k] = outer + near * (u[i, j + 1, k] + u[i, j + 3, k]) + own * u[i, j + 2, k]
+                        outer = outer_tap * (u[i, j, k] + u[i, j + 4, k])
+                        u[i, j, k] = outer + inner_tap * (u[i, j + 1, k] + u[i, j + 3, k]) + centre_tap * u[i, j + 2, k]
             for i in range(n0):
                 for j in range(n1):
                     for k in range(n2):
-                        outer = far * (u[i, j, k] + u[i, j, k + 4])
-                        out[s, m, i, j, k] = outer + near * (u[i, j, k + 1] + u[i, j, k + 3]) + own * u[i, j, k + 2]
+                        outer = outer_tap * (u[i, j, k] + u[i, j, k + 4])
+                        out[s, m, i, j, k] = (
+                            outer + inner_tap * (u[i, j, k + 1] + u[i, j, k + 3]) + centre_tap * u[i, j, k + 2]
+                        )
 
 
 @njit(inline="always", cache=True)
 def between(cell, size):
-    """Return which coarse cells, counted from one before the brick, a cell lies between, and how far."""
+    """Return the first coarse cell around a cell, counted from one before the brick, and the share of the next one."""
     place = np.float32((cell + 0.5) / size + 0.5)
-    first = int(place)
-    return first, place - np.float32(first)
+    cell_before = int(place)
+    return cell_before, place - np.float32(cell_before)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -195,7 +197,7 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
     """Move `low` towards `high` as far as the gate permits: see `infill.phasefield.refining.gate`."""
     _, _, n0, n1, n2 = sums.shape
     size = B0 // n0
-    whole = np.empty((SUMS, n0 + 2, n1 + 2, n2 + 2), dtype=np.float32)
+    block = np.empty((SUMS, n0 + 2, n1 + 2, n2 + 2), dtype=np.float32)
     line = np.empty((SUMS, n1 + 2, n2 + 2), dtype=np.float32)
     row = np.empty((SUMS, n2 + 2), dtype=np.float32)
     mean = np.empty((SUMS, B2), dtype=np.float32)
@@ -204,14 +206,14 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
         ends[k], parts[k] = between(k, size)
     bias, spread = signed**4, unsigned**8
     for s in range(thread, len(low), threads):
-        fetch(sums, slots, where[s], 1, whole)
-        own, other = low[s], high[s]
+        fetch(sums, slots, where[s], 1, block)
+        low_brick, high_brick = low[s], high[s]
         for i in range(B0):
             at, part = between(i, size)
             for m in range(SUMS):
                 for j in range(n1 + 2):
                     for k in range(n2 + 2):
-                        line[m, j, k] = whole[m, at, j, k] + part * (whole[m, at + 1, j, k] - whole[m, at, j, k])
+                        line[m, j, k] = block[m, at, j, k] + part * (block[m, at + 1, j, k] - block[m, at, j, k])
             for j in range(B1):
                 at, part = between(j, size)
                 for m in range(SUMS):
@@ -219,15 +221,15 @@ def blend(low, high, sums, slots, where, shape, signed, unsigned, tiny, thread, 
                         row[m, k] = line[m, at, k] + part * (line[m, at + 1, k] - line[m, at, k])
                     for k in range(B2):
                         mean[m, k] = row[m, ends[k]] + parts[k] * (row[m, ends[k] + 1] - row[m, ends[k]])
-                first = (i * B1 + j) * B2
+                row_start = (i * B1 + j) * B2
                 for k in range(B2):
                     weight = mean[0, k] + tiny
                     m = (mean[1, k] / weight) ** 2
                     v = (mean[2, k] / weight) ** 2
                     m, v = m * m, v * v
                     open_ = max(m / (m + bias), v / (v + spread))
-                    own[first + k] += open_ * (other[first + k] - own[first + k])
-        repeat_edges(own, where[s], shape)
+                    low_brick[row_start + k] += open_ * (high_brick[row_start + k] - low_brick[row_start + k])
+        repeat_edges(low_brick, where[s], shape)
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
@@ -235,9 +237,9 @@ def hold(values, data, bound, thread, threads):
     """Keep `values` within a bound of the data, both distances; where those are cut off, on one side only."""
     bound = np.float32(bound)
     for s in range(thread, len(values), threads):
-        own, held = values[s], data[s]
+        brick, datum = values[s], data[s]
         for t in range(CELLS):
-            if held[t] < 1:
-                own[t] = min(own[t], held[t] + bound)
-            if held[t] > -1:
-                own[t] = max(own[t], held[t] - bound)
+            if datum[t] < 1:
+                brick[t] = min(brick[t], datum[t] + bound)
+            if datum[t] > -1:
+                brick[t] = max(brick[t], datum[t] - bound)

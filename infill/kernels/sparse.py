@@ -1,4 +1,4 @@
-"""What `infill.phasefield.sparse` does to bricks, compiled.
+"""Loops of `infill.phasefield.sparse` over bricks, compiled.
 
 A brick is (8, 8, 16) cells, flat: cell (i, j, k) is number (i 8 + j) 16 + k.
 
@@ -20,13 +20,13 @@ the faces after it go to a second copy (`next_faces`). The two are swapped when 
 
 How one brick is stepped:
 
-    moving      which of its 64 rows may change, as a number of 64 bits
+    moving      the rows, of 64, that may change, as a number of 64 bits
     surround    copies the brick and its neighbours' faces to where every cell finds its six neighbours (`wide`)
     advanced    is a loop over the sixteen cells of a row that may change: vector code
     emit        copies the six faces, and notes which rows and faces are +1 or -1 throughout (`rows`, `flat`)
 
 A row of one value (+1 or -1, in the data as well) among rows of that value is a fixed point to the last bit: it is
-left out, and so is a brick of which that holds for all rows. Faces of one value are not copied, as nobody reads them.
+skipped, and so is a brick where that holds for all rows. Faces of one value are not copied, as they are never read.
 A brick that is not kept starts to be kept when a flat face next to it has a different value (`wanted`).
 
     rows        (n, 6) uint64: the rows that are +1 throughout, those that are -1 throughout; of the low face along k,
@@ -59,7 +59,7 @@ FACE_I, FACE_J, FACE_K = B1 * B2, B0 * B2, B0 * B1
 SECOND, THIRD = 2 * FACE_I, 2 * (FACE_I + FACE_J)
 FACES = THIRD + 2 * FACE_K
 
-# What the lattice holds for a brick that is not kept.
+# Slots of the lattice for bricks that are not kept.
 VOID_BRICK, SOLID_BRICK, OUTSIDE = -1, -2, -3
 CHUNK = 32  # bricks that a thread takes at a time, mostly neighbours; with their data, 160 to 256 KiB
 ROWS = B0 * B1
@@ -84,13 +84,13 @@ def bit(row):
 
 @njit(cache=True)
 def note_rows(brick, moving, rows):
-    """Set which of the rows in `moving` are +1 or -1 throughout."""
+    """Find the rows in `moving` that are +1 or -1 throughout."""
     plus, minus = rows[0] & ~moving, rows[1] & ~moving
     for row in range(ROWS):
         if moving & bit(row):
-            first = brick[row * B2]
-            if abs(first) == 1 and equal(brick, row * B2, first) == FULL_ROW:
-                if first > 0:
+            value = brick[row * B2]
+            if abs(value) == 1 and equal(brick, row * B2, value) == FULL_ROW:
+                if value > 0:
                     plus |= bit(row)
                 else:
                     minus |= bit(row)
@@ -99,7 +99,7 @@ def note_rows(brick, moving, rows):
 
 @njit(inline="always", cache=True)
 def value_of(plus, minus, part):
-    """Return +1 or -1 if the rows of a part are that throughout, else 0."""
+    """Return +1 or -1 if all rows of a part have that value, else 0."""
     if plus & part == part:
         return 1
     return -1 if minus & part == part else 0
@@ -107,7 +107,7 @@ def value_of(plus, minus, part):
 
 @njit(cache=True)
 def emit(brick, faces, flat, rows, moving):
-    """Note what became of the rows in `moving`, and which faces are +1 or -1 throughout; copy those that are not."""
+    """Update the notes on the rows in `moving` and on faces that are +1 or -1 throughout; copy the other faces."""
     note_rows(brick, moving, rows)
     for up in range(2):
         flat[up] = value_of(rows[0], rows[1], LAST_I if up else FIRST_I)
@@ -139,13 +139,13 @@ def emit(brick, faces, flat, rows, moving):
 def emit_all(bricks, data, copied, faces, flat, rows, next_rows, still, count, thread, threads):
     """Copy the faces of all bricks, and note which of their rows, and of the rows of their data, have one value.
 
-    If they are `copied`, their values are those of their data.
+    If `copied`, their values become those of their data.
     """
     for s in range(thread, count, threads):
         if copied:
-            brick, held = bricks[s], data[s]
+            brick, datum = bricks[s], data[s]
             for t in range(CELLS):
-                brick[t] = held[t]
+                brick[t] = datum[t]
         emit(bricks[s], faces[s], flat[s], rows[s], ALL)
         next_rows[s] = rows[s]
         note_rows(data[s], ALL, still[s])
@@ -162,47 +162,47 @@ def place_beside(place, side):
 
 
 @njit(cache=True)
-def find_neighbours(slots, where, beside, first, count):
-    """Set what lies next to the bricks from `first` on, and that they lie next to those."""
-    for s in range(first, count):
+def find_neighbours(slots, where, beside, begin, count):
+    """Set the neighbours of the bricks from `begin` on, in both directions."""
+    for s in range(begin, count):
         for side in range(6):
             a, b, c = place_beside(where[s], side)
             inside = 0 <= a < slots.shape[0] and 0 <= b < slots.shape[1] and 0 <= c < slots.shape[2]
-            other = slots[a, b, c] if inside else OUTSIDE
-            beside[s, side] = other
-            if other >= 0:
-                beside[other, side ^ 1] = s
+            neighbour = slots[a, b, c] if inside else OUTSIDE
+            beside[s, side] = neighbour
+            if neighbour >= 0:
+                beside[neighbour, side ^ 1] = s
 
 
 @njit(cache=True)
-def wanted(slots, where, beside, flat, count, found):
-    """Set `found` to the places next to faces whose value differs from theirs, each once; return how many there are."""
-    many = 0
+def wanted(slots, where, beside, flat, count, new_places):
+    """Set `new_places` to the places next to faces whose value differs from theirs, each once; return their number."""
+    place_count = 0
     for s in range(count):
         for side in range(6):
-            other = beside[s, side]
-            if other != VOID_BRICK and other != SOLID_BRICK:
+            neighbour = beside[s, side]
+            if neighbour != VOID_BRICK and neighbour != SOLID_BRICK:
                 continue
-            if flat[s, side] == (1 if other == SOLID_BRICK else -1):
+            if flat[s, side] == (1 if neighbour == SOLID_BRICK else -1):
                 continue
             a, b, c = place_beside(where[s], side)
-            if slots[a, b, c] == other:
-                slots[a, b, c] = other - 10  # already found
-                found[many, 0], found[many, 1], found[many, 2] = a, b, c
-                many += 1
-    for n in range(many):
-        slots[found[n, 0], found[n, 1], found[n, 2]] += 10
-    return many
+            if slots[a, b, c] == neighbour:
+                slots[a, b, c] = neighbour - 10  # already found
+                new_places[place_count, 0], new_places[place_count, 1], new_places[place_count, 2] = a, b, c
+                place_count += 1
+    for n in range(place_count):
+        slots[new_places[n, 0], new_places[n, 1], new_places[n, 2]] += 10
+    return place_count
 
 
 @njit(nogil=True, cache=True)
-def fill(phi, held, flat, next_flat, rows, next_rows, still, values, first, count, thread, threads):
-    """Set the bricks from `first` on to the value they have throughout; nobody reads faces that are flat."""
+def fill(phi, data, flat, next_flat, rows, next_rows, still, values, first, count, thread, threads):
+    """Set the bricks from `first` on to one value each; flat faces are not written, since they are never read."""
     for s in range(first + thread, count, threads):
         value = values[s - first]
         for t in range(CELLS):
             phi[s, t] = value
-            held[s, t] = value
+            data[s, t] = value
         for side in range(6):
             flat[s, side] = value
             next_flat[s, side] = value
@@ -211,49 +211,49 @@ def fill(phi, held, flat, next_flat, rows, next_rows, still, values, first, coun
 
 
 @njit(inline="always", cache=True)
-def rows_beside(other, rows, column):
-    """Return a column of what is known about the rows next to a brick, +1 or -1 by turns; beyond the grid, all."""
-    if other >= 0:
-        return rows[other, column]
-    if other == OUTSIDE:
+def rows_beside(neighbour, rows, column):
+    """Return a column of the notes on the rows next to a brick, +1 or -1 by turns; beyond the grid, all."""
+    if neighbour >= 0:
+        return rows[neighbour, column]
+    if neighbour == OUTSIDE:
         return ALL
-    return ALL if (other == SOLID_BRICK) == (column % 2 == 0) else NONE
+    return ALL if (neighbour == SOLID_BRICK) == (column % 2 == 0) else NONE
 
 
 @njit(cache=True)
 def moving(s, rows, still, beside):
-    """Return which rows of a brick may change: not those of one value, still so far, among cells of that value."""
-    found = ALL
+    """Return the rows of a brick that may change: all except still rows of one value among cells of that value."""
+    movable = ALL
     for sign in range(2):
-        own = rows[s, sign]
-        same = own & still[s, sign]
+        uniform_rows = rows[s, sign]
+        same = uniform_rows & still[s, sign]
         if same == NONE:
             continue
-        same &= (own << STEP_I) | (rows_beside(beside[0], rows, sign) >> BACK_I)
-        same &= (own >> STEP_I) | (rows_beside(beside[1], rows, sign) << BACK_I)
-        same &= ((own << STEP_J) & ~FIRST_J) | ((rows_beside(beside[2], rows, sign) >> BACK_J) & FIRST_J)
-        same &= ((own >> STEP_J) & ~LAST_J) | ((rows_beside(beside[3], rows, sign) << BACK_J) & LAST_J)
+        same &= (uniform_rows << STEP_I) | (rows_beside(beside[0], rows, sign) >> BACK_I)
+        same &= (uniform_rows >> STEP_I) | (rows_beside(beside[1], rows, sign) << BACK_I)
+        same &= ((uniform_rows << STEP_J) & ~FIRST_J) | ((rows_beside(beside[2], rows, sign) >> BACK_J) & FIRST_J)
+        same &= ((uniform_rows >> STEP_J) & ~LAST_J) | ((rows_beside(beside[3], rows, sign) << BACK_J) & LAST_J)
         same &= rows_beside(beside[4], rows, 4 + sign) & rows_beside(beside[5], rows, 2 + sign)
-        found &= ~same
-    return found
+        movable &= ~same
+    return movable
 
 
 @intrinsic
 def advance_row(context, own, data, at, wide, c, numbers):  # noqa: ARG001
-    """Set sixteen cells of a brick to what `advanced` says; cell `c` of `wide` is the first of them."""
+    """Set sixteen cells of a brick to the result of `advanced`; cell `c` of `wide` is the first of them."""
     formula = lanes_of(advanced)
 
     def code(context, builder, signature, arguments):  # noqa: ANN202
         own_kind, data_kind, _, wide_kind, *_ = signature.args
-        out, held, first, around, middle, given = arguments
+        out, data_array, begin, around, middle, numbers_tuple = arguments
 
         def cells(step):  # noqa: ANN202
             return load_lanes(context, builder, wide_kind, around, builder.add(middle, middle.type(step)))
 
         row = [cells(step) for step in (0, -WIDE_I, WIDE_I, -WIDE_J, WIDE_J, -1, 1)]
-        row.append(load_lanes(context, builder, data_kind, held, first))
-        weights = [same_lanes(builder, each) for each in cgutils.unpack_tuple(builder, given)]
-        store_lanes(context, builder, own_kind, out, first, formula(*row, weights))
+        row.append(load_lanes(context, builder, data_kind, data_array, begin))
+        weights = [same_lanes(builder, each) for each in cgutils.unpack_tuple(builder, numbers_tuple)]
+        store_lanes(context, builder, own_kind, out, begin, formula(*row, weights))
         return context.get_dummy_value()
 
     return types.void(own, data, types.int64, wide, types.int64, numbers), code
@@ -262,7 +262,7 @@ def advance_row(context, own, data, at, wide, c, numbers):  # noqa: ARG001
 @njit(nogil=True, cache=True, error_model="numpy")
 def step(
     phi,
-    held,
+    data_bricks,
     faces,
     next_faces,
     flat,
@@ -289,10 +289,10 @@ def step(
             if changing == NONE:
                 next_flat[s] = flat[s]
                 continue
-            own, data = phi[s], held[s]
-            surround(own, faces, flat, beside[s], wide)
+            brick, data = phi[s], data_bricks[s]
+            surround(brick, faces, flat, beside[s], wide)
             if domain is not None:  # decided at compile time
-                step_masked(own, data, wide, domain, where[s], numbers)
+                step_masked(brick, data, wide, domain, where[s], numbers)
                 changing = ALL
             else:
                 for i in range(B0):
@@ -300,66 +300,66 @@ def step(
                         if not changing & bit(i * B1 + j):
                             continue
                         at, c = (i * B1 + j) * B2, ORIGIN + i * WIDE_I + j * WIDE_J
-                        advance_row(own, data, at, wide, c, numbers)
+                        advance_row(brick, data, at, wide, c, numbers)
             if edge:
-                repeat_edges(own, where[s], shape)
-            emit(own, next_faces[s], next_flat[s], next_rows[s], changing)
+                repeat_edges(brick, where[s], shape)
+            emit(brick, next_faces[s], next_flat[s], next_rows[s], changing)
 
 
 @njit(cache=True)
-def surround(own, faces, flat, beside, wide):
+def surround(brick, faces, flat, beside, wide):
     """Copy a brick, and the faces of its neighbours around it, to `wide`."""
     for i in range(B0):
         for j in range(B1):
-            copy(wide, ORIGIN + i * WIDE_I + j * WIDE_J, own, (i * B1 + j) * B2)
+            copy(wide, ORIGIN + i * WIDE_I + j * WIDE_J, brick, (i * B1 + j) * B2)
     for side in range(6):
-        other = seen(beside[side], flat, side)
+        neighbour = seen(beside[side], flat, side)
         up = side % 2
         if side < 2:
-            put, step, many = ORIGIN - WIDE_I + (B0 + 1) * WIDE_I * up, WIDE_J, B1
+            put, step, line_count = ORIGIN - WIDE_I + (B0 + 1) * WIDE_I * up, WIDE_J, B1
             at, edge, next_edge = FACE_I * (1 - up), (CELLS - PLANE) * up, B2
         elif side < 4:
-            put, step, many = ORIGIN - WIDE_J + (B1 + 1) * WIDE_J * up, WIDE_I, B0
+            put, step, line_count = ORIGIN - WIDE_J + (B1 + 1) * WIDE_J * up, WIDE_I, B0
             at, edge, next_edge = SECOND + FACE_J * (1 - up), (PLANE - B2) * up, PLANE
         else:
             put, at, edge = ORIGIN - 1 + (B2 + 1) * up, THIRD + FACE_K * (1 - up), (B2 - 1) * up
-            if other >= 0:
-                face = faces[other]
+            if neighbour >= 0:
+                face = faces[neighbour]
                 for i in range(B0):
                     for j in range(B1):
                         wide[put + i * WIDE_I + j * WIDE_J] = face[at + i * B1 + j]
             else:
                 for i in range(B0):
                     for j in range(B1):
-                        wide[put + i * WIDE_I + j * WIDE_J] = beyond(other, own[edge + (i * B1 + j) * B2])
+                        wide[put + i * WIDE_I + j * WIDE_J] = beyond(neighbour, brick[edge + (i * B1 + j) * B2])
             continue
-        for n in range(many):
-            if other >= 0:
-                copy(wide, put + n * step, faces[other], at + n * B2)
-            elif other == OUTSIDE:
-                copy(wide, put + n * step, own, edge + n * next_edge)
+        for n in range(line_count):
+            if neighbour >= 0:
+                copy(wide, put + n * step, faces[neighbour], at + n * B2)
+            elif neighbour == OUTSIDE:
+                copy(wide, put + n * step, brick, edge + n * next_edge)
             else:
-                spread(wide, put + n * step, beyond(other, np.float32(0)))
+                spread(wide, put + n * step, beyond(neighbour, np.float32(0)))
 
 
 @njit(inline="always", cache=True)
-def seen(other, flat, side):
-    """Return the brick next to a face, or the stand-in for it if its own face there has one value."""
-    if other < 0 or flat[other, side ^ 1] == 0:
-        return other
-    return SOLID_BRICK if flat[other, side ^ 1] == 1 else VOID_BRICK
+def seen(neighbour, flat, side):
+    """Return the brick next to a face, or the slot that replaces it if its own face there has one value."""
+    if neighbour < 0 or flat[neighbour, side ^ 1] == 0:
+        return neighbour
+    return SOLID_BRICK if flat[neighbour, side ^ 1] == 1 else VOID_BRICK
 
 
 @njit(inline="always", cache=True)
-def beyond(other, own):
-    """Return the value next to a face where no brick is kept: beyond the grid, it is the face's own."""
-    if other == OUTSIDE:
-        return own
-    return np.float32(1) if other == SOLID_BRICK else np.float32(-1)
+def beyond(neighbour, face_value):
+    """Return the value next to a face without a kept brick; beyond the grid, it is the face's own."""
+    if neighbour == OUTSIDE:
+        return face_value
+    return np.float32(1) if neighbour == SOLID_BRICK else np.float32(-1)
 
 
 @njit(cache=True, error_model="numpy")
-def step_masked(own, data, wide, domain, where, numbers):
+def step_masked(brick, data, wide, domain, where, numbers):
     """Do one step of the cells in the domain; a neighbour outside it has the cell's own value."""
     n0, n1, n2 = domain.shape
     for t in range(CELLS):
@@ -369,7 +369,7 @@ def step_masked(own, data, wide, domain, where, numbers):
             continue
         at = ORIGIN + i * WIDE_I + j * WIDE_J + k
         c = wide[at]
-        own[t] = advanced(
+        brick[t] = advanced(
             c,
             wide[at - WIDE_I] if domain[max(x - 1, 0), y, z] else c,
             wide[at + WIDE_I] if domain[min(x + 1, n0 - 1), y, z] else c,
@@ -384,7 +384,7 @@ def step_masked(own, data, wide, domain, where, numbers):
 
 @njit(inline="always", cache=True)
 def at_edge(where, shape):
-    """Return whether a brick has cells beyond the grid."""
+    """Return True if a brick has cells beyond the grid."""
     low = where[0] == 0 or where[1] == 0 or where[2] == 0
     beyond_i, beyond_j = (where[0] + 1) * B0 > shape[0] + 1, (where[1] + 1) * B1 > shape[1] + 1
     return low or beyond_i or beyond_j or (where[2] + 1) * B2 > shape[2] + 1

@@ -1,4 +1,4 @@
-"""What `infill.isosurfaces.sparse_marching` does to bricks, compiled.
+"""Loops of `infill.isosurfaces.sparse_marching` over bricks, compiled.
 
 A row of sixteen cells along k is one number of sixteen bits, set where a cell is above the level. A row of cubes lies
 between four rows of 17 cells each: the last cell is taken from the next brick. Bricks own the cubes whose lowest
@@ -15,7 +15,7 @@ Vertices are numbered without a table of edges: those of a brick begin at `offse
 `starts` after that, and within the row an edge is preceded by as many vertices as there are bits set below its own in
 `masks`. So any cube finds the vertices on its twelve edges, including those of its neighbours, without synchronisation.
 
-There are two passes: `count` says how much every brick will write, cumulative sums of that say where, and `write`
+There are two passes: `count` counts the output of every brick, cumulative sums of that give its place, and `write`
 writes. A cube's eight signs choose its triangles from a table of 256 (`infill.isosurfaces.sparse_marching.cube_table`);
 where signs do not decide (`UNDECIDED`: a face with a saddle, or opposite corners), its corner values are returned.
 """
@@ -32,7 +32,7 @@ from infill.kernels.lanes import above, lowest, ones
 from infill.kernels.sparse import B0, B1, B2, OUTSIDE, SOLID_BRICK
 
 ROWS = B0 * B1
-UNDECIDED = -128  # in a table of triangles: the signs do not decide; the least int8, which no count comes near
+UNDECIDED = -128  # in a table of triangles: the signs do not decide; the smallest int8, far from any count
 FULL = (1 << B2) - 1  # all bits of a row
 EDGES = 12  # of a cube
 BLOCK = 4096  # faces whose volumes make one sum
@@ -40,32 +40,32 @@ BLOCK = 4096  # faces whose volumes make one sum
 
 @njit(nogil=True, cache=True)
 def bits_above(values, where, level, shape, bits, thread, threads):
-    """Set which cells of every row of every kept brick are above the level; none is beyond the grid."""
+    """Set the bits of the cells above the level, in every row of every kept brick; cells beyond the grid have none."""
     for s in range(thread, len(values), threads):
         brick = values[s]
         for row in range(ROWS):
-            found = above(brick, row * B2, level)
-            bits[s, row] = found & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
+            row_bits = above(brick, row * B2, level)
+            bits[s, row] = row_bits & within(where[s, 0], where[s, 1], where[s, 2], row, shape)
 
 
 @njit(inline="always", cache=True)
 def within(p, q, r, row, shape):
-    """Return which cells of a row of a brick lie on the grid."""
+    """Return the cells of a row of a brick that lie on the grid, as bits."""
     i, j = p * B0 + row // B1, q * B1 + row % B1
     if i < 1 or j < 1 or i > shape[0] or j > shape[1]:
         return np.uint16(0)
-    found = FULL
+    row_bits = FULL
     if r == 0:
-        found &= ~1
+        row_bits &= ~1
     over = (r + 1) * B2 - (shape[2] + 1)  # cells after the last one
     if over > 0:
-        found = found & (FULL >> over) if over < B2 else 0
-    return np.uint16(found)
+        row_bits = row_bits & (FULL >> over) if over < B2 else 0
+    return np.uint16(row_bits)
 
 
 @njit(inline="always", cache=True)
 def slot_at(slots, p, q, r):
-    """Return what the lattice holds at a place, which may be beyond its upper end."""
+    """Return the slot of the lattice at a place, OUTSIDE beyond its upper end."""
     if p >= slots.shape[0] or q >= slots.shape[1] or r >= slots.shape[2]:
         return OUTSIDE
     return slots[p, q, r]
@@ -73,64 +73,64 @@ def slot_at(slots, p, q, r):
 
 @njit(cache=True)
 def rows_around(slots, p, q, r, bits, shape, rows):
-    """Set the rows of a brick and the first ones after it, 17 cells each, (9, 9); return whether any two cells differ.
+    """Set the rows of a brick and the first ones after it, 17 cells each, (9, 9); return True if any two cells differ.
 
-    What lies beyond the lattice is void.
+    Everything beyond the lattice is void.
     """
-    some, every = np.uint32(0), np.uint32(2 * FULL + 1)
+    any_set, all_set = np.uint32(0), np.uint32(2 * FULL + 1)
     for side in range(4):
         up, right = side & 1, side >> 1
         a, b = p + up, q + right
-        here, after = slot_at(slots, a, b, r), slot_at(slots, a, b, r + 1)
+        slot, next_slot = slot_at(slots, a, b, r), slot_at(slots, a, b, r + 1)
         for x in range(1 if up else B0):
             for y in range(1 if right else B1):
                 row = x * B1 + y
-                found = np.uint32(0)
-                if here >= 0:
-                    found = np.uint32(bits[here, row])
-                elif here == SOLID_BRICK:
-                    found = np.uint32(within(a, b, r, row, shape))
-                if after >= 0:
-                    found |= (np.uint32(bits[after, row]) & np.uint32(1)) << np.uint32(B2)
-                elif after == SOLID_BRICK:
-                    found |= (np.uint32(within(a, b, r + 1, row, shape)) & np.uint32(1)) << np.uint32(B2)
-                rows[x + B0 * up, y + B1 * right] = found
-                some |= found
-                every &= found
-    return some != 0 and every != np.uint32(2 * FULL + 1)
+                row_bits = np.uint32(0)
+                if slot >= 0:
+                    row_bits = np.uint32(bits[slot, row])
+                elif slot == SOLID_BRICK:
+                    row_bits = np.uint32(within(a, b, r, row, shape))
+                if next_slot >= 0:
+                    row_bits |= (np.uint32(bits[next_slot, row]) & np.uint32(1)) << np.uint32(B2)
+                elif next_slot == SOLID_BRICK:
+                    row_bits |= (np.uint32(within(a, b, r + 1, row, shape)) & np.uint32(1)) << np.uint32(B2)
+                rows[x + B0 * up, y + B1 * right] = row_bits
+                any_set |= row_bits
+                all_set &= row_bits
+    return any_set != 0 and all_set != np.uint32(2 * FULL + 1)
 
 
 @njit(inline="always", cache=True)
 def crossed(a, b, c, d):
-    """Return which of 16 cubes have corners of both signs, from their four rows of 17 cells."""
-    some, every = a | b | c | d, a & b & c & d
-    one = np.uint32(1)
-    return (some | (some >> one)) & ~(every & (every >> one)) & np.uint32(FULL)
+    """Return the cubes, of 16, with corners of both signs, from their four rows of 17 cells."""
+    any_set, all_set = a | b | c | d, a & b & c & d
+    one_bit = np.uint32(1)
+    return (any_set | (any_set >> one_bit)) & ~(all_set & (all_set >> one_bit)) & np.uint32(FULL)
 
 
 @njit(inline="always", cache=True)
 def signs_of(a, b, c, d, k):
     """Return the solid corners of cube `k` of a row of cubes, corner i + 2 j + 4 k."""
     shift = np.uint32(k)
-    one = np.uint32(1)
+    one_bit = np.uint32(1)
     two = np.uint32(3)
     a, b, c, d = (a >> shift) & two, (b >> shift) & two, (c >> shift) & two, (d >> shift) & two
-    low = (a & one) | (b & one) << one | (c & one) << np.uint32(2) | (d & one) << np.uint32(3)
-    a, b, c, d = a >> one, b >> one, c >> one, d >> one
-    return np.int64(low | (a | b << one | c << np.uint32(2) | d << np.uint32(3)) << np.uint32(4))
+    low = (a & one_bit) | (b & one_bit) << one_bit | (c & one_bit) << np.uint32(2) | (d & one_bit) << np.uint32(3)
+    a, b, c, d = a >> one_bit, b >> one_bit, c >> one_bit, d >> one_bit
+    return np.int64(low | (a | b << one_bit | c << np.uint32(2) | d << np.uint32(3)) << np.uint32(4))
 
 
 @njit(nogil=True, cache=True)
-def differing(slots, places, bits, shape, found, thread, threads):
-    """Set in which bricks, or between which and the next ones, any two cells differ."""
+def differing(slots, places, bits, shape, differs, thread, threads):
+    """Mark the bricks in which, or between which and the next ones, any two cells differ."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
-        found[n] = rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
+        differs[n] = rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
 
 
 @njit(nogil=True, cache=True)
 def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, threads):
-    """Set the crossed edges of every row along i, j, k, where its vertices begin, and how much each brick will hold."""
+    """Set the crossed edges of every row along i, j, k, the begin of its vertices, and each brick's output size."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     for n in range(thread, len(places), threads):
         rows_around(slots, places[n, 0], places[n, 1], places[n, 2], bits, shape, rows)
@@ -145,14 +145,14 @@ def count(slots, places, bits, shape, triangles, masks, starts, counts, thread, 
                 for axis in range(3):
                     starts[n, row, axis] = vertices
                     vertices += ones(masks[n, row, axis])
-                left = np.int64(crossed(a, b, c, d))
-                while left:
-                    many = triangles[signs_of(a, b, c, d, lowest(left))]
-                    left &= left - 1
-                    if many == UNDECIDED:
+                remaining = np.int64(crossed(a, b, c, d))
+                while remaining:
+                    triangle_count = triangles[signs_of(a, b, c, d, lowest(remaining))]
+                    remaining &= remaining - 1
+                    if triangle_count == UNDECIDED:
                         undecided += 1
                     else:
-                        faces += many
+                        faces += triangle_count
         counts[n, 0], counts[n, 1], counts[n, 2] = vertices, faces, undecided
 
 
@@ -166,20 +166,20 @@ def values_around(slots, p, q, r, values, shape, numbers, around):
         for j in range(B1 + 1):
             b, y = (q, j) if j < B1 else (q + 1, 0)
             inside = 1 <= a * B0 + x <= shape[0] and 1 <= b * B1 + y <= shape[1]
-            here, after = OUTSIDE, OUTSIDE
+            slot, next_slot = OUTSIDE, OUTSIDE
             if inside:
-                here, after = slot_at(slots, a, b, r), slot_at(slots, a, b, r + 1)
+                slot, next_slot = slot_at(slots, a, b, r), slot_at(slots, a, b, r + 1)
             line, at = around[i, j], (x * B1 + y) * B2
-            if here >= 0:
-                brick = values[here]
+            if slot >= 0:
+                brick = values[slot]
                 for k in range(B2):
                     line[k] = apart(brick[at + k] - level, clearance, tie)
             else:
-                value = apart((np.float32(1) if here == SOLID_BRICK else np.float32(-1)) - level, clearance, tie)
+                value = apart((np.float32(1) if slot == SOLID_BRICK else np.float32(-1)) - level, clearance, tie)
                 for k in range(B2):
                     line[k] = value
-            value = np.float32(1) if after == SOLID_BRICK else np.float32(-1)
-            line[B2] = apart((values[after, at] if after >= 0 else value) - level, clearance, tie)
+            value = np.float32(1) if next_slot == SOLID_BRICK else np.float32(-1)
+            line[B2] = apart((values[next_slot, at] if next_slot >= 0 else value) - level, clearance, tie)
             for k in range(max(low, 0)):
                 line[k] = apart(np.float32(-1) - level, clearance, tie)
             for k in range(max(high + 1, 0), B2 + 1):
@@ -188,14 +188,14 @@ def values_around(slots, p, q, r, values, shape, numbers, around):
 
 @njit(inline="always", cache=True)
 def apart(value, clearance, tie):
-    """Return a value that is no nearer to 0 than allowed."""
+    """Return a value, moved away from 0 to the allowed distance."""
     above_it, below_it = max(value, clearance) * tie, min(value, -clearance)
     return above_it if value > 0 else below_it
 
 
 @njit(cache=True)
 def numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind, crossing):
-    """Set, for the rows of a brick and the first ones after it, where the numbers of their vertices begin.
+    """Set the first vertex numbers of the rows of a brick and of the first rows after it.
 
     Parameters
     ----------
@@ -204,23 +204,23 @@ def numbers_around(slots, index, p, q, r, masks, starts, offsets, begin, behind,
     behind : (9, 9, 3)
         Of those in the next brick along k.
     crossing : (9, 9, 3)
-        Which edges of a row have one.
+        The edges of a row that have a vertex.
     """
     for side in range(4):
         up, right = side & 1, side >> 1
         if p + up >= slots.shape[0] or q + right >= slots.shape[1]:
             continue  # void: no edge there has a vertex
-        own = index[p + up, q + right, r]
-        other = index[p + up, q + right, r + 1] if r + 1 < slots.shape[2] else np.int32(-1)
+        brick = index[p + up, q + right, r]
+        next_brick = index[p + up, q + right, r + 1] if r + 1 < slots.shape[2] else np.int32(-1)
         for x in range(1 if up else B0):
             for y in range(1 if right else B1):
                 row, i, j = x * B1 + y, x + B0 * up, y + B1 * right
                 for axis in range(3):
-                    if own >= 0:
-                        begin[i, j, axis] = offsets[own, 0] + starts[own, row, axis]
-                        crossing[i, j, axis] = masks[own, row, axis]
-                    if other >= 0:
-                        behind[i, j, axis] = offsets[other, 0] + starts[other, row, axis]
+                    if brick >= 0:
+                        begin[i, j, axis] = offsets[brick, 0] + starts[brick, row, axis]
+                        crossing[i, j, axis] = masks[brick, row, axis]
+                    if next_brick >= 0:
+                        behind[i, j, axis] = offsets[next_brick, 0] + starts[next_brick, row, axis]
 
 
 @njit(inline="always", cache=True)
@@ -240,7 +240,7 @@ def write(
     bits,
     shape,
     numbers,
-    many,
+    triangle_counts,
     triangles,
     crossings,
     masks,
@@ -256,15 +256,15 @@ def write(
     thread,
     threads,
 ):
-    """Write vertices in cells from the first cell's centre, triangles, and what is known about undecided cubes."""
+    """Write vertices in cells from the first cell's centre, triangles, and the data of undecided cubes."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     numbered = np.empty(EDGES, dtype=np.int32)
     begin, behind = np.zeros((B0 + 1, B1 + 1, 3), dtype=np.int32), np.zeros((B0 + 1, B1 + 1, 3), dtype=np.int32)
     crossing = np.zeros((B0 + 1, B1 + 1, 3), dtype=np.int64)
     for n in range(thread, len(places), threads):
-        done, todo = offsets[n], offsets[n + 1]
-        if done[0] == todo[0] and done[1] == todo[1] and done[2] == todo[2]:
+        written, todo = offsets[n], offsets[n + 1]
+        if written[0] == todo[0] and written[1] == todo[1] and written[2] == todo[2]:
             continue
         p, q, r = places[n, 0], places[n, 1], places[n, 2]
         rows_around(slots, p, q, r, bits, shape, rows)
@@ -276,30 +276,30 @@ def write(
                 row = i * B1 + j
                 for axis in range(3):
                     di, dj, dk = axis == 0, axis == 1, axis == 2
-                    left = np.int64(masks[n, row, axis])
-                    while left:
-                        k = lowest(left)
-                        left &= left - 1
-                        here, there = np.float64(around[i, j, k]), np.float64(around[i + di, j + dj, k + dk])
+                    remaining = np.int64(masks[n, row, axis])
+                    while remaining:
+                        k = lowest(remaining)
+                        remaining &= remaining - 1
+                        value, next_value = np.float64(around[i, j, k]), np.float64(around[i + di, j + dj, k + dk])
                         vertices[v, 0] = p * B0 + i - 1
                         vertices[v, 1] = q * B1 + j - 1
                         vertices[v, 2] = r * B2 + k - 1
-                        vertices[v, axis] += here / (here - there)
-                        rate[v, axis] = 1 / (there - here)
+                        vertices[v, axis] += value / (value - next_value)
+                        rate[v, axis] = 1 / (next_value - value)
                         v += 1
                 a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
-                left = np.int64(crossed(a, b, c, d))
-                while left:
-                    k = lowest(left)
-                    left &= left - 1
+                remaining = np.int64(crossed(a, b, c, d))
+                while remaining:
+                    k = lowest(remaining)
+                    remaining &= remaining - 1
                     signs = signs_of(a, b, c, d, k)
-                    if many[signs] != UNDECIDED:
+                    if triangle_counts[signs] != UNDECIDED:
                         for m in range(crossings[signs, EDGES]):
                             e = crossings[signs, m]
                             axis, at = int(edges[e, 0]), int(edges[e, 1])
                             x, y, z = i + (at & 1), j + (at >> 1 & 1), k + (at >> 2)
                             numbered[e] = vertex_number(x, y, z, axis, begin, behind, crossing)
-                        for t in range(many[signs]):
+                        for t in range(triangle_counts[signs]):
                             for corner in range(3):
                                 faces[f, corner] = numbered[triangles[signs, t, corner]]
                             f += 1
@@ -309,9 +309,9 @@ def write(
                         corners[u, corner] = around[i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)]
                     for e in range(len(edges)):
                         axis, at = edges[e]
-                        other = at | 1 << axis
+                        opposite = at | 1 << axis
                         corner_edges[u, e] = -1
-                        if (signs >> at & 1) != (signs >> other & 1):
+                        if (signs >> at & 1) != (signs >> opposite & 1):
                             x, y, z = i + (at & 1), j + (at >> 1 & 1), k + (at >> 2)
                             corner_edges[u, e] = vertex_number(x, y, z, axis, begin, behind, crossing)
                     u += 1
@@ -328,12 +328,12 @@ def place(vertices, rate, spacing, origin, thread, threads):
 
 
 @njit(nogil=True, cache=True)
-def volumes(vertices, rate, faces, middle, own, change, thread, threads):
+def volumes(vertices, rate, faces, middle, volume, change, thread, threads):
     """Set for every face the volume between it and the central point, and its change when the level rises by one."""
     size = (len(faces) + threads - 1) // threads
     for f in range(thread * size, min(len(faces), (thread + 1) * size)):
         six, more = sixfold(vertices, rate, faces[f], middle)
-        own[f] = six / 6
+        volume[f] = six / 6
         change[f] = more / 6
 
 
@@ -346,8 +346,8 @@ def sum_volumes(vertices, rate, faces, middle, sums, thread, threads):
     for block in range(thread, len(sums), threads):
         volume, slope = 0.0, 0.0
         for f in range(block * BLOCK, min(len(faces), (block + 1) * BLOCK)):
-            own, change = sixfold(vertices, rate, faces[f], middle)
-            volume += own
+            face_volume, change = sixfold(vertices, rate, faces[f], middle)
+            volume += face_volume
             slope += change
         sums[block, 0], sums[block, 1] = volume, slope
 
@@ -356,8 +356,8 @@ def sum_volumes(vertices, rate, faces, middle, sums, thread, threads):
 def sixfold(vertices, rate, face, middle):
     """Return six times the volume between a face and the central point, and its change when the level rises by one.
 
-    The change is that of all faces together: in a closed surface, what the three products of two corners add to the
-    face's own normal cancels out around every vertex.
+    The change is that of all faces together: in a closed surface, the contributions of the three products of two
+    corners to the face's own normal cancel out around every vertex.
     """
     i, j, k = face[0], face[1], face[2]
     ax, ay, az = vertices[i, 0], vertices[i, 1], vertices[i, 2]
@@ -374,8 +374,10 @@ def sixfold(vertices, rate, face, middle):
 
 
 @njit(nogil=True, cache=True, error_model="numpy")
-def measure(slots, places, bits, values, shape, numbers, many, triangles, crossings, edges, middle, thread, threads):
-    """Return six times the volume of the surface, cells, its slope over the level, and how many cubes are undecided."""
+def measure(
+    slots, places, bits, values, shape, numbers, triangle_counts, triangles, crossings, edges, middle, thread, threads
+):
+    """Return six times the volume of the surface, cells, its slope over the level, and the undecided cubes' number."""
     rows = np.empty((B0 + 1, B1 + 1), dtype=np.uint32)
     around = np.empty((B0 + 1, B1 + 1, B2 + 1), dtype=np.float32)
     points, moves = np.empty((EDGES, 3)), np.empty(EDGES)
@@ -387,16 +389,16 @@ def measure(slots, places, bits, values, shape, numbers, many, triangles, crossi
         for i in range(B0):
             for j in range(B1):
                 a, b, c, d = rows[i, j], rows[i + 1, j], rows[i, j + 1], rows[i + 1, j + 1]
-                left = np.int64(crossed(a, b, c, d))
-                if left and not seen:
+                remaining = np.int64(crossed(a, b, c, d))
+                if remaining and not seen:
                     values_around(slots, p, q, r, values, shape, numbers, around)
                     seen = True
                 x, y = p * B0 + i - 0.5 - middle[0], q * B1 + j - 0.5 - middle[1]
-                while left:
-                    k = lowest(left)
-                    left &= left - 1
+                while remaining:
+                    k = lowest(remaining)
+                    remaining &= remaining - 1
                     signs = signs_of(a, b, c, d, k)
-                    if many[signs] == UNDECIDED:
+                    if triangle_counts[signs] == UNDECIDED:
                         undecided += 1
                         continue
                     z = r * B2 + k - 0.5 - middle[2]
@@ -405,19 +407,19 @@ def measure(slots, places, bits, values, shape, numbers, many, triangles, crossi
                         axis, at = int(edges[e, 0]), int(edges[e, 1])
                         to = at | 1 << axis
                         di, dj, dk = at & 1, at >> 1 & 1, at >> 2
-                        here = np.float64(around[i + di, j + dj, k + dk])
-                        there = np.float64(around[i + (to & 1), j + (to >> 1 & 1), k + (to >> 2)])
-                        move = 1 / (there - here)
+                        value = np.float64(around[i + di, j + dj, k + dk])
+                        next_value = np.float64(around[i + (to & 1), j + (to >> 1 & 1), k + (to >> 2)])
+                        move = 1 / (next_value - value)
                         moves[e] = move
                         points[e, 0], points[e, 1], points[e, 2] = x + di, y + dj, z + dk
-                        points[e, axis] -= here * move
-                    for t in range(many[signs]):
-                        one, two, three = triangles[signs, t, 0], triangles[signs, t, 1], triangles[signs, t, 2]
-                        ax, ay, az = points[one, 0], points[one, 1], points[one, 2]
-                        bx, by, bz = points[two, 0] - ax, points[two, 1] - ay, points[two, 2] - az
-                        cx, cy, cz = points[three, 0] - ax, points[three, 1] - ay, points[three, 2] - az
+                        points[e, axis] -= value * move
+                    for t in range(triangle_counts[signs]):
+                        edge_a, edge_b, edge_c = triangles[signs, t, 0], triangles[signs, t, 1], triangles[signs, t, 2]
+                        ax, ay, az = points[edge_a, 0], points[edge_a, 1], points[edge_a, 2]
+                        bx, by, bz = points[edge_b, 0] - ax, points[edge_b, 1] - ay, points[edge_b, 2] - az
+                        cx, cy, cz = points[edge_c, 0] - ax, points[edge_c, 1] - ay, points[edge_c, 2] - az
                         nx, ny, nz = by * cz - bz * cy, bz * cx - bx * cz, bx * cy - by * cx
                         volume += ax * nx + ay * ny + az * nz
-                        for e in (one, two, three):
+                        for e in (edge_a, edge_b, edge_c):
                             slope += moves[e] * (nx if e < 4 else (ny if e < 8 else nz))
     return volume, slope, undecided

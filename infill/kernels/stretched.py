@@ -1,4 +1,4 @@
-"""Distances to a surface that repeats in coordinates of its own, which a cubic spline gives."""
+"""Distances to a surface that repeats in the coordinates given by a cubic spline."""
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201
 # Compiled lines are invisible to coverage tools.
@@ -30,21 +30,21 @@ def weights(at, value, slope):
 
 @njit(nogil=True, cache=True, error_model="numpy")
 def from_stretched_period(
-    depth, least, table, turn, start, period, sign, half, ratio, step, spline, out, thread, threads
+    depth, threshold, table, turn, start, period, sign, half, ratio, step, spline, out, thread, threads
 ):
     """Fill `out` with the lesser of the depth and the distance into the void beside a stretched surface, in cells.
 
-    To the first order: the distance in the coordinates of the pattern, over how much the stretching makes of a step
-    across the wall. So walls are as wide as asked for, however their cells are stretched.
+    To first order: the distance in the coordinates of the pattern, divided by the stretch of a step across the wall.
+    So walls have the requested width, however their cells are stretched.
 
     Parameters
     ----------
     spline : (n, m, l, 3) float64
-        Where cells lie in the pattern before it is turned, in units of `step` cells: coefficients of a cubic spline
+        Position of cells in the pattern before it is turned, in units of `step` cells: coefficients of a cubic spline
         over nodes that are `step` cells apart, of which the second along each axis is at cell 0.
     start : (3,) float64
-        Of where the spline is 0, in the pattern, in cells.
-    depth, least, table, turn, period, sign, half, ratio, step, out, thread, threads
+        Position of the zero of the spline, in the pattern, in cells.
+    depth, threshold, table, turn, period, sign, half, ratio, step, out, thread, threads
         As in `cells.from_period`.
     """
     nx, ny, nz = depth.shape
@@ -58,26 +58,26 @@ def from_stretched_period(
     up = np.empty(3)
     filled = 0.0
     for i in range(thread, nx, threads):
-        first = min(int(i / step), spline.shape[0] - 4)
-        weights(i / step - first, xs, xd)
+        node_i = min(int(i / step), spline.shape[0] - 4)
+        weights(i / step - node_i, xs, xd)
         for j in range(ny):
             second = min(int(j / step), spline.shape[1] - 4)
             weights(j / step - second, ys, yd)
-            known = False
+            has_row = False
             for k in range(nz):
                 deep = depth[i, j, k]
-                if deep <= least:
+                if deep <= threshold:
                     out[i, j, k] = deep
                     continue
-                if not known:
-                    known = True
+                if not has_row:
+                    has_row = True
                     for c in range(inner):
                         for d in range(9):
                             rows[c, d] = 0.0
                         for a in range(4):
                             for b in range(4):
                                 for d in range(3):
-                                    node = spline[first + a, second + b, c, d]
+                                    node = spline[node_i + a, second + b, c, d]
                                     rows[c, d] += xs[a] * ys[b] * node
                                     rows[c, 3 + d] += xd[a] * ys[b] * node
                                     rows[c, 6 + d] += xs[a] * yd[b] * node
@@ -112,7 +112,7 @@ def from_stretched_period(
                 high0, high1 = t100 * (1 - z) + t101 * z, t110 * (1 - z) + t111 * z
                 low, high = low0 * (1 - y) + low1 * y, high0 * (1 - y) + high1 * y
                 value = low * (1 - x) + high * x
-                # The slope of the distance in the pattern, turned back, and what the stretching makes of it.
+                # The slope of the distance in the pattern, turned back, and stretched.
                 gx = (high - low) * n
                 gy = ((low1 - low0) * (1 - x) + (high1 - high0) * x) * n
                 gz = (
@@ -129,8 +129,8 @@ def from_stretched_period(
                     + (flat[6] * p + flat[7] * q + flat[8] * r) ** 2
                     + (up[0] * p + up[1] * q + up[2] * r) ** 2
                 )
-                away = sign * value * period / max(across, LEAST_SLOPE)
-                away = min(away - half * local(ratio, step, i, j, k), deep)
-                out[i, j, k] = away
-                filled += min(1.0, max(0.0, 0.5 + away))
+                distance = sign * value * period / max(across, LEAST_SLOPE)
+                distance = min(distance - half * local(ratio, step, i, j, k), deep)
+                out[i, j, k] = distance
+                filled += min(1.0, max(0.0, 0.5 + distance))
     return filled

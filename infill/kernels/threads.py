@@ -1,4 +1,4 @@
-"""Sharing work among threads: one pool, one way to share, and never more threads than are allowed."""
+"""Sharing work among threads: one pool, one way to share, and never more threads than allowed."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ VARIABLE = "NUMBA_NUM_THREADS"
 MOST = 256  # threads: more cost more than they gain
 
 
-def thread_count(asked: int | None = None) -> int:
-    """Return how many threads to use: as requested, else as NUMBA_NUM_THREADS says, else one per core.
+def thread_count(requested: int | None = None) -> int:
+    """Return the number of threads to use: as requested, else NUMBA_NUM_THREADS, else one per core.
 
     >>> thread_count(3)
     3
     """
-    if asked is not None:
-        return min(whole("threads", asked, 1), MOST)
-    said = os.environ.get(VARIABLE, "")
-    return min(int(said), MOST) if said.isdecimal() and int(said) > 0 else usable_cores()
+    if requested is not None:
+        return min(whole("threads", requested, 1), MOST)
+    setting = os.environ.get(VARIABLE, "")
+    return min(int(setting), MOST) if setting.isdecimal() and int(setting) > 0 else usable_cores()
 
 
 def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> list[Any]:  # noqa: ANN401 - hands on
@@ -43,8 +43,8 @@ def in_threads(kernel: Callable[..., Any], *arguments: Any, threads: int) -> lis
 def together(*works: Callable[[], Any], threads: int) -> list[Any]:
     """Run several tasks at once, on this thread and `threads` - 1 others, and return their results in order.
 
-    A task may share out parts of its own: whatever no thread has begun yet is done by the one that waits for it. So
-    there are never more threads than allowed, however deeply tasks are nested, and none waits for one that is waiting.
+    A task may share out parts of its own: a part that has not begun yet is done by the thread that waits for it. So
+    there are never more threads than allowed, however deeply tasks are nested, and all waiting threads make progress.
 
     >>> together(lambda: 1, lambda: 2, threads=2)
     [1, 2]
@@ -54,13 +54,13 @@ def together(*works: Callable[[], Any], threads: int) -> list[Any]:
     pool = _pool(threads, os.getpid())
     handed = [pool.submit(work) for work in works[1:]]
     try:
-        done = [works[0]()]
+        results = [works[0]()]
         for work, future in zip(works[1:], handed, strict=True):
-            done.append(work() if future.cancel() else future.result())
+            results.append(work() if future.cancel() else future.result())
     finally:
-        for future in handed:  # after a failure or an interrupt, nobody begins what is left
+        for future in handed:  # after a failure or an interrupt, the remaining tasks do not begin
             future.cancel()
-    return done
+    return results
 
 
 @cache
@@ -71,7 +71,7 @@ def _pool(threads: int, process: int) -> ThreadPoolExecutor:  # noqa: ARG001 - a
 def in_order(work: Callable[[Item], Result], items: Iterable[Item], *, threads: int) -> Generator[tuple[Item, Result]]:
     """Yield each item with the result of its work; the next ones are worked on meanwhile.
 
-    Items are taken as they are needed, one more than there are threads, so that few are in memory at a time. An error
+    Items are taken as they are needed, one more than there are threads, so that memory holds only a few. An error
     of the work is raised where its result would be yielded. With one thread, work is done in order.
 
     Parameters
@@ -90,10 +90,10 @@ def in_order(work: Callable[[Item], Result], items: Iterable[Item], *, threads: 
             for item in items:
                 waiting.append((item, pool.submit(work, item)))
                 if len(waiting) > threads:
-                    done, result = waiting.popleft()
-                    yield done, result.result()
+                    next_item, result = waiting.popleft()
+                    yield next_item, result.result()
             while waiting:
-                done, result = waiting.popleft()
-                yield done, result.result()
+                next_item, result = waiting.popleft()
+                yield next_item, result.result()
         finally:
             pool.shutdown(wait=True, cancel_futures=True)

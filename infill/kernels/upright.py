@@ -1,6 +1,6 @@
-"""Where upright lines through the nodes of a square lattice cross triangles, line by line and from below.
+"""Crossings of triangles with upright lines through the nodes of a square lattice, line by line and from below.
 
-`count_crossings` tells how many crossings each line has, and `list_crossings` then lists them.
+`count_crossings` counts the crossings of each line, and `list_crossings` then lists them.
 """
 # mypy: disable-error-code="no-untyped-def"
 # ruff: noqa: ANN001, ANN201, ANN202
@@ -14,28 +14,28 @@ from infill.kernels.compiling import njit
 
 
 @njit(nogil=True, cache=True)
-def _range(nodes, face, axis, most):
+def _node_range(nodes, face, axis, node_count):
     """Return the first and last node of a lattice between the corners of a triangle, along an axis."""
     a, b, c = nodes[face[0], axis], nodes[face[1], axis], nodes[face[2], axis]
-    return max(math.ceil(min(a, b, c)), 0), min(math.floor(max(a, b, c)), most - 1)
+    return max(math.ceil(min(a, b, c)), 0), min(math.floor(max(a, b, c)), node_count - 1)
 
 
 @njit(nogil=True, cache=True)
-def _shares(nodes, face, i, j):
-    """Return twice the signed areas of the triangles that a node makes with the three sides, and their sum."""
+def _side_areas(nodes, face, i, j):
+    """Return twice the signed areas of the triangles between a node and the three sides, and their sum."""
     ax, ay = nodes[face[0], 0] - i, nodes[face[0], 1] - j
     bx, by = nodes[face[1], 0] - i, nodes[face[1], 1] - j
     cx, cy = nodes[face[2], 0] - i, nodes[face[2], 1] - j
-    first, second, third = bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
-    return first, second, third, first + second + third
+    area_a, second, third = bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx
+    return area_a, second, third, area_a + second + third
 
 
 @njit(nogil=True, cache=True)
-def _is_inside(first, second, third, area):
-    """Return whether a node lies within a triangle that has an area, or on its rim."""
+def _is_inside(area_a, area_b, area_c, area):
+    """Return True if a node lies within a triangle with an area, or on its rim."""
     if area > 0:
-        return first >= 0 and second >= 0 and third >= 0
-    return area < 0 and first <= 0 and second <= 0 and third <= 0
+        return area_a >= 0 and area_b >= 0 and area_c >= 0
+    return area < 0 and area_a <= 0 and area_b <= 0 and area_c <= 0
 
 
 @njit(nogil=True, cache=True)
@@ -50,17 +50,17 @@ def count_crossings(nodes, faces, nx, ny, counts):
     nx, ny : int
         Nodes of the lattice.
     counts : (nx * ny,) int64
-        What is counted is added to it.
+        The counts are added to it.
     """
     for face in faces:
-        low_i, high_i = _range(nodes, face, 0, nx)
+        low_i, high_i = _node_range(nodes, face, 0, nx)
         if low_i > high_i:
             continue
-        low_j, high_j = _range(nodes, face, 1, ny)
+        low_j, high_j = _node_range(nodes, face, 1, ny)
         for i in range(low_i, high_i + 1):
             for j in range(low_j, high_j + 1):
-                first, second, third, area = _shares(nodes, face, i, j)
-                if _is_inside(first, second, third, area):
+                area_a, area_b, area_c, area = _side_areas(nodes, face, i, j)
+                if _is_inside(area_a, area_b, area_c, area):
                     counts[i * ny + j] += 1
 
 
@@ -74,29 +74,29 @@ def list_crossings(nodes, heights, faces, nx, ny, ends, height, rising, owner):
         As for `count_crossings`.
     heights : (V,) float64, mm
     ends : (nx * ny,) int64
-        Where the list of each line begins; raised to where it ends.
+        Begin of the list of each line; raised to its end.
     height : (N,) float64, mm
         Of each crossing.
     rising : (N,) int64
         1 where a line that goes up enters what faces outwards, -1 where it leaves it.
-    owner : (N,) int64
+    1 where a line upwards enters an outward face, -1 where it leaves one.
         The face that is crossed.
     """
     for number in range(len(faces)):
         face = faces[number]
-        low_i, high_i = _range(nodes, face, 0, nx)
+        low_i, high_i = _node_range(nodes, face, 0, nx)
         if low_i > high_i:
             continue
-        low_j, high_j = _range(nodes, face, 1, ny)
+        low_j, high_j = _node_range(nodes, face, 1, ny)
         a, b, c = heights[face[0]], heights[face[1]], heights[face[2]]
         for i in range(low_i, high_i + 1):
             for j in range(low_j, high_j + 1):
-                first, second, third, area = _shares(nodes, face, i, j)
-                if not _is_inside(first, second, third, area):
+                area_a, area_b, area_c, area = _side_areas(nodes, face, i, j)
+                if not _is_inside(area_a, area_b, area_c, area):
                     continue
                 line = i * ny + j
                 place = ends[line]
-                height[place] = (first * a + second * b + third * c) / area
+                height[place] = (area_a * a + area_b * b + area_c * c) / area
                 rising[place] = 1 if area < 0 else -1
                 owner[place] = number
                 ends[line] = place + 1

@@ -19,18 +19,18 @@ from infill.surface import Surface
 
 CUT: Colour = (240, 160, 60)
 BEHIND: Colour = (196, 200, 206)
-ABOVE = math.radians(55)  # the elevation from which a level cut is looked at
+ABOVE = math.radians(55)  # the elevation of the view of a level cut
 THUMBNAIL = 256  # pixels
-ON = 1e-6  # of the size: what lies this near the plane of a cut was cut
-BEYOND = (-1.0, 1.0, -1.0)  # which side of a cut across x, y and z is shown
-# From where each is looked at: azimuth and elevation.
+ON = 1e-6  # of the size: points this close to the plane of a cut belong to the cut
+BEYOND = (-1.0, 1.0, -1.0)  # the visible side of a cut across x, y and z
+# Azimuth and elevation of each view.
 EYES = ((AZIMUTH + math.pi / 2, ELEVATION), (AZIMUTH, ELEVATION), (AZIMUTH, ABOVE))
 
 
 def cuts(
     surface: Surface, report: Mapping[str, Any], *, part: Surface | None = None, given: Sequence[Cut] = ()
 ) -> Image.Image:
-    """Return a closed surface without its front half, and without its upper half.
+    """Draw a closed surface without its front half, and without its upper half.
 
     Parameters
     ----------
@@ -38,11 +38,11 @@ def cuts(
     report : mapping
         See docs/report.md.
     part : Surface, optional
-        The same without its voids.
+        The same surface without its voids.
     given : sequence of Cut
-        Where it is cut; by default, or for an upright or a level cut that is missing, where its inside is seen best.
+        Cuts; by default, or for a missing upright or level cut, the one that shows the inside best.
     """
-    panels = {f"cut at {cut}": _half(surface, cut) for cut in choose_cuts(surface, part, given)}
+    panels = {f"cut at {cut}": _draw_half(surface, cut) for cut in choose_cuts(surface, part, given)}
     size = " x ".join(f"{length:.4g}" for length in report["extents"])
     request, voids = report["request"], report["voids"]
     facts = f"{size} mm, {request['pattern']}, {report['density']:.1%} solid inside walls of {request['wall']:g} mm"
@@ -50,23 +50,23 @@ def cuts(
 
 
 def thumbnail(surface: Surface, side: int = THUMBNAIL) -> bytes:
-    """Return a small PNG of a closed surface without its front half."""
+    """Render a small PNG of a closed surface without its front half."""
     with io.BytesIO() as file:
-        _half(surface, choose_cuts(surface)[0], side).save(file, format="PNG")
+        _draw_half(surface, choose_cuts(surface)[0], side).save(file, format="PNG")
         return file.getvalue()
 
 
-def _half(surface: Surface, cut: Cut, side: int = PANEL) -> Image.Image:
-    """Return what lies behind, or below, a cut."""
+def _draw_half(surface: Surface, cut: Cut, side: int = PANEL) -> Image.Image:
+    """Draw the part behind, or below, a cut."""
     solid, axis = solid_of(surface), cut.axis
     if status_of(solid) == FINE:
         normal = [0.0, 0.0, 0.0]
         normal[axis] = BEYOND[axis]
         surface = surface_from(solid.trim_by_plane(normal, normal[axis] * cut.at))
-    near = ON * float(np.ptp(surface.bounds, axis=0).max())
+    tolerance = ON * float(np.ptp(surface.bounds, axis=0).max())
 
     def paint(points: Floats) -> NDArray[np.number]:
-        return np.where((np.abs(points[:, axis] - cut.at) < near)[:, None], np.array(CUT), np.array(BEHIND))
+        return np.where((np.abs(points[:, axis] - cut.at) < tolerance)[:, None], np.array(CUT), np.array(BEHIND))
 
     azimuth, elevation = EYES[axis]
     pixels = render(

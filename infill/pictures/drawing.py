@@ -43,7 +43,7 @@ def write_drawing(pattern: Pattern, file: BinaryIO) -> None:
 
 
 def text_drawing(pattern: Pattern, *, braille: bool = True) -> str:
-    """Return the lines of a pattern as a square of text: braille dots, or larger, a # wherever there is a line."""
+    """Draw the lines of a pattern as a square of text: braille dots, or larger, a # for each cell with a line."""
     columns = BRAILLE_COLUMNS if braille else PLAIN_COLUMNS
     rows = columns // 2  # a character is about twice as high as wide
     across, down = (2, 4) if braille else (1, 1)
@@ -55,7 +55,7 @@ def text_drawing(pattern: Pattern, *, braille: bool = True) -> str:
 
 
 def _dots(lines: shapely.MultiLineString, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Return which dots [x from the left, y from the top] a line runs through."""
+    """Return True for dots [x from the left, y from the top] on a line."""
     points = sample(lines, SIZE / max(shape) / 2)
     place = ((points * (1, -1) / SIZE + 0.5) * shape).astype(int).clip(0, np.array(shape) - 1)
     dots = np.zeros(shape, dtype=bool)

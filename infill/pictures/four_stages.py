@@ -25,7 +25,7 @@ def four_stages(
     surface: Surface,
     report: Mapping[str, Any],
 ) -> Image.Image:
-    """Return the stages of a block as one picture.
+    """Draw the stages of a block as one picture.
 
     Parameters
     ----------
@@ -41,9 +41,9 @@ def four_stages(
     """
     request, width = report["request"], report["wall_width"]
     panels = {
-        f"points: {len(points):,}": _points(points, grid),
-        f"stamp: {' x '.join(map(str, grid.shape))} cells": _field(stamp),
-        f"smoothed: {request['steps']} steps": _contoured(smoothed),
+        f"points: {len(points):,}": _draw_points(points, grid),
+        f"stamp: {' x '.join(map(str, grid.shape))} cells": _draw_field(stamp),
+        f"smoothed: {request['steps']} steps": _draw_contours(smoothed),
         f"mesh: {report['triangles']:,} triangles": mesh_panel(surface),
     }
     size = " x ".join(f"{length:g}" for length in (*request["size"], request["height"]))
@@ -55,14 +55,14 @@ def four_stages(
     return sheet(panels, facts)
 
 
-def _frame(shape: tuple[int, ...]) -> tuple[int, int]:
+def _panel_size(shape: tuple[int, ...]) -> tuple[int, int]:
     """Return the size in pixels of a panel for a field of `shape` [x, y]."""
     scale = PANEL / max(shape)
     return max(1, round(shape[0] * scale)), max(1, round(shape[1] * scale))
 
 
-def _points(points: NDArray[np.float64], grid: Grid) -> Image.Image:
-    columns, rows = _frame(grid.shape)
+def _draw_points(points: NDArray[np.float64], grid: Grid) -> Image.Image:
+    columns, rows = _panel_size(grid.shape)
     part = (points - grid.origin) / np.array(grid.extents)
     hit = np.zeros((rows, columns), dtype=bool)
     hit[
@@ -71,19 +71,19 @@ def _points(points: NDArray[np.float64], grid: Grid) -> Image.Image:
     return Image.fromarray(np.where(hit[..., None], np.array(INK), np.array(VOID_COLOUR)).astype(np.uint8))
 
 
-def _field(layer: NDArray[np.floating]) -> Image.Image:
+def _draw_field(layer: NDArray[np.floating]) -> Image.Image:
     """Draw a field [x, y] with y upwards, from the colour of void at -1 to that of solid at +1."""
     part = ((layer.T[::-1] + 1) / 2).clip(0, 1)[..., None]
     shades = part * np.array(SOLID_COLOUR) + (1 - part) * np.array(VOID_COLOUR)
     picture = Image.fromarray(shades.astype(np.uint8))
-    return picture.resize(_frame(layer.shape), Image.Resampling.BOX)
+    return picture.resize(_panel_size(layer.shape), Image.Resampling.BOX)
 
 
-def _contoured(layer: NDArray[np.floating]) -> Image.Image:
+def _draw_contours(layer: NDArray[np.floating]) -> Image.Image:
     """Draw a field and its zero contour."""
     from skimage.measure import find_contours
 
-    picture = _field(layer)
+    picture = _draw_field(layer)
     draw = ImageDraw.Draw(picture)
     scale = np.array(picture.size) / layer.shape
     for line in find_contours(np.pad(layer, 1, constant_values=VOID), 0.0):  # type: ignore[no-untyped-call]

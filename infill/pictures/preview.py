@@ -1,4 +1,4 @@
-"""Which files are pictures."""
+"""Formats of pictures."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SUFFIXES = (".png",)
 
 
 def is_picture(path: str | os.PathLike[str]) -> bool:
-    """Return whether a path names a picture format we can write.
+    """Return True if a path has the suffix of a picture format that can be written.
 
     >>> is_picture("block.PNG"), is_picture("block.stl")
     (True, False)
@@ -20,7 +20,7 @@ def is_picture(path: str | os.PathLike[str]) -> bool:
 
 
 def check_preview(path: str | os.PathLike[str]) -> Path:
-    """Return the path, or raise FormatError if it does not name a picture format we can write."""
+    """Return the path; raise FormatError if it does not have the suffix of a picture format that can be written."""
     target = Path(path)
     if not is_picture(target):
         raise FormatError(f"a preview cannot be written as {target.name!r}; use a name that ends in {SUFFIXES[0]}")

@@ -40,7 +40,7 @@ def render(
     window: Window | None = None,
     paint: Paint | None = None,
 ) -> Pixels:
-    """Return a picture of `surface`: (height, width, 3) uint8.
+    """Render a picture of `surface`: (height, width, 3) uint8.
 
     Parameters
     ----------
@@ -53,13 +53,13 @@ def render(
     colour, background : (red, green, blue)
         From 0 to 255.
     window : (left, right, bottom, top), optional
-        What the frame shows, in units of the mesh along the first two of `directions`; by default the mesh is fitted to
+        Extent of the frame, in units of the mesh along the first two of `directions`; by default the mesh is fitted to
         the frame. One window for several meshes shows them at one scale and in one place.
     paint : callable, optional
-        Returns the colour of places of the surface that are seen, (N, 3) for (N, 3); by default all have `colour`.
+        Returns the colour of visible points of the surface, (N, 3) for (N, 3); by default all have `colour`.
     """
     frame = _Frame.of(surface, (width * SAMPLES, height * SAMPLES), (azimuth, elevation), window)
-    shade, depth = _drawn(surface, frame)
+    shade, depth = _draw_triangles(surface, frame)
     lit = (shade >= 0).astype(np.float64)[:, None]
     if paint is None:
         colours = np.maximum(shade, 0)[:, None]
@@ -68,7 +68,8 @@ def render(
         colours = np.zeros((len(shade), 3), dtype=np.float32)
         colours[hit] = paint(frame.points(hit, depth[hit])) * shade[hit, None]
     covered, mean = (
-        each.reshape(height, SAMPLES, width, SAMPLES, each.shape[1]).mean(axis=(1, 3)) for each in (lit, colours)
+        samples.reshape(height, SAMPLES, width, SAMPLES, samples.shape[1]).mean(axis=(1, 3))
+        for samples in (lit, colours)
     )
     mixed = mean * (1.0 if paint is not None else np.array(colour)) + (1 - covered) * np.array(background)
     rounded: Pixels = mixed.clip(0, 255).astype(np.uint8)
@@ -77,7 +78,7 @@ def render(
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class _Frame:
-    """Where points of space lie in a picture.
+    """Map between points of space and pixels of a picture.
 
     Parameters
     ----------
@@ -85,7 +86,7 @@ class _Frame:
     axes : (3, 3) float64
         Directions in which columns, rows and nearness grow, one a column.
     middle : (3,) float64
-        What lies in the middle of the picture, along these.
+        Point at the middle of the picture, along these.
     scale : float
         Columns for a unit of the mesh.
     """
@@ -119,7 +120,7 @@ class _Frame:
         return moved
 
     def points(self, pixel: NDArray[np.integer], nearness: NDArray[np.floating]) -> Floats:
-        """Return the points that lie in the middle of pixels, at some nearness: the way back from `place`."""
+        """Return the points at the middle of pixels, at some nearness: the inverse of `place`."""
         row, column = np.divmod(pixel, self.columns)
         moved = np.column_stack([column + 0.5 - self.columns / 2, row + 0.5 - self.rows / 2, nearness])
         moved[:, :2] /= self.scale
@@ -127,8 +128,8 @@ class _Frame:
         return back
 
 
-def _drawn(surface: Surface, frame: _Frame) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Return how bright every pixel is, -1 where there is nothing, and how near, (rows * columns,) each."""
+def _draw_triangles(surface: Surface, frame: _Frame) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Return brightness of every pixel, -1 in the background, and nearness, (rows * columns,) each."""
     right, down, eye = frame.axes.T
     at = frame.place(surface.vertices)
     corners = at[:, :2][surface.faces].astype(np.float32)
@@ -149,11 +150,11 @@ def _drawn(surface: Surface, frame: _Frame) -> tuple[NDArray[np.float32], NDArra
     shade = (AMBIENT + (1 - AMBIENT) * lit).astype(np.float32)
     picture = np.full(frame.rows * frame.columns, -1.0, dtype=np.float32)
     depth = np.full(frame.rows * frame.columns, -np.inf, dtype=np.float32)
-    for pixel, near, face in _fragments(corners[front], nearness[front], frame.columns, frame.rows):
-        order = np.argsort(near, kind="stable")  # of several writes to one pixel, the last one, the nearest, remains
-        pixel, near, face = pixel[order], near[order], face[order]
-        nearer = near > depth[pixel]
-        depth[pixel[nearer]] = near[nearer]
+    for pixel, depths, face in _rasterise(corners[front], nearness[front], frame.columns, frame.rows):
+        order = np.argsort(depths, kind="stable")  # the last write to a pixel, the nearest, remains
+        pixel, depths, face = pixel[order], depths[order], face[order]
+        nearer = depths > depth[pixel]
+        depth[pixel[nearer]] = depths[nearer]
         picture[pixel[nearer]] = shade[face[nearer]]
     return picture, depth
 
@@ -171,29 +172,29 @@ def directions(azimuth: float, elevation: float) -> NDArray[np.float64]:
     return np.stack([right, np.cross(eye, right), eye])
 
 
-def _fragments(
+def _rasterise(
     corners: NDArray[np.float32], nearness: NDArray[np.float32], columns: int, rows: int
 ) -> Iterator[tuple[NDArray[np.int64], NDArray[np.float32], NDArray[np.int64]]]:
     """Yield (pixel, nearness, face) of the pixel centres inside the triangles, some triangles at a time."""
     limit = np.array([columns, rows])
-    first = np.ceil(corners.min(axis=1) - 0.5).astype(np.int64).clip(0, limit)
-    last = np.floor(corners.max(axis=1) - 0.5).astype(np.int64).clip(-1, limit - 1)
-    across = (last - first + 1).clip(0)
+    low = np.ceil(corners.min(axis=1) - 0.5).astype(np.int64).clip(0, limit)
+    high = np.floor(corners.max(axis=1) - 0.5).astype(np.int64).clip(-1, limit - 1)
+    across = (high - low + 1).clip(0)
     counts = across[:, 0] * across[:, 1]
     for face, place in spread(counts, FRAGMENTS_AT_ONCE):
         row, column = np.divmod(place, across[face, 0])
-        column, row = column + first[face, 0], row + first[face, 1]
+        column, row = column + low[face, 0], row + low[face, 1]
         x, y = column + np.float32(0.5), row + np.float32(0.5)
         (ax, ay), (bx, by), (cx, cy) = (corners[face, i].T for i in range(3))
-        whole = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-        whole = np.where(whole == 0, np.float32(np.inf), whole)
-        v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / whole
-        w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / whole
+        twice_area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        twice_area = np.where(twice_area == 0, np.float32(np.inf), twice_area)
+        v = ((x - ax) * (cy - ay) - (y - ay) * (cx - ax)) / twice_area
+        w = ((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / twice_area
         inside = (v >= 0) & (w >= 0) & (v + w <= 1)
         face, v, w = face[inside], v[inside], w[inside]
-        near = (
+        depths = (
             nearness[face, 0]
             + v * (nearness[face, 1] - nearness[face, 0])
             + w * (nearness[face, 2] - nearness[face, 0])
         )
-        yield (row[inside] * columns + column[inside]), near, face
+        yield (row[inside] * columns + column[inside]), depths, face

@@ -1,4 +1,4 @@
-"""Where a solid is cut open for a picture: at a plane that shows most of what is inside, or where it was asked for."""
+"""Cuts of a solid for a picture: at a plane that shows most of its inside, or as requested."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 AXES = "xyz"
 TYPED = r"\s*([xyz])\s*=\s*([+-]?(?:\d+\.?\d*(?:e[+-]?\d+)?|\.\d+|nan|inf))\s*(?:mm)?\s*"
-MIDDLE, PLANES = (0.3, 0.7), 25  # of a side: between these, so many planes are tried
-AS_GOOD = 0.95  # of the best: of such planes, one in the middle of those beside one another is taken
-USUAL = 0.9  # of what a cut across x shows: one across y that shows this much is taken, as it is seen from the front
+MIDDLE, PLANES = (0.3, 0.7), 25  # of a side: planes are tried in this range, and their number
+AS_GOOD = 0.95  # of the best: of such planes, one in the middle of a run is taken
+USUAL = 0.9  # of a cut across x: a cut across y that shows this much is taken, as it is seen from the front
 # The plane of a cut lies this far, of a side, from a round number, where faces of parts and walls often lie.
 ASIDE = 1e-4
 
@@ -41,7 +41,7 @@ class Cut:
     at: float
 
     def __str__(self) -> str:
-        """Return it as it is typed.
+        """Return the cut in the notation of the command line.
 
         >>> str(Cut(axis=2, at=10.0))
         'z = 10 mm'
@@ -50,21 +50,21 @@ class Cut:
 
 
 def parse_cut(text: str) -> Cut:
-    """Return the cut in ``z=10``; raise UsageError, or ParameterError if it is nowhere.
+    """Parse the cut in ``z=10``; raise UsageError, or ParameterError if it is not finite.
 
     >>> parse_cut("z=10")
     Cut(axis=2, at=10.0)
     """
-    found = re.fullmatch(TYPED, text.lower())
-    if not found:
+    match = re.fullmatch(TYPED, text.lower())
+    if not match:
         raise UsageError(f"cut is {text!r}; give x, y or z and a place in mm, such as z=10")
-    if not math.isfinite(float(found[2])):
-        raise ParameterError(f"cut is {text!r}; give a place in mm, such as {found[1]}=10")
-    return Cut(axis=AXES.index(found[1]), at=float(found[2]))
+    if not math.isfinite(float(match[2])):
+        raise ParameterError(f"cut is {text!r}; give a place in mm, such as {match[1]}=10")
+    return Cut(axis=AXES.index(match[1]), at=float(match[2]))
 
 
 def check_cuts(cuts: Sequence[Cut], bounds: NDArray[np.floating]) -> None:
-    """Raise ParameterError if a cut does not pass through a part with such bounds (2, 3), mm."""
+    """Raise ParameterError if a cut misses a part with these bounds (2, 3), mm."""
     for cut in cuts:
         low, high = np.asarray(bounds, dtype=np.float64)[:, cut.axis].tolist()
         if not low < cut.at < high:
@@ -82,71 +82,71 @@ def choose_cuts(surface: Surface, part: Surface | None = None, given: Sequence[C
     ----------
     surface : Surface, mm
     part : Surface, optional
-        The same without its voids; the hull of each section by default.
+        The same surface without its voids; the hull of each section by default.
     given : sequence of Cut
 
     Notes
     -----
-    A section shows the squared area of its voids, times the root of how much longer its outline is for them: nothing of
-    a plane along a wall, little of one that grazes walls, and not the most of one between two walls that meets none.
+    A section is rated by the squared area of its voids, times the root of their additional outline: a plane along a
+    wall gets nothing, one that grazes walls little, and one between two walls that meets none not the most.
     """
     solid = solid_of(surface)
     outer = None if part is None else solid_of(part)
     if status_of(solid) != FINE or (outer is not None and status_of(outer) != FINE):
         middle = surface.bounds.mean(axis=0).tolist()
         upright, level = Cut(axis=1, at=middle[1]), Cut(axis=2, at=middle[2])
-        return [*_upright(given, [upright]), *_level(given, [level])]
+        return [*_upright_cuts(given, [upright]), *_level_cuts(given, [level])]
     chosen = list(given)
     if not any(cut.axis < 2 for cut in given):
-        across_y, shown = _best(surface, solid, outer, 1)
-        across_x, more = _best(surface, solid, outer, 0)
+        across_y, shown = _find_best_cut(surface, solid, outer, 1)
+        across_x, more = _find_best_cut(surface, solid, outer, 0)
         chosen.insert(0, across_y if shown >= USUAL * more else across_x)
     if not any(cut.axis == 2 for cut in given):
-        chosen.append(_best(surface, solid, outer, 2)[0])
+        chosen.append(_find_best_cut(surface, solid, outer, 2)[0])
     return chosen
 
 
-def _upright(given: Sequence[Cut], usual: list[Cut]) -> list[Cut]:
+def _upright_cuts(given: Sequence[Cut], usual: list[Cut]) -> list[Cut]:
     return [cut for cut in given if cut.axis < 2] or usual
 
 
-def _level(given: Sequence[Cut], usual: list[Cut]) -> list[Cut]:
+def _level_cuts(given: Sequence[Cut], usual: list[Cut]) -> list[Cut]:
     return [cut for cut in given if cut.axis == 2] or usual
 
 
-def _best(
+def _find_best_cut(
     surface: Surface, solid: manifold3d.Manifold, outer: manifold3d.Manifold | None, axis: int
 ) -> tuple[Cut, float]:
-    """Return the cut across an axis that shows most, and how much that is."""
-    low, high = (float(each) for each in surface.bounds[:, axis])
+    """Return the cut across an axis with the best rating, and the rating."""
+    low, high = (float(value) for value in surface.bounds[:, axis])
     shares = np.linspace(*MIDDLE, PLANES) + ASIDE
     places = low + shares * (high - low)
-    turned = [_turned_up(each, axis) for each in (solid, outer) if each is not None]
-    shown = np.array([_shown(turned, place) for place in places.tolist()])
+    turned = [_turn_up(value, axis) for value in (solid, outer) if value is not None]
+    shown = np.array([_rate_section(turned, place) for place in places.tolist()])
     good = np.flatnonzero(shown >= AS_GOOD * shown.max())
-    # Half way between two walls, as beside one there is a wall right behind the cut.
+    # Halfway between two walls: beside a wall, another one would be right behind the cut.
     runs = np.split(good, np.flatnonzero(np.diff(good) > 1) + 1)
     middles = [int(run[len(run) // 2]) for run in runs]
-    nearest = min(middles, key=lambda each: abs(each - PLANES // 2))
+    nearest = min(middles, key=lambda value: abs(value - PLANES // 2))
     return Cut(axis=axis, at=float(places[nearest])), float(shown[nearest])
 
 
-def _turned_up(solid: manifold3d.Manifold, axis: int) -> manifold3d.Manifold:
-    """Return a solid turned so that an axis is z."""
+def _turn_up(solid: manifold3d.Manifold, axis: int) -> manifold3d.Manifold:
+    """Turn a solid so that an axis becomes z."""
     turned = np.zeros((3, 4))
     turned[[0, 1, 2], [(axis + 1) % 3, (axis + 2) % 3, axis]] = 1
     return solid.transform(turned)
 
 
-def _shown(solids: list[manifold3d.Manifold], height: float) -> float:
-    """Return how much of the inside of a solid is seen at a height; 0 if nothing is."""
+def _rate_section(solids: list[manifold3d.Manifold], height: float) -> float:
+    """Rate the visible inside of a solid at a height; 0 if there is none."""
     section = solids[0].slice(height)
-    whole = solids[1].slice(height) if len(solids) > 1 else section.hull()
-    longer = _outline(section) - _outline(whole)
-    return float(max(0.0, whole.area() - section.area()) ** 2 * math.sqrt(max(0.0, longer)))
+    outer_section = solids[1].slice(height) if len(solids) > 1 else section.hull()
+    added_outline = _outline_length(section) - _outline_length(outer_section)
+    return float(max(0.0, outer_section.area() - section.area()) ** 2 * math.sqrt(max(0.0, added_outline)))
 
 
-def _outline(section: manifold3d.CrossSection) -> float:
-    """Return how long the outline of a section is, mm."""
+def _outline_length(section: manifold3d.CrossSection) -> float:
+    """Return the length of the outline of a section, mm."""
     rings = section.to_polygons()
     return float(sum(np.linalg.norm(np.roll(ring, 1, axis=0) - ring, axis=1).sum() for ring in rings))

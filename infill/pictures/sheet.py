@@ -19,7 +19,7 @@ Legend = Sequence[tuple[Colour | None, str]]
 
 
 def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) -> Image.Image:
-    """Return panels by their captions, a line of facts, and a line of what the colours mean.
+    """Arrange panels by their captions, with a line of facts, and a legend of colours.
 
     Parameters
     ----------
@@ -27,15 +27,15 @@ def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) ->
         Of at most `PANEL` pixels each way.
     facts : str
     legend : sequence of (colour, str)
-        Words, each behind a patch of its colour unless that is None.
+        Words, each next to a patch of its colour unless that is None.
     """
     width = len(panels) * (PANEL + MARGIN) + MARGIN
-    whole = Image.new("RGB", (width, PANEL + 2 * CAPTION + MARGIN + (LINE if legend else 0)), BACKGROUND)
-    draw, font = ImageDraw.Draw(whole), ImageFont.load_default(16)
+    picture = Image.new("RGB", (width, PANEL + 2 * CAPTION + MARGIN + (LINE if legend else 0)), BACKGROUND)
+    draw, font = ImageDraw.Draw(picture), ImageFont.load_default(16)
     for i, (caption, panel) in enumerate(panels.items()):
-        left = MARGIN + i * (PANEL + MARGIN)
-        draw.text((left, 10), caption, fill=INK, font=font)
-        whole.paste(panel, (left + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
+        x_offset = MARGIN + i * (PANEL + MARGIN)
+        draw.text((x_offset, 10), caption, fill=INK, font=font)
+        picture.paste(panel, (x_offset + (PANEL - panel.width) // 2, CAPTION + (PANEL - panel.height) // 2))
     draw.text((MARGIN, CAPTION + PANEL + 10), facts, fill=INK, font=font)
     x, top = float(MARGIN), CAPTION + PANEL + 10 + LINE
     for colour, words in legend:
@@ -44,9 +44,9 @@ def sheet(panels: Mapping[str, Image.Image], facts: str, legend: Legend = ()) ->
             x += SWATCH + 8
         draw.text((x, top), words, fill=INK, font=font)
         x += draw.textlength(words, font=font) + 2 * MARGIN
-    return whole
+    return picture
 
 
 def mesh_panel(surface: Surface) -> Image.Image:
-    """Return a mesh as one panel."""
+    """Draw a mesh as one panel."""
     return Image.fromarray(render(surface, width=PANEL, height=PANEL, background=BACKGROUND))

@@ -1,4 +1,4 @@
-"""A layer of a print from above, every line in the colour of its speed; several beside each other in one scale."""
+"""A layer of a print from above, every line in the colour of its speed; several side by side in one scale."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ def write_speeds(layers: Mapping[str, LayerSpeeds], file: BinaryIO) -> None:
     draw = ImageDraw.Draw(sheet)
     font = ImageFont.load_default(size=14)
     for number, (caption, layer) in enumerate(layers.items()):
-        left = MARGIN + number * (PANEL + MARGIN)
-        draw.text((left, MARGIN), caption, fill=INK, font=font)
-        sheet.paste(_panel(layer, low, float((high - low).max()) or 1.0, top), (left, MARGIN + CAPTION))
-    _bar(sheet, draw, font, top)
+        x = MARGIN + number * (PANEL + MARGIN)
+        draw.text((x, MARGIN), caption, fill=INK, font=font)
+        sheet.paste(_draw_panel(layer, low, float((high - low).max()) or 1.0, top), (x, MARGIN + CAPTION))
+    _draw_scale(sheet, draw, font, top)
     sheet.save(file, format="PNG", optimize=True)
 
 
-def _panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
+def _draw_panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: float) -> Image.Image:
     size = PANEL * SUPERSAMPLING
     scale = (size - 2 * SUPERSAMPLING) / extent
     picture = Image.new("RGB", (size, size), PAPER)
@@ -66,7 +66,7 @@ def _panel(layer: LayerSpeeds, low: NDArray[np.floating], extent: float, top: fl
     return picture.resize((PANEL, PANEL), Image.Resampling.BOX)
 
 
-def _bar(
+def _draw_scale(
     sheet: Image.Image, draw: ImageDraw.ImageDraw, font: ImageFont.ImageFont | ImageFont.FreeTypeFont, top: float
 ) -> None:
     """Draw the scale of colours below the panels."""

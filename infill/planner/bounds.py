@@ -1,4 +1,4 @@
-"""Moves and what the limits of a machine leave of them: length, direction, top speed, acceleration."""
+"""Moves within the limits of a machine: length, direction, top speed, acceleration."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from infill.gcode.limits import Limits
 
 Floats = NDArray[np.float64]
-SLOWEST = 0.01  # mm/s: what a feed rate of zero is taken for
-UNSAID = 25.0  # mm/s: that of Marlin and Klipper before a file has said one
+SLOWEST = 0.01  # mm/s: replaces a feed rate of zero
+UNSAID = 25.0  # mm/s: that of Marlin and Klipper before a file states one
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,11 +22,11 @@ class Moves:
     Parameters
     ----------
     delta : (N, 4) float64
-        How far each goes in x, y, z, and how much filament it pushes, mm. None may be zero throughout.
+        Travel in x, y, z, and filament pushed, mm. Rows of zeros are invalid.
     feedrate : (N,) float64
-        mm/s asked for: along x, y, z, or of the filament where nothing else moves. NaN if none was asked for yet.
+        Requested mm/s: along x, y, z, or of the filament where nothing else moves. NaN before the first request.
     setting : (N,) int
-        Which of several `Limits` holds.
+        Index of the `Limits` in force.
     stop : (N,) bool
         The machine stands still before the move, as it does to dwell.
     """
@@ -42,14 +42,14 @@ class Moves:
 
 @dataclass(frozen=True, kw_only=True)
 class Bounded:
-    """Moves as the machine may make them.
+    """Moves within the limits of the machine.
 
     Parameters
     ----------
     distance : (N,) float64
         mm, along x, y, z, or of filament where nothing else moves.
     direction : (N, 4) float64
-        What a mm of the distance is in x, y, z and e.
+        Change of x, y, z and e per mm of the distance.
     turning_only : (N,) bool
         Only the extruder moves.
     speed, acceleration : (N,) float64
@@ -64,18 +64,18 @@ class Bounded:
 
     @property
     def reach(self) -> Floats:
-        """By how much a move can change the square of the speed: 2 a d, mm²/s²."""
+        """Largest possible change of the squared speed along each move: 2 a d, mm²/s²."""
         return 2 * self.acceleration * self.distance
 
 
 def values(limits: Sequence[Limits], name: str, setting: NDArray[np.intp]) -> Floats:
-    """Return one of the limits for every move, (N,) or (N, 4); (1,) or (1, 4) where it never changes."""
-    table = np.array([getattr(each, name) for each in limits], dtype=np.float64)
+    """Return one of the limits for every move, (N,) or (N, 4); (1,) or (1, 4) if it is constant."""
+    table = np.array([getattr(setting_limits, name) for setting_limits in limits], dtype=np.float64)
     return table[:1] if (table == table[:1]).all() else table[setting]
 
 
 def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
-    """Return moves within the limits of speed and acceleration, of the path and of every axis."""
+    """Limit moves to the speed and acceleration of the path and of every axis."""
     delta = moves.delta
     travelled = np.sqrt(np.einsum("ij,ij->i", delta[:, :3], delta[:, :3]))
     pushed = delta[:, 3]
@@ -96,17 +96,17 @@ def bounded(moves: Moves, limits: Sequence[Limits]) -> Bounded:
         share[:, :2] = 0.0
         share[pushed > 0, 3] *= turning_only[pushed > 0]
         speed = np.where(turning_only, speed, np.minimum(speed, limit("feedrate")[:, :2].min(axis=1)))
-    speed = _on_axes(speed, limit("feedrate"), share)
-    acceleration = _on_axes(acceleration, limit("axis_acceleration"), share)
+    speed = _limit_by_axes(speed, limit("feedrate"), share)
+    acceleration = _limit_by_axes(acceleration, limit("axis_acceleration"), share)
     return Bounded(
         distance=distance, direction=direction, turning_only=turning_only, speed=speed, acceleration=acceleration
     )
 
 
-def _on_axes(asked: Floats, limit: Floats, share: Floats) -> Floats:
-    """Return what is asked for along moves, (N,), or less where it breaks the limit of an axis that has a share."""
+def _limit_by_axes(requested: Floats, limit: Floats, share: Floats) -> Floats:
+    """Return the requested values along moves, (N,), reduced to the limits of all axes that take part."""
     with np.errstate(divide="ignore"):
         for axis in range(4):  # NumPy is slow along the short axis of an array
             if not np.isinf(limit[:, axis]).all():
-                asked = np.minimum(asked, limit[:, axis] / share[:, axis])
-    return asked
+                requested = np.minimum(requested, limit[:, axis] / share[:, axis])
+    return requested

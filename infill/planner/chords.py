@@ -1,4 +1,4 @@
-"""Arcs as firmware drives them: chords of one millimetre, or fewer degrees where the arc is small."""
+"""Arcs as firmware drives them: chords of one millimetre, or of fewer degrees where the arc is small."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PLANES = {17: [0, 1, 2], 18: [2, 0, 1], 19: [1, 2, 0]}  # the axes of the plane 
 def arc_chords(
     table: Table, arcs: NDArray[np.intp], start: Floats, end: Floats
 ) -> tuple[NDArray[np.intp], Floats, Floats]:
-    """Cut arcs of a table into chords, in whichever plane they lie, by their centre or by their radius.
+    """Cut arcs of a table into chords, in any plane, by their centre or by their radius.
 
     Parameters
     ----------
@@ -33,39 +33,41 @@ def arc_chords(
     -------
     arc, first : as by `chords`
     way : (M, 3) float64
-        From there to its end, as long as the arc that the chord stands for, mm.
+        From the begin to the end of each chord, stretched to the length of its arc, mm.
     """
     words = [table.further.get(line, {}) for line in arcs.tolist()] if table.further else [{}] * len(arcs)
-    offset = np.nan_to_num(np.column_stack([table.i[arcs], table.j[arcs], [each.get("K", 0.0) for each in words]]))
-    radius = np.array([each.get("R", np.nan) for each in words])
-    turns = np.maximum(np.array([each.get("P", 1.0) for each in words]), 1.0)
+    offset = np.nan_to_num(
+        np.column_stack([table.i[arcs], table.j[arcs], [arc_words.get("K", 0.0) for arc_words in words]])
+    )
+    radius = np.array([arc_words.get("R", np.nan) for arc_words in words])
+    turns = np.maximum(np.array([arc_words.get("P", 1.0) for arc_words in words]), 1.0)
     clockwise = table.code[arcs] == 2
-    found = []
+    parts = []
     for plane in np.unique(table.plane[arcs]).tolist():
-        some, axes = np.flatnonzero(table.plane[arcs] == plane), PLANES[plane]
-        here, there = start[some][:, axes], end[some][:, axes]
-        centre = here[:, :2] + offset[some][:, axes[:2]]
-        by_radius = ~np.isnan(radius[some])
-        centre[by_radius] = _centre(here, there, radius[some], clockwise[some])[by_radius]
-        which, first, last = chords(here, there, centre, clockwise[some], np.floor(turns[some]))
+        selected, axes = np.flatnonzero(table.plane[arcs] == plane), PLANES[plane]
+        begin, finish = start[selected][:, axes], end[selected][:, axes]
+        centre = begin[:, :2] + offset[selected][:, axes[:2]]
+        by_radius = ~np.isnan(radius[selected])
+        centre[by_radius] = _centres_by_radius(begin, finish, radius[selected], clockwise[selected])[by_radius]
+        which, first, chord_end = chords(begin, finish, centre, clockwise[selected], np.floor(turns[selected]))
         back = np.argsort(axes)
-        way = (last - first) * _longer(last - first, np.hypot(*(here[:, :2] - centre).T)[which])[:, None]
-        found.append((some[which], first[:, back], way[:, back]))
-    which, first, way = (np.concatenate(each) for each in zip(*found, strict=True))
+        way = (chord_end - first) * _arc_ratio(chord_end - first, np.hypot(*(begin[:, :2] - centre).T)[which])[:, None]
+        parts.append((selected[which], first[:, back], way[:, back]))
+    which, first, way = (np.concatenate(arc_words) for arc_words in zip(*parts, strict=True))
     order = np.argsort(which, kind="stable")
     return which[order], first[order], way[order]
 
 
-def _longer(chord: Floats, radius: Floats) -> Floats:
-    """Return how much longer the arc of each chord is; 1 for chords that are no fine part of their circle."""
-    half = np.hypot(*chord[:, :2].T) / np.maximum(2 * radius, 1e-300)
+def _arc_ratio(chord_vector: Floats, radius: Floats) -> Floats:
+    """Return the ratio of arc to chord length; 1 for chords that are large compared with their circle."""
+    half = np.hypot(*chord_vector[:, :2].T) / np.maximum(2 * radius, 1e-300)
     fine = (half > 1e-9) & (half < COARSE)
     half = np.where(fine, half, 0.5)
     return np.where(fine, np.arcsin(half) / half, 1.0)
 
 
-def _centre(start: Floats, end: Floats, radius: Floats, clockwise: NDArray[np.bool_]) -> Floats:
-    """Return the centres of arcs of a radius, (N, 2); where it is below 0, the arc is more than half a circle."""
+def _centres_by_radius(start: Floats, end: Floats, radius: Floats, clockwise: NDArray[np.bool_]) -> Floats:
+    """Return the centres of arcs with these radii, (N, 2); a negative radius is an arc of more than half a circle."""
     way = (end - start)[:, :2]
     chord = np.hypot(*way.T)
     height = np.sqrt(np.maximum(np.nan_to_num(radius) ** 2 - (chord / 2) ** 2, 0.0))
@@ -82,18 +84,18 @@ def chords(
     Parameters
     ----------
     start, end : (N, 3) float64
-        mm; z rises evenly along the arc. Where x and y are the same, it is a whole circle.
+        mm; z rises evenly along the arc. Equal x and y mean a full circle.
     centre : (N, 2) float64
         mm
     clockwise : (N,) bool
         Seen from above: G2.
     turns : (N,) float64, optional
-        Whole circles and the rest, as P counts them: 1 and less are the arc alone.
+        Full circles and the rest, as P counts them: 1 and less mean the arc alone.
 
     Returns
     -------
     arc : (M,) int
-        Which arc a chord belongs to.
+        Index of the arc of each chord.
     first, last : (M, 3) float64
         Its ends; those of an arc are exactly `start` and `end`.
 
@@ -101,18 +103,18 @@ def chords(
     >>> len(arc), last[len(arc) // 2 - 1].round(3).tolist()
     (32, [1.0, 1.0, 0.0])
     """
-    away, until = start[:, :2] - centre, end[:, :2] - centre
-    radius = np.hypot(*away.T)
-    begin = np.arctan2(away[:, 1], away[:, 0])
-    turn = (np.arctan2(until[:, 1], until[:, 0]) - begin) % (2 * np.pi)
-    turn = np.where(turn < 1e-9, 2 * np.pi, turn)  # a whole circle, to the last digits of the file
+    start_offset, end_offset = start[:, :2] - centre, end[:, :2] - centre
+    radius = np.hypot(*start_offset.T)
+    begin = np.arctan2(start_offset[:, 1], start_offset[:, 0])
+    turn = (np.arctan2(end_offset[:, 1], end_offset[:, 0]) - begin) % (2 * np.pi)
+    turn = np.where(turn < 1e-9, 2 * np.pi, turn)  # a full circle, to the last digits of the file
     turn = np.where(clockwise & (turn < 2 * np.pi), turn - 2 * np.pi, np.where(clockwise, -turn, turn))
     if turns is not None:
         turn = turn + np.where(clockwise, -2 * np.pi, 2 * np.pi) * np.maximum(turns - 1, 0)
     length = np.abs(turn) * radius
     fine = np.minimum(np.abs(turn) * CIRCLE / (2 * np.pi), length / SHORTEST)
-    wanted = np.clip(np.ceil(np.maximum(length / LONGEST, fine) - 1e-9), 1, MOST_OF_ARC)
-    count = np.maximum(wanted * min(1.0, MOST / max(wanted.sum(), 1.0)), 1).astype(np.intp)
+    wanted_count = np.clip(np.ceil(np.maximum(length / LONGEST, fine) - 1e-9), 1, MOST_OF_ARC)
+    count = np.maximum(wanted_count * min(1.0, MOST / max(wanted_count.sum(), 1.0)), 1).astype(np.intp)
     arc = np.repeat(np.arange(len(count)), count)
     number = np.arange(len(arc)) - np.repeat(np.cumsum(count) - count, count)
 

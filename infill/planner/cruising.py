@@ -1,4 +1,4 @@
-"""Klipper's minimum cruise ratio: no move speeds up only to slow down at once.
+"""Klipper's minimum cruise ratio: moves must not speed up only to slow down at once.
 
 Klipper plans twice, the second time with accelerations lowered by the ratio r to a (1 - r). The slower profile rises
 and falls in humps; over each hump the true speed stays below the top of the slower one. Short moves back and forth are
@@ -16,22 +16,22 @@ ROUNDING = 1e-9  # of a profile: its sums are exact to 1e-14, and places in a fi
 
 
 def humps(eased: Floats, reach: Floats) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Return which moves do nothing but speed up in the slower profile, and which nothing but slow down.
+    """Find the moves that only speed up in the slower profile, and those that only slow down; return both masks.
 
     Parameters
     ----------
     eased : (N + 1,) float64
         The slower profile at the joints.
     reach : (N,) float64
-        By how much a move can change it.
+        Largest change of the profile along each move.
     """
     change = np.diff(eased)
-    least = reach - ROUNDING * (eased[:-1] + eased[1:])
-    return change >= least, -change >= least
+    full_change = reach - ROUNDING * (eased[:-1] + eased[1:])
+    return change >= full_change, -change >= full_change
 
 
 def tops(eased: Floats, reach: Floats, cruise: Floats) -> Floats:
-    """Return the top of the hump that each move belongs to, (N,).
+    """Return the top of the hump of each move, (N,).
 
     Parameters
     ----------
@@ -45,13 +45,13 @@ def tops(eased: Floats, reach: Floats, cruise: Floats) -> Floats:
     """
     rising, falling = humps(eased, reach)
     falling &= ~rising
-    own = np.minimum(cruise, (eased[:-1] + eased[1:] + reach) / 2)
-    number = np.arange(len(own))
-    ahead = np.minimum.accumulate(np.where(rising, len(own), number)[::-1])[::-1]  # the next that does not rise
-    behind = np.maximum.accumulate(np.where(falling, -1, number))  # the last that does not fall
-    at_next = np.minimum(ahead, len(own) - 1)
-    summit = (ahead == len(own)) | falling[at_next]  # from rise to fall without a move between: the joint is the top
-    up = np.where(summit, eased[ahead], own[at_next])
+    own_top = np.minimum(cruise, (eased[:-1] + eased[1:] + reach) / 2)
+    number = np.arange(len(own_top))
+    ahead = np.minimum.accumulate(np.where(rising, len(own_top), number)[::-1])[::-1]  # next move that does not rise
+    behind = np.maximum.accumulate(np.where(falling, -1, number))  # the last move that does not fall
+    at_next = np.minimum(ahead, len(own_top) - 1)
+    summit = (ahead == len(own_top)) | falling[at_next]  # from rise directly to fall: the joint is the top
+    up = np.where(summit, eased[ahead], own_top[at_next])
     at_last = np.maximum(behind, 0)
-    down = np.where((behind < 0) | rising[at_last], eased[behind + 1], own[at_last])
-    return np.where(rising, up, np.where(falling, down, own))
+    down = np.where((behind < 0) | rising[at_last], eased[behind + 1], own_top[at_last])
+    return np.where(rising, up, np.where(falling, down, own_top))

@@ -1,4 +1,4 @@
-"""How fast a planner lets the machine pass from one move to the next: four models, all joints at once.
+"""Highest speed from one move to the next: four models of a planner, all joints at once.
 
 A joint between moves of unit directions u and w turns by phi, with sin(phi / 2) = |w - u| / 2 and cos(phi / 2) =
 |w + u| / 2. These are exact for the smallest turns, where 1 - cos(phi) has lost every digit. Everything is a square of
@@ -24,7 +24,7 @@ SMALL_TURN = np.pi / 4  # where it turns less than this
 def joint_limits(moves: Moves, bounds: Bounded, limits: Sequence[Limits]) -> Floats:
     """Return the square of the highest speed before, between and after moves, (N + 1,), mm²/s².
 
-    At both ends the machine goes from and to rest. The speeds of the moves themselves are limits of the joints as well.
+    The machine starts and ends at rest. The speeds of the moves themselves limit the joints as well.
     """
 
     def limit(name: str) -> Floats:
@@ -40,8 +40,8 @@ def joint_limits(moves: Moves, bounds: Bounded, limits: Sequence[Limits]) -> Flo
     return joints
 
 
-def _at(limit: Floats, which: slice) -> Floats:
-    """Return the limits of some moves, of one that holds for all too."""
+def _select_limits(limit: Floats, which: slice) -> Floats:
+    """Select the limits of some moves, also of a limit that is the same for all."""
     return limit if len(limit) == 1 else limit[which]
 
 
@@ -71,7 +71,7 @@ def _square_corner(bounds: Bounded, limit: Limit) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         circle = cosine * (1 + cosine) / sine**2 * np.minimum(scaled[:-1], scaled[1:])
         midpoint = np.minimum(bounds.reach[:-1], bounds.reach[1:]) * cosine / (4 * sine)
-        filament = _at(limit("corner_extrusion_velocity"), AFTER) / np.abs(np.diff(bounds.direction[:, 3]))
+        filament = _select_limits(limit("corner_extrusion_velocity"), AFTER) / np.abs(np.diff(bounds.direction[:, 3]))
     joints = np.asarray(np.fmin(np.fmin(circle, midpoint), filament**2))
     joints[bounds.turning_only[:-1] | bounds.turning_only[1:]] = 0.0
     return joints
@@ -90,9 +90,9 @@ def _junction_deviation(bounds: Bounded, limit: Limit) -> Floats:
     acceleration = np.minimum(bounds.acceleration[:-1], bounds.acceleration[1:])
     with np.errstate(divide="ignore", invalid="ignore"):
         inwards /= 2 * sine[:, None]
-        axes = _at(limit("axis_acceleration"), AFTER) / inwards
+        axes = _select_limits(limit("axis_acceleration"), AFTER) / inwards
         acceleration = np.fmin(acceleration, np.nanmin(np.where(inwards > 0, axes, np.inf), axis=1))
-        circle = acceleration * _at(limit("junction_deviation"), AFTER) * cosine * (1 + cosine) / sine**2
+        circle = acceleration * _select_limits(limit("junction_deviation"), AFTER) * cosine * (1 + cosine) / sine**2
         turn = 2 * np.arctan2(sine, cosine)
         arc = np.where((length < SMALL_SEGMENT) & (turn < SMALL_TURN), length * acceleration / turn, np.inf)
     return np.asarray(np.fmin(np.fmin(circle, arc), np.inf))
@@ -101,55 +101,55 @@ def _junction_deviation(bounds: Bounded, limit: Limit) -> Floats:
 def _jerk(bounds: Bounded, limit: Limit) -> Floats:
     """Classic jerk: the velocity of no axis may jump by more than its jerk; a reversal counts its larger side.
 
-    The speed of the joint is the lower one of both moves, scaled down until every axis agrees; or that of a start from
-    rest, if both moves allow it. Two things are not symmetric, in firmware of this model and in the estimates of
-    slicers alike, and so here: the later move counts with its own speed when jumps are measured, not with the joint's,
-    and it is the later move's start from rest that is taken.
+    The speed of the joint is the lower one of both moves, scaled down until every axis agrees; or that of a start
+    from rest, if both moves allow it. Two things are asymmetric, in firmware of this model and in the estimates of
+    slicers, and so in this function: jumps are measured with the later move's own speed, not with that of the joint,
+    and the later move's start from rest counts.
     """
     slower = np.minimum(bounds.speed[:-1], bounds.speed[1:])
     leave = bounds.direction[:-1] * slower[:, None]
     enter = bounds.direction[1:] * bounds.speed[1:, None]
     jump = np.where(leave * enter > 0, np.abs(leave - enter), np.maximum(np.abs(leave), np.abs(enter)))
     with np.errstate(divide="ignore", invalid="ignore"):
-        factor = np.fmin((_at(limit("jerk"), AFTER) / jump).min(axis=1), 1.0)
+        factor = np.fmin((_select_limits(limit("jerk"), AFTER) / jump).min(axis=1), 1.0)
     joint = slower * factor
-    rest = _rest(bounds, limit)
+    rest = _rest_speed(bounds, limit)
     both = (rest[:-1] > 0.99 * joint) & (rest[1:] > 0.99 * joint)
     return np.asarray(np.where(both, np.minimum(rest[1:], slower), joint) ** 2)
 
 
-def _rest(bounds: Bounded, limit: Limit) -> NDArray[np.float64]:
-    """Return the speed from which the machine may stop at once, and to which it may start: the lowest jerk it meets."""
+def _rest_speed(bounds: Bounded, limit: Limit) -> NDArray[np.float64]:
+    """Return the speed at which the machine may stop or start at once: the smallest jerk of all axes involved."""
     jerk = limit("jerk")
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > jerk
     return np.asarray(np.minimum(bounds.speed, np.where(meets, jerk, np.inf).min(axis=1)))
 
 
 def _vector_jerk(bounds: Bounded, limit: Limit) -> Floats:
-    """Classic jerk of old: x and y jump together, as a vector, and every move counts with its own speed."""
+    """Old classic jerk: x and y jump together, as a vector, and every move counts with its own speed."""
     jump = np.abs(np.diff(bounds.direction * bounds.speed[:, None], axis=0))
     jump[:, 0] = np.hypot(jump[:, 0], jump[:, 1])
     with np.errstate(divide="ignore", invalid="ignore"):
-        factor = np.fmin((_at(limit("jerk"), AFTER) / jump)[:, [0, 2, 3]].min(axis=1), 1.0)
+        factor = np.fmin((_select_limits(limit("jerk"), AFTER) / jump)[:, [0, 2, 3]].min(axis=1), 1.0)
     return np.asarray(np.minimum(bounds.speed[:-1], bounds.speed[1:] * factor) ** 2)
 
 
-def _vector_rest(bounds: Bounded, limit: Limit) -> Floats:
-    """Return half the jerk of x and y, or less where half that of z or e is met."""
+def _vector_rest_speed(bounds: Bounded, limit: Limit) -> Floats:
+    """Return half the jerk of x and y, or less where half that of z or e is smaller."""
     half = limit("jerk") / 2
     meets = np.abs(bounds.direction) * bounds.speed[:, None] > half
     meets[:, :2] = [True, False]
     return np.asarray(np.minimum(bounds.speed, np.where(meets, half, np.inf).min(axis=1)))
 
 
-def _standstill(bounds: Bounded, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
+def _zero_speed(bounds: Bounded, limit: Limit) -> Floats:  # noqa: ARG001 - no limit matters
     return np.zeros(len(bounds.speed))
 
 
-# How fast joints may be passed, and how fast a move may start from rest and end there.
+# Highest speeds at joints, and at a start from rest or an end, by model.
 _MODELS: Final[dict[str, tuple[Callable[[Bounded, Limit], Floats], Callable[[Bounded, Limit], Floats]]]] = {
-    "jerk": (_jerk, _rest),
-    "vector-jerk": (_vector_jerk, _vector_rest),
-    "junction": (_junction_deviation, _standstill),
-    "klipper": (_square_corner, _standstill),
+    "jerk": (_jerk, _rest_speed),
+    "vector-jerk": (_vector_jerk, _vector_rest_speed),
+    "junction": (_junction_deviation, _zero_speed),
+    "klipper": (_square_corner, _zero_speed),
 }

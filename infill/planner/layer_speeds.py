@@ -1,4 +1,4 @@
-"""Where a printer is fast and where it brakes: the moves of one layer, cut into short pieces of known speed."""
+"""Fast and slow parts of a layer: its moves, cut into short pieces of known speed."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ class LayerSpeeds:
     speed : (N,) float64
         mm/s, in the middle of the piece.
     draws : (N,) bool
-        Filament is laid.
+        The piece lays filament.
     role : (N,) str
-        What the feature in force means.
+        Role of the feature in force.
     """
 
     start: Floats
@@ -52,7 +52,7 @@ def layer_speeds(
     plate: int | None = None,
     **given: Any,  # noqa: ANN401
 ) -> LayerSpeeds:
-    """Plan a file as `motion` does and return the moves of one layer.
+    """Plan a file as `motion` does; return the moves of one layer.
 
     Parameters
     ----------
@@ -60,30 +60,30 @@ def layer_speeds(
     layer : int
         Counted from 1.
     plate : int, optional
-        Which plate of an archive; without it, the first that has G-code.
+        Plate of an archive; by default the first that has G-code.
     **given
         As for `motion`.
 
     Raises
     ------
     FormatError
-        If the file is no G-code.
+        If the file is not G-code.
     ParameterError
-        If the file has no such layer, or no such plate.
+        If the file does not have this layer or plate.
     """
-    found = []
+    batches_of_pieces = []
     with opened(Path(path)) as file, timeline_of(file, file.part(plate), given_limits(**given)) as timeline:
         for steps, plan in timeline:
-            first, last = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
-            some = slice(int(first), int(last))
-            found.append(_pieces(part(steps, some), part(plan, some), timeline.features))
-    pieces = chained(found)
+            begin, end = np.searchsorted(steps.layer, (layer, layer + 1))  # layers only ever rise
+            rows = slice(int(begin), int(end))
+            batches_of_pieces.append(_cut_pieces(part(steps, rows), part(plan, rows), timeline.features))
+    pieces = chained(batches_of_pieces)
     if not len(pieces.speed):
         raise ParameterError(f"layer is {layer}; {Path(path).name} has moves in layers 1 to {timeline.layers}")
     return pieces
 
 
-def _pieces(steps: Steps, plan: Plan, features: list[bytes]) -> LayerSpeeds:
+def _cut_pieces(steps: Steps, plan: Plan, features: list[bytes]) -> LayerSpeeds:
     delta, start = steps.moves.delta[:, :3], steps.start
     distance = np.linalg.norm(delta, axis=1)
     count = np.where(plan.peak > np.minimum(plan.entry, plan.exit), np.ceil(distance / PIECE), 1).astype(np.intp)
@@ -94,16 +94,16 @@ def _pieces(steps: Steps, plan: Plan, features: list[bytes]) -> LayerSpeeds:
     return LayerSpeeds(
         start=start[move] + begin[:, None] * delta[move],
         end=start[move] + end[:, None] * delta[move],
-        speed=_speed(plan, distance, move, (begin + end) / 2),
+        speed=_speed_at(plan, distance, move, (begin + end) / 2),
         draws=steps.moves.delta[move, 3] > 0,
         role=np.array([role_of(name) for name in features])[steps.feature[move]],
     )
 
 
-def _speed(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) -> Floats:
-    """Return the speed at a share of the way of a move.
+def _speed_at(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) -> Floats:
+    """Return the speed at a share of the distance of a move.
 
-    From the times of a trapezoid, t = d / p + ((p - e)² + (p - x)²) / (2 a p) with entry e, peak p, exit x, follows the
+    The times of a trapezoid, t = d / p + ((p - e)² + (p - x)²) / (2 a p) with entry e, peak p, exit x, give the
     acceleration a; and v² = min(p², e² + 2 a s, x² + 2 a (d - s)).
     """
     entry, peak, leaving = plan.entry[move], plan.peak[move], plan.exit[move]
@@ -117,6 +117,6 @@ def _speed(plan: Plan, distance: Floats, move: NDArray[np.intp], share: Floats) 
 
 
 def middle_layer(path: str | os.PathLike[str], plate: int | None = None) -> int:
-    """Return the number of the layer in the middle of a print, counted from 1; of an archive, that of one plate."""
-    with opened(Path(path)) as file, file.text(file.part(plate)) as given:
-        return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(given.text)) // 2)
+    """Return the number of the middle layer of a print, counted from 1; for an archive, of one plate."""
+    with opened(Path(path)) as file, file.text(file.part(plate)) as sliced_text:
+        return max(1, sum(len(LAYER_TAG.findall(text)) for text in batches(sliced_text.text)) // 2)

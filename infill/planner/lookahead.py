@@ -1,15 +1,15 @@
-"""The planner: how fast a machine makes each move, with trapezoids of speed and look-ahead over all moves.
+"""The planner: the speed of each move, with trapezoids of speed and look-ahead over all moves.
 
-Along a move the square of the speed changes by at most 2 a d. With S the sum of that over the moves so far, and c the
-squares of the highest speeds at the joints, a planner that looks ahead without end gives joint j
+Along a move the square of the speed changes by at most 2 a d. With S the sum of that over the moves so far, and c
+the squares of the highest speeds at the joints, a planner with unlimited look-ahead gives joint j
 
     u_j = min over i of c_i + |S_j - S_i|,
 
-the greatest profile that breaks no limit. Both halves of it are found without a loop over moves, from windows of 1, 2,
-4 … of them, whose reach is a sum of positive numbers: no digit is lost, however far the machine can speed up before or
-after, so that a move means the same in any surroundings. A joint whose u stays the same whether the machine stops after
-the last move known or drives on for ever is settled, so long files are planned in pieces, each from where the last one
-was settled.
+the greatest profile within all limits. Both halves of it are found without a loop over moves, from windows of 1, 2,
+4 … of them, whose reach is a sum of positive numbers. So no digit is lost, however far the machine can speed up
+before or after, and a move has the same plan in any surroundings. A joint is settled if its u is the same whether the
+machine stops after the last known move or drives on for ever, so long files are planned in pieces, each from the
+last settled joint.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ PIECE = 1 << 16  # moves planned at once
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """How moves are made.
+    """Times and speeds of moves.
 
     Parameters
     ----------
@@ -59,11 +59,11 @@ def look_ahead(joints: Floats, reach: Floats) -> Floats:
     [0.0, 30.0, 34.0, 4.0]
     """
     forward, backward, window, size = joints.copy(), joints.copy(), reach, 1
-    while len(window):  # the reach of `size` moves in a row, beginning with each
+    while len(window):  # the reach of `size` moves in a row, from each move on
         onward = forward[:-size] + window
         back = backward[size:] + window
         if not ((onward < forward[size:]).any() or (back < backward[:-size]).any()):
-            break  # nor does any wider window change anything: it is made of two of these
+            break  # wider windows change nothing either: each is made of two of these
         np.minimum(forward[size:], onward, out=forward[size:])
         np.minimum(backward[:-size], back, out=backward[:-size])
         window, size = window[:-size] + window[size:], 2 * size
@@ -77,41 +77,41 @@ def plan(moves: Moves, limits: Sequence[Limits]) -> Plan:
     ----------
     moves : Moves
     limits : sequence of Limits
-        What `moves.setting` counts; all of one model.
+        The limits that `moves.setting` counts; all of one model.
 
     Returns
     -------
     Plan
     """
-    plans, entry, first, last = [], None, 0, 0
-    while first < len(moves):
-        last = min(last + PIECE, len(moves))
-        settled, done, entry = settle(part(moves, slice(first, last)), limits, entry, ends=last == len(moves))
-        plans.append(done)
-        first += settled
+    plans, entry, begin, end = [], None, 0, 0
+    while begin < len(moves):
+        end = min(end + PIECE, len(moves))
+        settled, settled_plan, entry = settle(part(moves, slice(begin, end)), limits, entry, ends=end == len(moves))
+        plans.append(settled_plan)
+        begin += settled
     return chained(plans) if plans else NOTHING
 
 
 def settle(
     moves: Moves, limits: Sequence[Limits], entry: float | None, *, ends: bool
 ) -> tuple[int, Plan, float | None]:
-    """Plan as many moves as can be planned without knowing what follows.
+    """Plan the moves at the front whose plan does not depend on later moves.
 
     Parameters
     ----------
     moves : Moves
     limits : sequence of Limits
     entry : float, optional
-        Square of the speed before the first move, as this function returned it; None for rest.
+        Square of the speed before the first move, as returned by the previous call; None for rest.
     ends : bool
         The machine rests after the last move; else more moves follow.
 
     Returns
     -------
     settled : int
-        How many moves, from the front.
+        Number of planned moves, from the front.
     plan : Plan
-        Of those.
+        Plan of these moves.
     exit : float or None
         Square of the speed after them.
     """
@@ -125,22 +125,24 @@ def settle(
         joints[-1] = bounds.speed[-1] ** 2
     reach = bounds.reach
     squares, cruise = look_ahead(joints, reach), bounds.speed**2
-    known = squares <= _stopping(reach)
+    is_settled = squares <= _stopping_squares(reach)
     ratio = values(limits, "minimum_cruise_ratio", moves.setting)
     if limits[0].model == "klipper" and (ratio.any() or not ends):  # moves that follow may have one, in the same hump
-        squares, cruise, between = _eased(bounds, joints, squares, reach * (1 - ratio))
-        known &= between
-    known[0] = True
-    settled = len(moves) if ends else int(np.flatnonzero(known)[-1])
+        squares, cruise, between = _cut_humps(bounds, joints, squares, reach * (1 - ratio))
+        is_settled &= between
+    is_settled[0] = True
+    settled = len(moves) if ends else int(np.flatnonzero(is_settled)[-1])
     return settled, _trapezoids(bounds, squares, cruise, settled), float(squares[settled])
 
 
-def _eased(bounds: Bounded, joints: Floats, squares: Floats, reach: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+def _cut_humps(
+    bounds: Bounded, joints: Floats, squares: Floats, reach: Floats
+) -> tuple[Floats, Floats, NDArray[np.bool_]]:
     """Return profile, limits of the moves, and joints between humps, with the humps of a slower profile cut off."""
     slower = look_ahead(joints, reach)
     rising, falling = humps(slower, reach)
-    between = (slower <= _stopping(reach)) & (slower >= joints * (1 - ROUNDING))
-    between[1:] &= ~rising  # each hump must be whole
+    between = (slower <= _stopping_squares(reach)) & (slower >= joints * (1 - ROUNDING))
+    between[1:] &= ~rising  # each hump must be complete
     between[:-1] &= ~falling
     top = tops(slower, reach, bounds.speed**2)
     squares = squares.copy()
@@ -149,13 +151,13 @@ def _eased(bounds: Bounded, joints: Floats, squares: Floats, reach: Floats) -> t
     return squares, np.where(falling & ~rising, np.minimum(top, squares[:-1]), top), between
 
 
-def _stopping(reach: Floats) -> Floats:
-    """Return the squares of the speeds at the joints from which the machine can stop at the end, (N + 1,)."""
+def _stopping_squares(reach: Floats) -> Floats:
+    """Return the squared speeds at the joints from which the machine can stop at the end, (N + 1,)."""
     return np.append(np.cumsum(reach[::-1])[::-1], 0.0)
 
 
 def _trapezoids(bounds: Bounded, squares: Floats, cruise: Floats, count: int) -> Plan:
-    """Return times and speeds of the first moves: speeding up, at constant speed, slowing down."""
+    """Return times and speeds of the first moves: acceleration, constant speed, deceleration."""
     distance, acceleration = bounds.distance[:count], bounds.acceleration[:count]
     before, after = squares[:count], squares[1 : count + 1]
     peak = np.minimum(cruise[:count], (before + after) / 2 + acceleration * distance)

@@ -1,4 +1,4 @@
-"""`motion`: how long a printer takes for a file of G-code, feature by feature, and how it moves."""
+"""`motion`: printing time of a file of G-code, feature by feature, and the movements of the printer."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from infill.planner.timeline import Timeline
 
 @dataclass(frozen=True, kw_only=True)
 class FeatureMotion:
-    """How one feature of a print is made. What leads to it counts for it: travel, retractions, pauses.
+    """Time and movements of one feature, including travel, retractions and pauses before it.
 
     Parameters
     ----------
     name : str
         The slicer's own, "" before the first.
     role : str
-        What it means, the same word for every slicer: "sparse infill", "external perimeter", ... or "other".
+        Role of the feature, the same word for every slicer: "sparse infill", "external perimeter", ... or "other".
     seconds, drawing_seconds : float
-        All of it, and while filament is laid.
+        Total, and while filament is laid.
     filament, length, travel : float
         mm of filament laid, mm laid, mm travelled.
     paths, segments, retractions, turns : int
@@ -62,14 +62,14 @@ class FeatureMotion:
 
 @dataclass(frozen=True, kw_only=True)
 class Motion:
-    """What `motion` found.
+    """Result of `motion`.
 
     Parameters
     ----------
     seconds : float
-        Of the whole file, dwelling included; heating, homing and changing tools are not.
+        Of the entire file, dwelling included; without heating, homing and tool changes.
     estimate : float or None
-        What the slicer wrote into the file, s.
+        The slicer's own estimate in the file, s.
     slicer : str
         Its name and version, "" if unknown.
     layers : int
@@ -81,15 +81,15 @@ class Motion:
     limits : dict
         The limits in force at the end, as far as the model uses them, by name; lists are x, y, z, e.
     sources : dict
-        Where each of these comes from: "settings" or "commands" of the file, "given" here, or "assumed".
+        Source of each of these: "settings" or "commands" of the file, "given" as an argument, or "assumed".
     plate : int or None
-        Which plate of an archive it is; None for any other file.
+        Plate of an archive; None for any other file.
     plates : tuple of int
-        Those that the archive has.
+        Plates of the archive.
     unread_lines, first_unread_line : int
         Lines that may move or extrude but are not understood, which are left out; and the number of the first, from 1.
     first_unread_text : str
-        What stands on it.
+        Text of that line.
     macros : tuple of str
         Commands that only the printer knows and that may move, such as PRINT_START; they are left out too.
     volumetric : bool
@@ -119,7 +119,7 @@ class Motion:
     filament_diameter: float = 1.75
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain numbers and strings: what ``--json`` prints."""
+        """Return plain numbers and strings, as printed by ``--json``."""
         return asdict(self)
 
     def of_role(self, role: str) -> float:
@@ -130,7 +130,7 @@ class Motion:
         role : str
             Such as "sparse infill".
         """
-        return sum(each.seconds for each in self.features if each.role == role)
+        return sum(feature.seconds for feature in self.features if feature.role == role)
 
 
 def motion(
@@ -146,15 +146,15 @@ def motion(
 ) -> Motion:
     """Plan every move of a file of G-code as a printer's firmware does, and sum up by feature.
 
-    The limits of the machine are those that the file tells in its settings and commands; what it does not tell is
-    assumed, and `Motion.sources` says so. What is given here holds instead of either, for the whole file.
+    The limits of the machine come from the settings and commands of the file; missing ones are assumed, and
+    `Motion.sources` says so. Arguments override both, for the entire file.
 
     Parameters
     ----------
     path : path
         G-code as text, binary G-code, or an archive of plates (.gcode.3mf).
     model : {"jerk", "vector-jerk", "junction", "klipper"}, optional
-        What bounds the speed at corners. By default what the file was sliced for, or what the limits given here mean.
+        Bound on the speed at corners. By default that of the file, or the one implied by the limits given here.
     acceleration : float, optional
         mm/s², of printing and travel.
     jerk : float, optional
@@ -166,14 +166,14 @@ def motion(
     minimum_cruise_ratio : float, optional
         From 0 to less than 1.
     plate : int, optional
-        Which plate of an archive; without it, the first that has G-code.
+        Plate of an archive; by default the first that has G-code.
 
     Raises
     ------
     FormatError
-        If the file is no G-code, is damaged, or has no moves.
+        If the file is not G-code, is damaged, or has no moves.
     ParameterError
-        If a limit is out of range, or there is no such plate.
+        If a limit is out of range, or the file does not have this plate.
     """
     fixed = given_limits(
         model=model,
@@ -192,20 +192,20 @@ def motion(
     strokes.finish(timeline.pause, timeline.retractions)
     if timeline.trouble and not strokes.total("length").any():
         raise FormatError(f"{Path(path)}: {timeline.trouble}")
-    found = timeline.found
-    features = [_feature(number, name, strokes) for number, name in enumerate(timeline.features)]
+    file_limits = timeline.found
+    features = [_sum_feature(number, name, strokes) for number, name in enumerate(timeline.features)]
     return Motion(
         seconds=float(strokes.total("seconds").sum()),
-        estimate=found.estimate,
-        slicer=found.slicer,
+        estimate=file_limits.estimate,
+        slicer=file_limits.slicer,
         layers=timeline.layers,
         filament=float(strokes.total("filament").sum()),
         length=float(strokes.total("length").sum()),
         travel=float(strokes.total("travel").sum()),
         retractions=round(float(strokes.total("retractions").sum())),
-        features=tuple(each for each in features if each.seconds > 0),
-        limits=_told(found),
-        sources=dict(found.sources),
+        features=tuple(feature for feature in features if feature.seconds > 0),
+        limits=_used_limits(file_limits),
+        sources=dict(file_limits.sources),
         plate=plate,
         plates=file.plates,
         unread_lines=timeline.unread.lines,
@@ -219,7 +219,7 @@ def motion(
 
 @contextlib.contextmanager
 def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -> Iterator[Timeline]:
-    """Yield the moves of a print, with what its file tells outside the text.
+    """Open the moves of a print, with the settings that its file has outside the text.
 
     Parameters
     ----------
@@ -229,35 +229,37 @@ def timeline_of(file: SlicedFile, plate: int | None, fixed: Mapping[str, Any]) -
     fixed : mapping
         As `given_limits` returns it.
     """
-    with file.text(plate) as given:
-        yield timeline_of_text(given, fixed=fixed)
+    with file.text(plate) as sliced_text:
+        yield timeline_of_text(sliced_text, fixed=fixed)
 
 
 def timeline_of_text(
-    given: SlicedText,
+    sliced_text: SlicedText,
     text: BinaryIO | None = None,
     fixed: Mapping[str, Any] | None = None,
     found: FoundLimits | None = None,
 ) -> Timeline:
-    """Return the moves of a print, or of another text in its place, with what its file tells outside the text.
+    """Return the moves of a print, or of another text in its place, with its settings from outside the text.
 
     Parameters
     ----------
-    given : SlicedText
+    sliced_text : SlicedText
     text : binary file, optional
     fixed : mapping, optional
         As `given_limits` returns it.
     found : FoundLimits, optional
-        What the file tells, if it is known.
+        The limits of the file, if already read.
     """
-    told = {name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in given.metadata}
-    timeline = Timeline(text or given.text, fixed, {**given.settings, **told}, found)
-    timeline.found = replace(timeline.found, slicer=timeline.found.slicer or given.slicer)
+    metadata = {
+        name.decode("utf-8", "replace"): value.decode("utf-8", "replace") for name, value in sliced_text.metadata
+    }
+    timeline = Timeline(text or sliced_text.text, fixed, {**sliced_text.settings, **metadata}, found)
+    timeline.found = replace(timeline.found, slicer=timeline.found.slicer or sliced_text.slicer)
     return timeline
 
 
 def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
-    """Return the fields of `Limits` that the arguments of `motion` mean.
+    """Collect the fields of `Limits` that the arguments of `motion` set.
 
     >>> given_limits(square_corner_velocity=8)
     {'square_corner_velocity': 8, 'model': 'klipper'}
@@ -269,7 +271,7 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     if "model" not in fixed and len(meant) > 1:
         names = " and ".join(name for name in means if name in fixed)
         raise UsageError(f"{names} belong to {len(meant)} models, {', '.join(sorted(meant))}; give model")
-    if "model" not in fixed and meant - {"jerk"}:  # there are two models with jerk: the file decides
+    if "model" not in fixed and meant - {"jerk"}:  # two models have jerk: the file decides
         fixed["model"] = meant.pop()
     if "acceleration" in fixed:
         fixed["travel_acceleration"] = fixed["acceleration"]
@@ -279,14 +281,14 @@ def given_limits(**given: Any) -> dict[str, Any]:  # noqa: ANN401
     return fixed
 
 
-def _feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
+def _sum_feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
     row = {
-        each: float(strokes.total(each)[number]) if number < len(strokes.sums) else 0.0
-        for each in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")
+        column: float(strokes.total(column)[number]) if number < len(strokes.sums) else 0.0
+        for column in ("seconds", "drawing", "filament", "length", "travel", "turning", "short")
     }
     counts = {
-        each: round(float(strokes.total(each)[number])) if number < len(strokes.sums) else 0
-        for each in ("paths", "segments", "retractions", "turns")
+        column: round(float(strokes.total(column)[number])) if number < len(strokes.sums) else 0
+        for column in ("paths", "segments", "retractions", "turns")
     }
     return FeatureMotion(
         name=name.decode("utf-8", "replace"),
@@ -304,9 +306,9 @@ def _feature(number: int, name: bytes, strokes: Strokes) -> FeatureMotion:
     )
 
 
-def _told(found: FoundLimits) -> dict[str, Any]:
-    """Return the limits that the model uses, as plain numbers."""
-    limits = found.limits
+def _used_limits(file_limits: FoundLimits) -> dict[str, Any]:
+    """Return the limits of the model, as plain numbers."""
+    limits = file_limits.limits
     values = {name: getattr(limits, name) for name in USED[limits.model]}
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
     return {"model": limits.model, **plain, "travel_acceleration": limits.travel_acceleration}

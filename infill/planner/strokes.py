@@ -1,4 +1,4 @@
-"""What a print is made of, feature by feature: seconds, lengths, paths, turns. Sums, so that files of any size fit."""
+"""Sums over a print, feature by feature: seconds, lengths, paths, turns. Any size of file fits."""
 
 from __future__ import annotations
 
@@ -35,28 +35,28 @@ SUMS: Final = (
 
 @dataclass(kw_only=True)
 class Strokes:
-    """Sums over the moves seen so far, one row a feature.
+    """Sums over the moves so far, one row per feature.
 
     Parameters
     ----------
     times_only : bool
-        Sum up seconds, travel and retractions, and nothing of the shape of paths.
+        Sum up seconds, travel and retractions, without the shape of paths.
 
-    A move that draws pushes filament on its way. What lies before it, travel, retraction and pause, counts for its
-    feature: it is what leads there. A path is a run of moves that draw for one feature.
+    A move that draws pushes filament along a path. Travel, retraction and pause before it count for its feature, since
+    they lead to it. A path is a run of moves that draw for one feature.
     """
 
     times_only: bool = False
     sums: Floats = field(default_factory=lambda: np.zeros((1, len(SUMS))))
     lengths: NDArray[np.int64] = field(default_factory=lambda: np.zeros((1, BINS), dtype=np.int64))
     flow: Floats = field(default_factory=lambda: np.zeros(1))  # mm³/s, at most
-    # What waits for the next move that draws: seconds, travel, retractions.
+    # Sums until the next move that draws: seconds, travel, retractions.
     leading: Floats = field(default_factory=lambda: np.zeros(3))
     last: Floats = field(default_factory=lambda: np.zeros(5))  # direction, feature, whether it drew
     drew_back: bool = False
 
     def add(self, steps: Steps, plan: Plan) -> None:
-        """Add moves that follow those before."""
+        """Add moves that follow the previous ones."""
         if not len(steps):
             return
         delta = steps.moves.delta
@@ -76,10 +76,10 @@ class Strokes:
             self.last[3] = feature[-1]
             return
         along, length, pushed, at = delta[draws, :3], distance[draws], pushed[draws], feature[draws]
-        joined = self._joined(draws, feature)
+        joined = self._continues_path(draws, feature)
         direction = along / length[:, None]
         before = np.vstack([self.last[:3], direction])[:-1]
-        turn = np.where(joined, _turn(before, direction), 0.0)
+        turn = np.where(joined, _angles_between(before, direction), 0.0)
         columns = {
             "seconds": seconds[draws],
             "drawing": plan.seconds[draws],
@@ -103,7 +103,7 @@ class Strokes:
         self.last[3:] = feature[-1], draws[-1]
 
     def finish(self, pause: float, retractions: int = 0) -> None:
-        """Count what led nowhere, and a last pause and retraction, for the feature in force at the end."""
+        """Count moves after the last drawing one, a final pause and retraction, for the feature in force at the end."""
         self.leading += [pause, 0, retractions]
         self._count(np.array([int(self.last[3])]), self.leading[None])
         self.leading[:] = 0
@@ -154,13 +154,13 @@ class Strokes:
     def _sum(self, name: str, feature: NDArray[np.intp], values: NDArray[Any]) -> None:
         self.sums[:, SUMS.index(name)] += np.bincount(feature, weights=values, minlength=len(self.sums))
 
-    def _joined(self, draws: NDArray[np.bool_], feature: NDArray[np.intp]) -> NDArray[np.bool_]:
-        """Return, for the moves that draw, whether each goes on with the path of the move before it."""
+    def _continues_path(self, draws: NDArray[np.bool_], feature: NDArray[np.intp]) -> NDArray[np.bool_]:
+        """Return, for the moves that draw, True if a move continues the path of the previous move."""
         drew = np.concatenate([[bool(self.last[4])], draws[:-1]])
         same = np.concatenate([[int(self.last[3])], feature[:-1]]) == feature
         return np.asarray((drew & same)[draws])
 
 
-def _turn(before: Floats, after: Floats) -> Floats:
+def _angles_between(before: Floats, after: Floats) -> Floats:
     """Return the angles between unit vectors, exact for small ones."""
     return np.asarray(2 * np.arctan2(np.linalg.norm(after - before, axis=1), np.linalg.norm(after + before, axis=1)))

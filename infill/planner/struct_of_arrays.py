@@ -1,4 +1,4 @@
-"""Dataclasses whose fields are arrays of the same length, or such dataclasses: cut, and put one after the other."""
+"""Dataclasses whose fields are arrays of equal length, or such dataclasses: slicing and concatenation."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ import numpy as np
 Columns = TypeVar("Columns")
 
 
-def part(columns: Columns, some: slice) -> Columns:
-    """Return some of the rows."""
-    return type(columns)(**{name: _part(value, some) for name, value in _items(columns)})
+def part(columns: Columns, rows: slice) -> Columns:
+    """Return a slice of the rows."""
+    return type(columns)(**{name: _slice_value(value, rows) for name, value in _field_values(columns)})
 
 
 def chained(several: Sequence[Columns]) -> Columns:
-    """Return the rows of several, one after the other; at least one is needed."""
+    """Concatenate the rows of one or more dataclasses."""
     if len(several) == 1:
         return several[0]
-    columns = {name: [getattr(each, name) for each in several] for name, _ in _items(several[0])}
+    columns = {name: [getattr(item, name) for item in several] for name, _ in _field_values(several[0])}
     return type(several[0])(
         **{
             name: np.concatenate(values) if isinstance(values[0], np.ndarray) else chained(values)
@@ -29,9 +29,9 @@ def chained(several: Sequence[Columns]) -> Columns:
     )
 
 
-def _items(columns: Any) -> list[tuple[str, Any]]:  # noqa: ANN401 - whatever the dataclass holds
-    return [(each.name, getattr(columns, each.name)) for each in fields(columns)]
+def _field_values(columns: Any) -> list[tuple[str, Any]]:  # noqa: ANN401 - whatever the dataclass holds
+    return [(item.name, getattr(columns, item.name)) for item in fields(columns)]
 
 
-def _part(value: Any, some: slice) -> Any:  # noqa: ANN401
-    return value[some] if isinstance(value, np.ndarray) else part(value, some)
+def _slice_value(value: Any, rows: slice) -> Any:  # noqa: ANN401
+    return value[rows] if isinstance(value, np.ndarray) else part(value, rows)

@@ -1,6 +1,6 @@
-"""A file of G-code as a stream of planned moves: where each goes, for which feature, and how long it takes.
+"""A file of G-code as a stream of planned moves: path, feature and duration of each.
 
-The file is read in batches; what the planner has not settled yet waits for the next, so memory does not grow with it.
+The file is read in batches; moves that are not settled yet wait for the next batch, so memory does not grow with it.
 """
 
 from __future__ import annotations
@@ -26,25 +26,25 @@ from infill.planner.struct_of_arrays import chained, part
 
 BATCH: Final = 1 << 22  # bytes
 ENDS: Final = 1 << 18  # bytes at the beginning and the end that may hold settings
-WORD: Final = 4  # bytes that tell a tag from most other comments
+WORD: Final = 4  # bytes that distinguish a tag from most other comments
 TELLING: Final = sorted({int.from_bytes(tag[:WORD], "little") for tag in TAGS if TAGS[tag] in ("role", "layer")})
 SHOWN: Final = 60  # bytes of a line that is not understood
-MOST_MACROS: Final = 100  # names that are remembered
+MOST_MACROS: Final = 100  # names that are stored
 MOST_SHARE: Final = 1000.0  # per cent, of M220 and M221
 STOPS: Final = frozenset({"G4", "G10", "G11", "G28", "G29", "M0", "M1", "M109", "M190", "M400", "M600", "M601"})
 
 
 @dataclass(frozen=True, kw_only=True)
 class Steps:
-    """Moves, and what they are for.
+    """Moves, with feature, layer and position in the file.
 
     Parameters
     ----------
     moves : Moves
     start : (N, 3) float64
-        mm; NaN where the file has not said yet.
+        mm; NaN where the file has not stated a position yet.
     feature : (N,) int
-        Which of the names of `Timeline.features` is in force; 0 before the first.
+        Index in `Timeline.features` of the name in force; 0 before the first.
     layer : (N,) int
         From 1; 0 before the first.
     pause : (N,) float64
@@ -54,7 +54,7 @@ class Steps:
     section : (N,) float64
         Of the filament, mm².
     place : (N,) int
-        Where the line of the move begins in the text, bytes.
+        Begin of the move's line in the text, bytes.
     """
 
     moves: Moves
@@ -77,11 +77,11 @@ class Unread:
     Parameters
     ----------
     lines : int
-        How many.
+        Number of lines.
     first : int
         Number of the first one, from 1; 0 if there is none.
     text : str
-        What stands there.
+        Text of that line.
     """
 
     lines: int = 0
@@ -91,12 +91,12 @@ class Unread:
 
 @dataclass(frozen=True, kw_only=True)
 class _Orders:
-    """What the commands of a table ask for, by line.
+    """Requests of the commands of a table, by line.
 
     Parameters
     ----------
     setting : (N,) int
-        Which limits are in force.
+        Index of the limits in force.
     stop : (N,) bool
         The machine stands still.
     pause : (N,) float64
@@ -104,7 +104,7 @@ class _Orders:
     retractions : (N,) int
         By firmware.
     speed, flow : (N,) float64
-        Shares of the feed rate and of the filament that the file asks for: M220 and M221.
+        Factors on the feed rate and on the filament: M220 and M221.
     """
 
     setting: NDArray[np.intp]
@@ -123,16 +123,16 @@ class Timeline:
     file : binary file
         G-code as text, which can be read from any place.
     fixed : mapping, optional
-        Fields of `Limits` that hold instead of what the file says.
+        Fields of `Limits` that override those of the file.
     settings : mapping, optional
-        What the slicer tells outside the text.
+        Settings of the slicer from outside the text.
     found : FoundLimits, optional
-        What the file tells, if it is known.
+        The limits of the file, if already read.
 
     Raises
     ------
     FormatError
-        If the file is none of plain G-code.
+        If the file is not plain G-code.
     """
 
     def __init__(
@@ -157,7 +157,7 @@ class Timeline:
         self._lines = self._bytes = 0  # read so far
         self._speed = self._stored_speed = 1.0
         self._flow: dict[int | None, float] = {None: 1.0}  # by tool
-        self.found = found or found_limits(*_ends(file), fixed, settings)
+        self.found = found or found_limits(*_read_ends(file), fixed, settings)
         self.state = State(
             volumetric=self.found.volumetric, diameters=self.found.diameters, firmware=self.found.rule_of_e
         )
@@ -172,14 +172,14 @@ class Timeline:
     def tables(self) -> Iterator[Table]:
         """Read the file from the beginning; each table must be followed before the next is read."""
         self._file.seek(0)
-        for data in _batches(self._file):
+        for data in _read_batches(self._file):
             yield read(data, self.state)
 
     def follow(self, table: Table) -> tuple[Steps, Plan]:
-        """Take the next lines of the file, for those who read it themselves, and plan what can be planned by now."""
+        """Take the next lines of the file, for callers who read it themselves, and plan the moves that are settled."""
         self.state = table.after
-        orders = self._obeyed(table)
-        which, layer, self._feature = self._tagged(table, self._feature)
+        orders = self._apply_commands(table)
+        which, layer, self._feature = self._read_tags(table, self._feature)
         steps = self._moves(table, orders, which, layer)
         self._lines += len(table)
         self._bytes += len(table.data)
@@ -192,7 +192,7 @@ class Timeline:
         return part(waiting, slice(settled)), plan
 
     def rest(self) -> tuple[Steps, Plan]:
-        """Plan what is left at the end of the file.
+        """Plan the remaining moves at the end of the file.
 
         Raises
         ------
@@ -206,7 +206,7 @@ class Timeline:
 
     @property
     def trouble(self) -> str:
-        """What to say of a file of which nothing that extrudes can be read; "" if no line is unread."""
+        """Message about a file without a readable line that extrudes; "" if every line was read."""
         if not self.unread.lines:
             return ""
         return (
@@ -214,8 +214,8 @@ class Timeline:
             f"{self.unread.first}, {self.unread.text!r}; slice it for Marlin or Klipper"
         )
 
-    def _obeyed(self, table: Table) -> _Orders:
-        """Follow the commands."""
+    def _apply_commands(self, table: Table) -> _Orders:
+        """Apply the commands of a table; return their requests by line."""
         setting = np.full(len(table), self._number(self.found.limits), dtype=np.intp)
         stop, pause = np.zeros(len(table), dtype=bool), np.zeros(len(table))
         retractions = np.zeros(len(table), dtype=np.intp)
@@ -238,7 +238,7 @@ class Timeline:
                     retractions[line] = back is True and not self._drawn_back
                     self._drawn_back = self._drawn_back if back is None else back
                 case "M220":
-                    speed[line:] = self._hurried(command)
+                    speed[line:] = self._apply_m220(command)
                 case "M221":
                     share = command.words.get("S")
                     if share is not None and 0 < share < MOST_SHARE:
@@ -256,8 +256,8 @@ class Timeline:
         self._count(table, unread)
         return _Orders(setting=setting, stop=stop, pause=pause, retractions=retractions, speed=speed, flow=flow)
 
-    def _hurried(self, command: Command) -> float:
-        """Follow M220: S, per cent of all feed rates; B puts them aside, R takes what was put aside."""
+    def _apply_m220(self, command: Command) -> float:
+        """Apply M220: S, per cent of all feed rates; B saves the factor, R restores it; return the factor."""
         if "B" in command.words:
             self._stored_speed = self._speed
         share = command.words.get("S")
@@ -274,22 +274,22 @@ class Timeline:
         """Count lines that may move and are not planned."""
         if not unread:
             return
-        first, text = self.unread.first, self.unread.text
+        first_line, text = self.unread.first, self.unread.text
         if not self.unread.lines:
             line = min(unread)
-            first = self._lines + line + 1
+            first_line = self._lines + line + 1
             text = table.text(line, line + 1)[:SHOWN].decode("utf-8", "replace").strip()
-        self.unread = Unread(lines=self.unread.lines + len(unread), first=first, text=text)
+        self.unread = Unread(lines=self.unread.lines + len(unread), first=first_line, text=text)
 
     def _number(self, limits: Limits) -> int:
         if limits not in self._limits:
             self._limits.append(limits)
         return self._limits.index(limits)
 
-    def _tagged(self, table: Table, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
+    def _read_tags(self, table: Table, feature: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
         """Return feature and layer of every line, and the last feature."""
         lines, features, layers = [0], [feature], [self.layers]
-        for line in _comments(table, TELLING):
+        for line in _find_comments(table, TELLING):
             tag = tag_of(table.text(line, line + 1)[:LONGEST_TAG])
             if tag is None:
                 continue
@@ -308,14 +308,14 @@ class Timeline:
         return np.repeat(features, count), np.repeat(layers, count), feature
 
     def _moves(self, table: Table, orders: _Orders, feature: NDArray[np.intp], layer: NDArray[np.intp]) -> Steps:
-        """Return the lines that move something; stops and pauses go to the move that follows them."""
+        """Return the lines that move an axis; stops and pauses go to the next move."""
         place = np.column_stack([table.x, table.y, table.z])
         before = np.vstack([[table.before.x, table.before.y, table.before.z], place[:-1]])
-        travel = np.nan_to_num(place) - np.nan_to_num(before)  # from home, where the file has not said a place yet
+        travel = np.nan_to_num(place) - np.nan_to_num(before)  # from home, where the file has not stated a position yet
         filament = table.filament * orders.flow
         odd = table.kind == ODD
         going = ((table.kind == MOVE) | (odd & (table.code < 2))) & (travel.any(axis=1) | (filament != 0))
-        line, first, delta = np.flatnonzero(going), before[going], travel[going]
+        line, begin, delta = np.flatnonzero(going), before[going], travel[going]
         pushed = filament[going]
         arcs = (table.kind == ARC) | (odd & (table.code > 1) & ~table.unread)
         if arcs.any():
@@ -325,20 +325,22 @@ class Timeline:
             share = long / np.maximum(np.bincount(which, weights=long, minlength=len(bent))[which], 1e-300)
             order = np.argsort(np.concatenate([line, bent[which]]), kind="stable")
             line = np.concatenate([line, bent[which]])[order]
-            first, delta = np.concatenate([first, start])[order], np.concatenate([delta, way])[order]
+            begin, delta = np.concatenate([begin, start])[order], np.concatenate([delta, way])[order]
             pushed = np.concatenate([pushed, filament[bent[which]] * share])[order]
-            some = delta.any(axis=1) | (pushed != 0)
-            line, first, delta, pushed = line[some], first[some], delta[some], pushed[some]
-        dwelt, halts, retractions = (_since(each, line) for each in (orders.pause, orders.stop, orders.retractions))
-        left = line[-1] if len(line) else 0
+            moving = delta.any(axis=1) | (pushed != 0)
+            line, begin, delta, pushed = line[moving], begin[moving], delta[moving], pushed[moving]
+        dwelt, halts, retractions = (
+            _sum_since_move(column, line) for column in (orders.pause, orders.stop, orders.retractions)
+        )
+        rest_line = line[-1] if len(line) else 0
         if len(line):
             dwelt[0] += self.pause
             halts[0] += self._stopped
             retractions[0] += self.retractions
             self.pause, self._stopped, self.retractions = 0.0, False, 0
-        self.pause += float(orders.pause[left:].sum())
-        self._stopped = self._stopped or bool(orders.stop[left:].any())
-        self.retractions += int(orders.retractions[left:].sum())
+        self.pause += float(orders.pause[rest_line:].sum())
+        self._stopped = self._stopped or bool(orders.stop[rest_line:].any())
+        self.retractions += int(orders.retractions[rest_line:].sum())
         moves = Moves(
             delta=np.column_stack([delta, pushed]),
             feedrate=table.f[line] / 60 * orders.speed[line],
@@ -347,7 +349,7 @@ class Timeline:
         )
         return Steps(
             moves=moves,
-            start=first,
+            start=begin,
             feature=feature[line],
             layer=layer[line],
             pause=dwelt.astype(np.float64),
@@ -357,7 +359,7 @@ class Timeline:
         )
 
 
-def _comments(table: Table, beginnings: Sequence[int]) -> list[int]:
+def _find_comments(table: Table, beginnings: Sequence[int]) -> list[int]:
     """Return the comments that begin with one of several words of four bytes."""
     lines = np.flatnonzero(table.kind == COMMENT)
     text = np.frombuffer(table.data, dtype=np.uint8)
@@ -367,13 +369,13 @@ def _comments(table: Table, beginnings: Sequence[int]) -> list[int]:
     return [int(line) for line in lines[np.isin(words, beginnings)]]
 
 
-def _since(values: NDArray[Any], line: NDArray[np.intp]) -> NDArray[Any]:
-    """Return the sums of what stands on the lines up to each move, since the move before it."""
+def _sum_since_move(values: NDArray[Any], line: NDArray[np.intp]) -> NDArray[Any]:
+    """Sum the values of the lines up to each move, since the previous move."""
     return np.diff(np.concatenate([[0], np.cumsum(values)])[line], prepend=0)
 
 
-def _ends(file: BinaryIO) -> tuple[bytes, bytes]:
-    """Return the beginning and the end of a file, or raise FormatError if it is not plain G-code."""
+def _read_ends(file: BinaryIO) -> tuple[bytes, bytes]:
+    """Return the beginning and the end of a file; raise FormatError if it is not plain G-code."""
     size = file.seek(0, 2)
     file.seek(0)
     head = file.read(ENDS)
@@ -385,14 +387,14 @@ def _ends(file: BinaryIO) -> tuple[bytes, bytes]:
     return head, file.read()
 
 
-def _batches(file: BinaryIO) -> Iterator[bytes]:
+def _read_batches(file: BinaryIO) -> Iterator[bytes]:
     """Yield the file in batches of whole lines."""
     rest = b""
     while data := file.read(BATCH):
-        whole = data.rfind(b"\n") + 1
-        if whole:
-            yield rest + data[:whole]
-            rest = data[whole:]
+        complete = data.rfind(b"\n") + 1
+        if complete:
+            yield rest + data[:complete]
+            rest = data[complete:]
         else:
             rest += data
     if rest:
