@@ -69,7 +69,7 @@ def _choose_cuts(x: Floats, corners: int) -> Floats:
 
 
 def _add_crossings(contours: Contours, cuts: Floats) -> tuple[Contours, Indices]:
-    """Add corners where cuts cross the contours; return them, numbered 2 n + 1 on cut n, and 2 n in the strip before."""
+    """Add corners where cuts cross the contours; return them, numbered 2 n + 1 on cut n, 2 n in the strip before it."""
     points, ahead = contours.points, contours.ahead
     strip = np.searchsorted(cuts, points[:, 0])
     across = strip[ahead] - strip
